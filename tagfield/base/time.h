@@ -1,0 +1,38 @@
+/// @file
+/// Time of the simulation or of a recording, in whole nanoseconds, so that equal stamps are equal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace tagfield {
+
+/// Tag type of a clock that nobody reads: time is handed in, by a simulator or a log.
+struct StampClock {
+  using rep = std::int64_t;
+  using period = std::nano;
+  using duration = std::chrono::nanoseconds;
+  using time_point = std::chrono::time_point<StampClock>;
+  static constexpr bool is_steady = true;
+};
+
+using Duration = std::chrono::nanoseconds;
+using Time = std::chrono::time_point<StampClock, Duration>;
+
+/// Nearest nanosecond to `seconds`. Throws Error if not finite or beyond ±292 years.
+Duration duration_from_seconds(double seconds);
+Time time_from_seconds(double seconds);
+
+inline double to_seconds(Duration duration) { return static_cast<double>(duration.count()) * 1e-9; }
+/// Seconds since the stamp's epoch.
+inline double to_seconds(Time time) { return to_seconds(time.time_since_epoch()); }
+
+/// Decimal seconds with nine decimals, exact: "12.066666667", "-0.500000000".
+std::string format_stamp(Time time);
+
+/// Inverse of format_stamp; takes any plain decimal number of seconds ("1700000000.25", "3e-3").
+/// Digits beyond the nanosecond are rounded. Throws Error on anything else.
+Time parse_stamp(const std::string& text);
+
+}  // namespace tagfield

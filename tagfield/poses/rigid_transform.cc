@@ -1,0 +1,32 @@
+#include "tagfield/poses/rigid_transform.h"
+
+#include <cmath>
+
+namespace tagfield {
+
+RigidTransform from_translation(const Eigen::Vector3d& translation) {
+  return {Eigen::Quaterniond::Identity(), translation};
+}
+
+RigidTransform from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy) {
+  const Eigen::Quaterniond rotation = Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+                                      Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
+  return {rotation.normalized(), xyz};
+}
+
+RigidTransform from_planar(double x, double y, double yaw) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, 0.0}};
+}
+
+double yaw_of(const Eigen::Quaterniond& rotation) {
+  const Eigen::Vector3d forward = rotation * Eigen::Vector3d::UnitX();
+  return std::atan2(forward.y(), forward.x());
+}
+
+RigidTransform interpolate(const RigidTransform& from, const RigidTransform& to, double fraction) {
+  return {from.rotation.slerp(fraction, to.rotation),
+          from.translation + fraction * (to.translation - from.translation)};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,48 @@
+/// @file
+/// Rigid transforms. `X_AB` is the pose of frame B in frame A: p_A = X_AB * p_B. `p_AB` is the
+/// position of B's origin in A. W is the world: right-handed, z up, metres (REP-103).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace tagfield {
+
+/// A rotation (unit quaternion) and a translation [m].
+struct RigidTransform {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  /// X_AC = X_AB * X_BC.
+  RigidTransform operator*(const RigidTransform& X_BC) const {
+    return {(rotation * X_BC.rotation).normalized(), rotation * X_BC.translation + translation};
+  }
+  /// p_A = X_AB * p_B.
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p_B) const {
+    return rotation * p_B + translation;
+  }
+  /// X_BA of X_AB.
+  [[nodiscard]] RigidTransform inverse() const {
+    const Eigen::Quaterniond inverse_rotation = rotation.conjugate();
+    return {inverse_rotation, -(inverse_rotation * translation)};
+  }
+};
+
+/// A pure translation [m].
+RigidTransform from_translation(const Eigen::Vector3d& translation);
+
+/// Position [m] and roll, pitch, yaw [rad] about the fixed x, y, z axes in this order, as SDF's
+/// `<pose>` and URDF's `rpy` mean them: R = Rz(yaw) Ry(pitch) Rx(roll).
+RigidTransform from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
+
+/// A pose in the plane z = 0: (x, y) [m] and yaw [rad].
+RigidTransform from_planar(double x, double y, double yaw);
+
+/// Heading about z [rad], in [-π, π].
+double yaw_of(const Eigen::Quaterniond& rotation);
+
+/// From `from` (fraction 0) to `to` (fraction 1): positions linearly, rotations along the shorter
+/// great arc (slerp).
+RigidTransform interpolate(const RigidTransform& from, const RigidTransform& to, double fraction);
+
+}  // namespace tagfield

@@ -1,0 +1,48 @@
+/// @file
+/// A motion as poses at given times.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/poses/rigid_transform.h"
+
+namespace tagfield {
+
+/// The pose of some body B in the world at one time.
+struct StampedPose {
+  Time stamp;
+  RigidTransform X_WB;
+};
+
+/// The pose of an antenna in the world at one time, true or believed.
+struct AntennaPose {
+  Time stamp;
+  std::string antenna;
+  RigidTransform X_WA;
+};
+
+/// Poses in rising order of time.
+using Trajectory = std::vector<StampedPose>;
+
+/// Throws Error unless stamps rise strictly.
+void require_rising_stamps(const Trajectory& trajectory);
+
+/// Pose at `stamp`, interpolated between the two around it; none before the first or after the
+/// last. `max_gap` > 0 refuses to interpolate between two poses further apart in time than that,
+/// unless the body moved less than `still_distance` [m] between them. A trajectory of one pose
+/// stands still for ever.
+std::optional<RigidTransform> pose_at(const Trajectory& trajectory, Time stamp,
+                                      Duration max_gap = Duration::zero(),
+                                      double still_distance = 0.0);
+
+/// Pose at `stamp`, holding the first before it and the last after it. The trajectory must not be
+/// empty.
+RigidTransform held_pose_at(const Trajectory& trajectory, Time stamp);
+
+/// Sum of the distances between consecutive positions [m].
+double path_length(const Trajectory& trajectory);
+
+}  // namespace tagfield

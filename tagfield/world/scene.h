@@ -1,0 +1,75 @@
+/// @file
+/// What is where: the solid shapes of a world, and the tags and antennas placed in it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/poses/rigid_transform.h"
+
+namespace tagfield {
+
+/// Triangles with shared vertices [m].
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into `vertices`.
+};
+
+/// Shapes, each centred on its own frame C.
+struct Box {
+  Eigen::Vector3d size;  ///< Edge lengths [m].
+};
+struct Cylinder {
+  double radius = 0.0;  ///< [m]
+  double length = 0.0;  ///< Along z [m].
+};
+struct Sphere {
+  double radius = 0.0;  ///< [m]
+};
+/// The half space below a plane through the origin; `size` is only how much of it to draw.
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  Eigen::Vector2d size = Eigen::Vector2d::Ones();  ///< [m]
+};
+using MeshPtr = std::shared_ptr<const TriangleMesh>;  ///< Shared by all that show the same file.
+using Shape = std::variant<Box, Cylinder, Sphere, Plane, MeshPtr>;
+
+/// A solid part of the world.
+struct Collision {
+  std::string name;  ///< Scoped: "model::link::collision".
+  Shape shape;       ///< In its frame C.
+  RigidTransform X_WC;
+};
+
+/// A parameter of an antenna or a tag as it stood in the file; rooms further on give it meaning.
+struct RawParameter {
+  std::string key;
+  std::string value;
+  Location location;
+};
+
+/// A tag or an antenna found in the world.
+struct Placement {
+  std::string name;  ///< Of the sensor; made unique by its model's name where several share it.
+  RigidTransform X_WS;
+  std::vector<RawParameter> parameters;
+  Location location;
+};
+
+/// A world at rest.
+struct Scene {
+  std::string name;
+  std::vector<std::string> models;  ///< Scoped names of all models, nested ones too.
+  std::vector<Collision> collisions;
+  std::vector<std::string> materials;  ///< Names of the materials that the visuals wear.
+  std::vector<Placement> antennas;
+  std::vector<Placement> tags;
+};
+
+}  // namespace tagfield
