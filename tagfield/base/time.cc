@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/number.h"
 
 namespace tagfield {
 namespace {
@@ -67,13 +68,9 @@ std::string format_stamp(Time time) {
 Time parse_stamp(const std::string& text) {
   std::int64_t nanos = 0;
   if (parse_plain_decimal(text, nanos)) return Time(Duration(nanos));
-  double seconds = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [after, error] = std::from_chars(text.data(), end, seconds);
-  if (error != std::errc{} || after != end) {
-    throw Error(fmt::format("'{}' is not a time in seconds", text));
-  }
-  return time_from_seconds(seconds);
+  const std::optional<double> seconds = parse_number(text);
+  if (!seconds) throw Error(fmt::format("'{}' is not a time in seconds", text));
+  return time_from_seconds(*seconds);
 }
 
 }  // namespace tagfield

@@ -23,8 +23,8 @@ inline constexpr double degrees(double radians) { return radians * (180.0 / kPi)
 inline double wrap_to_two_pi(double angle) {
   double wrapped = std::fmod(angle, kTwoPi);
   if (wrapped < 0.0) wrapped += kTwoPi;
-  // A tiny negative angle plus 2π rounds to 2π.
-  return wrapped < kTwoPi ? wrapped : 0.0;
+  // A tiny negative angle plus 2π rounds to 2π; adding 0 makes -0 plain 0.
+  return wrapped < kTwoPi ? wrapped + 0.0 : 0.0;
 }
 
 /// `angle` [rad] wrapped to [-π, π).

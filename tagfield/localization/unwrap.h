@@ -16,10 +16,17 @@ struct PhaseSegment {
   std::vector<double> distance_m;
 };
 
+/// Standard deviation [rad] of the phase noise, from the second differences of the phase over
+/// evenly spaced samples (a median, so gaps and turns don't disturb it); 0 where too few tell it.
+double phase_noise(const std::vector<PhaseSample>& samples);
+
+/// Longest travel between two samples over which the phase is followed, as a part of a quarter
+/// wavelength: `max_step`, or less where the noise needs it, but not under 0.5 for noise alone.
+double step_limit(double noise_rad, double max_step);
+
 /// Follows the phase from sample to sample. A new segment starts where the antenna travelled
 /// further between two samples than the phase can be followed, or where the carrier changes. The
-/// limit is `max_step` of a quarter wavelength of travel (λ/4 of radial motion turns the phase by
-/// π), less what the phase noise seen in the samples needs.
+/// limit is step_limit() quarter wavelengths of travel: λ/4 of radial motion turns the phase by π.
 std::vector<PhaseSegment> unwrap(const std::vector<PhaseSample>& samples, double max_step);
 
 }  // namespace tagfield

@@ -1,0 +1,44 @@
+#include "apps/tagfield/command_line.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+namespace tagfield {
+namespace {
+
+// A signal handler reaches only what is static.
+std::atomic<bool> interrupt_flag{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void on_signal(int signal) {
+  if (interrupt_flag) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupt_flag = true;
+}
+
+}  // namespace
+
+void print_warnings(const Diagnostics& diagnostics) {
+  for (const std::string& warning : diagnostics.warnings()) {
+    fmt::print(stderr, "tagfield: warning: {}\n", warning);
+  }
+}
+
+const std::atomic<bool>& interrupted() { return interrupt_flag; }
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+int default_threads() {
+  const unsigned threads = std::thread::hardware_concurrency();
+  return threads == 0 ? 1 : static_cast<int>(threads);
+}
+
+}  // namespace tagfield

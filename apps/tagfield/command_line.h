@@ -1,0 +1,28 @@
+/// @file
+/// What all subcommands share: exit codes, warnings, interruption.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+
+inline constexpr int kExitOk = 0;
+inline constexpr int kExitFailure = 1;        ///< A fault of the program.
+inline constexpr int kExitBadInput = 2;       ///< Bad input or usage.
+inline constexpr int kExitInterrupted = 130;  ///< By SIGINT or SIGTERM, as shells say it.
+
+/// Prints each warning as a line on standard error.
+void print_warnings(const Diagnostics& diagnostics);
+
+/// Set by SIGINT and SIGTERM once catch_interrupts() was called; a second signal ends the process.
+const std::atomic<bool>& interrupted();
+void catch_interrupts();
+
+/// Threads to use where the user says nothing: all that the machine has.
+int default_threads();
+
+}  // namespace tagfield

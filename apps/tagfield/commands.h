@@ -1,0 +1,18 @@
+/// @file
+/// The subcommands. Each adds itself to the command line and, once parsed, does its work.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace tagfield {
+
+/// What a chosen subcommand does; returns the exit code.
+using Action = std::function<int()>;
+
+void add_run_command(CLI::App& app, Action& chosen);
+void add_localize_command(CLI::App& app, Action& chosen);
+void add_report_command(CLI::App& app, Action& chosen);
+void add_check_command(CLI::App& app, Action& chosen);
+
+}  // namespace tagfield

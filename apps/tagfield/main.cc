@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "tagfield/base/error.h"
+
+namespace {
+
+constexpr const char* kDescription =
+    "Tagfield simulates UHF RFID: tags and reader antennas anywhere in a world, fixed or moving,\n"
+    "with the phase and RSSI of each read, and locates the tags from them.\n\n"
+    "Begin with:  tagfield run scenarios/paper_warehouse.yaml";
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(kDescription, "tagfield");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("tagfield ") + TAGFIELD_VERSION);
+  app.footer("'tagfield COMMAND --help' tells more. Exit code 2 means that an input is wrong.");
+  tagfield::Action chosen;
+  tagfield::add_run_command(app, chosen);
+  tagfield::add_localize_command(app, chosen);
+  tagfield::add_report_command(app, chosen);
+  tagfield::add_check_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "tagfield: {} (see tagfield --help)\n", error.what());
+    return tagfield::kExitBadInput;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const tagfield::Error& error) {
+    fmt::print(stderr, "tagfield: {}\n", error.what());
+    return tagfield::kExitBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tagfield: internal error: {}\n", error.what());
+    return tagfield::kExitFailure;
+  }
+}

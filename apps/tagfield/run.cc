@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/table.h"
+#include "simulator/experiment.h"
+#include "simulator/scenario_yaml.h"
+#include "tagfield/localization/estimates_csv.h"
+#include "tagfield/report/page.h"
+#include "tagfield/stream/files.h"
+#include "tagfield/stream/poses_csv.h"
+#include "tagfield/stream/reads_csv.h"
+#include "tagfield/stream/tag_heights_csv.h"
+#include "tagfield/world/top_view.h"
+
+namespace tagfield {
+namespace {
+
+struct RunArguments {
+  std::string scenario;
+  std::string out;
+  std::optional<std::uint64_t> seed;
+  std::size_t seeds = 1;
+  std::vector<std::string> settings;
+  int threads = default_threads();
+  bool page = true;
+};
+
+/// A scenario's name as a folder's: whatever a shell would stumble over becomes '_'.
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char character : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(character)) != 0 ||
+                       character == '-' || character == '_' || character == '.';
+    folder += plain ? character : '_';
+  }
+  if (folder.find_first_not_of('.') == std::string::npos) folder += '_';
+  return folder;
+}
+
+/// The heights between which the top view is cut: from just above the floor to a little above the
+/// highest tag or antenna.
+std::pair<double, double> band_of(const Scenario& scenario) {
+  double highest = 1.0;
+  for (const TagSpec& tag : scenario.tags) {
+    for (const StampedPose& pose : tag.motion) {
+      highest = std::max(highest, pose.X_WB.translation.z());
+    }
+  }
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    highest = std::max(highest, antenna.X_PA.translation.z() + antenna.lift.travel_m);
+  }
+  return {0.1, highest + 0.5};
+}
+
+void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder& folder) {
+  folder.add("reads.csv", reads_to_csv(run.recording.reads));
+  folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
+  folder.add("estimates.csv", estimates_to_csv(run.estimates));
+  const TagHeights heights = known_heights(loaded.scenario);
+  if (!heights.of_tag.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights.of_tag));
+  stage_truth(run.recording.truth, folder);
+  if (!loaded.scene.collisions.empty()) {
+    const auto [low, high] = band_of(loaded.scenario);
+    folder.add("top_view.json", top_view_to_json(top_view(loaded.scene, low, high)));
+  }
+}
+
+std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,
+                                       Diagnostics& diagnostics) {
+  ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
+  RunControl control;
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  control.on_progress = [&bar](double share) { bar.show(share); };
+  catch_interrupts();
+  return run_seeds(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control,
+                   diagnostics);
+}
+
+void print_result(const Summary& summary, const std::string& out, bool page) {
+  fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
+             summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
+             summary.real_time_factor);
+  fmt::print("{}", table_of(summary));
+  if (!summary.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  fmt::print("{}: {}\n", page ? "page" : "folder", page ? out + "/report.html" : out);
+}
+
+int run(const RunArguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : arguments.settings) {
+    overrides.push_back(parse_override(setting));
+  }
+  Diagnostics diagnostics;
+  const ScenarioWithWorld loaded =
+      load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+  const Scenario& scenario = loaded.scenario;
+  const std::string out =
+      arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
+  StagedFolder folder(out);
+
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, diagnostics);
+  const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+
+  Summary summary = summarize(scenario, runs, wall_s, diagnostics);
+  summary.complete = summary.complete && runs.size() == arguments.seeds;
+  print_warnings(diagnostics);
+  stage_run(loaded, runs.front(), folder);
+  folder.add("summary.json", to_json(summary));
+  folder.commit({"tag_heights.csv", "top_view.json", "report.html", "figures"});
+  if (arguments.page) write_report(out);
+  print_result(summary, out, arguments.page);
+  return summary.complete ? kExitOk : kExitInterrupted;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand(
+      "run", "Simulate a scenario, locate its tags, compare with the truth, draw the page");
+  command->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
+  command->add_option("--seed", arguments->seed, "Seed instead of the scenario's");
+  command->add_option("--seeds", arguments->seeds, "Run so many seeds, from --seed on")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME)");
+  command
+      ->add_option("--set", arguments->settings,
+                   "Replace a value of the scenario: pose.sigma_m=0.01, "
+                   "antennas.mobile.range_m=5, world.path=FILE. Can be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("!--no-page", arguments->page, "Write the data only, no report.html");
+  command->footer(
+      "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
+      "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace tagfield

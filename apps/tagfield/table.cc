@@ -1,0 +1,118 @@
+#include "apps/tagfield/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostRows = 60;
+
+double millimetres(double metres) { return 1e3 * metres; }
+
+std::string place(const Eigen::Vector3d& p) {
+  return fmt::format("{:8.3f} {:8.3f} {:7.3f}", p.x(), p.y(), p.z());
+}
+
+std::size_t name_width(const Summary& summary) {
+  std::size_t width = 3;
+  for (const TagOutcome& tag : summary.tags) width = std::max(width, tag.estimate.tag.size());
+  return width;
+}
+
+std::string row_of(const TagOutcome& tag, std::size_t width) {
+  const TagEstimate& estimate = tag.estimate;
+  if (estimate.verdict == Verdict::kNotLocated) {
+    return fmt::format("{:<{}}  {} ({} reads)\n", estimate.tag, width, estimate.reason,
+                       estimate.reads);
+  }
+  if (estimate.verdict == Verdict::kAmbiguous) {
+    std::string text = fmt::format("{:<{}}  ambiguous ({} reads): {}\n", estimate.tag, width,
+                                   estimate.reads, estimate.reason);
+    for (const Candidate& candidate : estimate.candidates) {
+      text += fmt::format("{:<{}}  {}  candidate\n", "", width, place(candidate.p_WT));
+    }
+    return text;
+  }
+  const Candidate& best = estimate.candidates.front();
+  const auto error = error_of(tag);
+  const std::string error_text =
+      error ? fmt::format("{:9.1f}", millimetres(*error)) : fmt::format("{:>9}", "-");
+  return fmt::format("{:<{}}  {} {} {:8.1f} {:11.1f} {:7}\n", estimate.tag, width, place(best.p_WT),
+                     error_text, millimetres(best.rms_m), millimetres(best.expected_error_m),
+                     estimate.reads);
+}
+
+std::string rows_of_one_seed(const Summary& summary) {
+  const std::size_t width = name_width(summary);
+  std::string text =
+      fmt::format("{:<{}}  {:>8} {:>8} {:>7} {:>9} {:>8} {:>11} {:>7}\n", "tag", width, "x [m]",
+                  "y [m]", "z [m]", "err [mm]", "E [mm]", "expect [mm]", "reads");
+  for (std::size_t i = 0; i < std::min(summary.tags.size(), kMostRows); ++i) {
+    text += row_of(summary.tags[i], width);
+  }
+  if (summary.tags.size() > kMostRows) {
+    text += fmt::format("… and {} more (estimates.csv has all)\n", summary.tags.size() - kMostRows);
+  }
+  return text;
+}
+
+std::string rows_of_many_seeds(const Summary& summary) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<double>> errors;
+  for (const TagOutcome& tag : summary.tags) {
+    const auto [entry, is_new] = errors.try_emplace(tag.estimate.tag);
+    if (is_new) order.push_back(tag.estimate.tag);
+    if (const auto error = error_of(tag)) entry->second.push_back(*error);
+  }
+  const std::size_t width = name_width(summary);
+  std::string text = fmt::format("{:<{}}  {:>7} {:>10} {:>12} {:>9} {:>9}\n", "tag", width, "seeds",
+                                 "mean [mm]", "median [mm]", "p95 [mm]", "max [mm]");
+  for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
+    const auto of_tag = statistics(errors[order[i]]);
+    if (!of_tag) {
+      text += fmt::format("{:<{}}  not located in any seed\n", order[i], width);
+      continue;
+    }
+    text += fmt::format("{:<{}}  {:7} {:10.1f} {:12.1f} {:9.1f} {:9.1f}\n", order[i], width,
+                        of_tag->count, millimetres(of_tag->mean), millimetres(of_tag->median),
+                        millimetres(of_tag->p95), millimetres(of_tag->max));
+  }
+  return text;
+}
+
+std::string statistics_line(const Summary& summary) {
+  const auto all = error_statistics(summary);
+  if (!all) return "";
+  return fmt::format(
+      "error: mean {:.1f} mm, median {:.1f}, p95 {:.1f}, max {:.1f}, min {:.1f}; {} over 0.3 m\n",
+      millimetres(all->mean), millimetres(all->median), millimetres(all->p95),
+      millimetres(all->max), millimetres(all->min), count_over(summary, 0.3));
+}
+
+std::string pose_line(const Summary& summary) {
+  if (!summary.pose_error) return "";
+  std::string text = fmt::format("pose: believed {:.1f} mm (rms) off the true antenna position",
+                                 millimetres(summary.pose_error->position_rms_m));
+  if (const auto& truth = summary.pose_error->error_with_true_pose_m) {
+    text += fmt::format("; with the true pose the same reads give a mean error of {:.1f} mm",
+                        millimetres(truth->mean));
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string table_of(const Summary& summary) {
+  std::string text =
+      summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
+  text +=
+      fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
+                  count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
+  return text + statistics_line(summary) + pose_line(summary);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,217 @@
+#include "simulator/experiment.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "tagfield/base/parallel.h"
+
+namespace tagfield {
+namespace {
+
+bool stopped(const RunControl& control) { return control.stop != nullptr && *control.stop; }
+
+/// Sleeps until the wall clock is as far as the simulation at its pace.
+class Pace {
+ public:
+  explicit Pace(double real_time) : real_time_(real_time) {}
+  void wait_for(Time simulated) const {
+    if (!(real_time_ > 0.0)) return;
+    const std::chrono::duration<double> due(to_seconds(simulated) / real_time_);
+    std::this_thread::sleep_until(begin_ + due);
+  }
+
+ private:
+  double real_time_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+TagEstimate never_read(const std::string& tag) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reason = "cannot localize: never read";
+  return estimate;
+}
+
+/// Estimates in the scenario's order, with those of tags that were never read.
+std::vector<TagEstimate> in_scenario_order(const Scenario& scenario,
+                                           std::vector<TagEstimate> estimates) {
+  std::map<std::string, TagEstimate> by_tag;
+  for (TagEstimate& estimate : estimates) {
+    std::string tag = estimate.tag;
+    by_tag.emplace(std::move(tag), std::move(estimate));
+  }
+  std::vector<TagEstimate> ordered;
+  for (const TagSpec& tag : scenario.tags) {
+    const auto found = by_tag.find(tag.id);
+    ordered.push_back(found == by_tag.end() ? never_read(tag.id) : std::move(found->second));
+  }
+  return ordered;
+}
+
+std::vector<TagOutcome> outcomes_of(const Scenario& scenario, std::uint64_t seed,
+                                    const std::vector<TagEstimate>& estimates) {
+  std::vector<TagOutcome> outcomes;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const TagSpec& tag = scenario.tags[i];
+    TagOutcome outcome;
+    outcome.seed = seed;
+    outcome.estimate = estimates[i];
+    outcome.moved = moves(tag);
+    if (!outcome.moved) outcome.truth_m = tag.motion.front().X_WB.translation;
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+LocalizationOptions options_for(const Scenario& scenario, int threads) {
+  LocalizationOptions options;
+  options.hyperbola = scenario.localization.hyperbola;
+  options.heights = known_heights(scenario);
+  options.threads = threads;
+  // Between two updates an antenna's poses are as far apart as its rate says.
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    options.max_pose_gap_s = std::max(options.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
+  }
+  return options;
+}
+
+std::vector<double> errors_of(const std::vector<TagOutcome>& outcomes) {
+  std::vector<double> errors;
+  for (const TagOutcome& outcome : outcomes) {
+    if (const auto error = error_of(outcome)) errors.push_back(*error);
+  }
+  return errors;
+}
+
+/// Horizontal rms distance between the believed and the true antenna poses [m].
+double position_rms(const Recording& recording) {
+  const std::vector<AntennaPose>& truth = recording.truth.antenna_poses;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (recording.believed_poses[i].X_WA.translation - truth[i].X_WA.translation)
+               .head<2>()
+               .squaredNorm();
+  }
+  return truth.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+PoseErrorSummary pose_error_of(const Scenario& scenario, const std::vector<SeedRun>& runs) {
+  PoseErrorSummary summary;
+  summary.sigma_m = scenario.pose.sigma_m;
+  summary.time_constant_s = scenario.pose.time_constant_s;
+  summary.yaw_sigma_rad = scenario.pose.yaw_sigma_rad;
+  summary.position_rms_m = position_rms(runs.front().recording);
+  std::vector<double> errors;
+  for (const SeedRun& run : runs) {
+    errors.insert(errors.end(), run.errors_with_true_pose_m.begin(),
+                  run.errors_with_true_pose_m.end());
+  }
+  summary.error_with_true_pose_m = statistics(errors);
+  return summary;
+}
+
+}  // namespace
+
+TagHeights known_heights(const Scenario& scenario) {
+  TagHeights heights;
+  if (scenario.localization.known_height == KnownHeight::kNumber) {
+    heights.of_all = scenario.localization.height_m;
+  }
+  if (scenario.localization.known_height == KnownHeight::kTag) {
+    for (const TagSpec& tag : scenario.tags) {
+      if (!moves(tag)) heights.of_tag[tag.id] = tag.motion.front().X_WB.translation.z();
+    }
+  }
+  return heights;
+}
+
+SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
+  SeedRun run;
+  run.seed = seed;
+  Simulation simulation(scenario, seed);
+  const Pace pace(scenario.real_time);
+  while (!simulation.finished() && !stopped(control)) {
+    simulation.step(run.recording);
+    if (control.on_progress) control.on_progress(simulation.progress());
+    pace.wait_for(simulation.now());
+  }
+  run.complete = simulation.finished();
+  run.simulated_s = to_seconds(simulation.now());
+  run.path_length_m = simulation.travelled_m();
+  return run;
+}
+
+void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
+  const LocalizationOptions options = options_for(scenario, threads);
+  const Recording& recording = run.recording;
+  run.estimates = in_scenario_order(
+      scenario, locate_tags(recording.reads, recording.believed_poses, options, diagnostics));
+  run.outcomes = outcomes_of(scenario, run.seed, run.estimates);
+  if (scenario.pose.source == PoseSource::kTrue) return;
+  const std::vector<TagEstimate> with_truth = in_scenario_order(
+      scenario, locate_tags(recording.reads, recording.truth.antenna_poses, options, diagnostics));
+  run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run.seed, with_truth));
+}
+
+std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
+                               const RunControl& control, Diagnostics& diagnostics) {
+  std::vector<SeedRun> runs(count);
+  std::vector<Diagnostics> warnings(count);
+  std::vector<char> begun(count, 0);
+  std::mutex progress_mutex;
+  double finished = 0.0;
+  // One seed alone shows how far it is; of several the finished ones are counted.
+  RunControl of_one = control;
+  if (count > 1) of_one.on_progress = nullptr;
+  const int threads_inside = count > 1 ? 1 : control.threads;
+  parallel_for(count, control.threads, [&](std::size_t i) {
+    if (i > 0 && stopped(control)) return;
+    begun[i] = 1;
+    runs[i] = simulate(scenario, first + i, of_one);
+    localize(scenario, runs[i], threads_inside, warnings[i]);
+    if (i > 0) runs[i].recording = {};
+    const std::lock_guard lock(progress_mutex);
+    finished += 1.0;
+    if (control.on_progress) control.on_progress(finished / static_cast<double>(count));
+  });
+  std::vector<SeedRun> kept;
+  for (std::size_t i = 0; i < count; ++i) {
+    // An interrupted seed would spoil the statistics of the whole ones.
+    if (begun[i] != 0 && (i == 0 || runs[i].complete)) kept.push_back(std::move(runs[i]));
+    for (const std::string& warning : warnings[i].warnings()) diagnostics.warn(warning);
+  }
+  return kept;
+}
+
+Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
+                  const Diagnostics& diagnostics) {
+  const SeedRun& first = runs.front();
+  Summary summary;
+  summary.scenario = scenario.name;
+  summary.description = scenario.description;
+  summary.method = "hyperbola";
+  summary.pose = to_string(scenario.pose.source);
+  summary.path_length_m = first.path_length_m;
+  summary.reads = first.recording.reads.size();
+  summary.simulated_s = first.simulated_s;
+  summary.wall_s = wall_s;
+  double simulated_s = 0.0;
+  for (const SeedRun& run : runs) {
+    summary.seeds.push_back(run.seed);
+    summary.complete = summary.complete && run.complete;
+    simulated_s += run.simulated_s;
+    summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
+  }
+  summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
+  if (scenario.pose.source != PoseSource::kTrue) {
+    summary.pose_error = pose_error_of(scenario, runs);
+  }
+  summary.warnings = diagnostics.warnings();
+  return summary;
+}
+
+}  // namespace tagfield

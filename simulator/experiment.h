@@ -1,0 +1,55 @@
+/// @file
+/// A whole experiment: simulate, localize, compare with the truth.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "simulator/scenario.h"
+#include "simulator/simulation.h"
+#include "tagfield/localization/locate.h"
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+
+/// How to run, as opposed to what.
+struct RunControl {
+  int threads = 1;
+  const std::atomic<bool>* stop = nullptr;        ///< Set by others to end early.
+  std::function<void(double share)> on_progress;  ///< Called now and then with 0 … 1, or empty.
+};
+
+/// One seed's run.
+struct SeedRun {
+  std::uint64_t seed = 0;
+  bool complete = true;  ///< False where it was stopped.
+  double simulated_s = 0.0;
+  double path_length_m = 0.0;  ///< Driven by all robots.
+  Recording recording;
+  std::vector<TagEstimate> estimates;  ///< In the scenario's order of tags.
+  std::vector<TagOutcome> outcomes;    ///< Likewise.
+  /// Errors of the same reads located with the true poses; empty where those are believed anyway.
+  std::vector<double> errors_with_true_pose_m;
+};
+
+/// Simulates one seed, in step with real time if the scenario asks for it.
+SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control);
+
+/// Locates the tags from the run's reads and believed poses, and fills in estimates and outcomes.
+void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
+
+/// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of
+/// the first only. Seeds not begun when `control.stop` was set are left out.
+std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
+                               const RunControl& control, Diagnostics& diagnostics);
+
+/// What is known of the tags' heights in this scenario, for localization.
+TagHeights known_heights(const Scenario& scenario);
+
+/// The numbers of all runs. `wall_s` is how long they took.
+Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
+                  const Diagnostics& diagnostics);
+
+}  // namespace tagfield

@@ -1,0 +1,61 @@
+#include "simulator/robot.h"
+
+#include <cmath>
+
+#include "tagfield/base/random.h"
+
+namespace tagfield {
+
+Robot::Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed)
+    : spec_(spec),
+      belief_(belief),
+      seed_(seed),
+      key_(stream_key(spec.name)),
+      follower_(spec.start, spec.waypoints, spec.style),
+      begin_(spec.start),
+      odometry_(spec.start) {
+  if (belief_.source == PoseSource::kNoisy) error_end_ = first_pose_error(belief_, seed_, key_);
+}
+
+void Robot::step(double seconds) {
+  begin_ = advance(begin_, velocity_, step_seconds_);
+  odometry_ = advance(odometry_, measured_, step_seconds_);
+  error_begin_ = error_end_;
+  step_seconds_ = seconds;
+
+  // Commands go through the wheels, which is all that a skid-steered robot has.
+  const WheelSpeeds wheels = wheel_speeds(spec_.drive, follower_.next(begin_, seconds));
+  velocity_ = body_velocity(spec_.drive, wheels);
+  travelled_m_ += std::abs(velocity_.forward) * seconds;
+  if (belief_.source == PoseSource::kOdometry) {
+    measured_ = body_velocity(spec_.drive, measured_wheel_speeds(belief_, spec_.drive, wheels,
+                                                                 seconds, seed_, key_, steps_));
+  }
+  if (belief_.source == PoseSource::kNoisy) {
+    error_end_ = next_pose_error(belief_, error_begin_, seconds, seed_, key_, steps_);
+  }
+  ++steps_;
+}
+
+RigidTransform Robot::true_pose(double seconds) const {
+  return to_transform(advance(begin_, velocity_, seconds));
+}
+
+PoseError Robot::error_at(double seconds) const {
+  const double fraction = seconds / step_seconds_;
+  const auto between = [&](double from, double to) { return from + fraction * (to - from); };
+  return {between(error_begin_.x, error_end_.x), between(error_begin_.y, error_end_.y),
+          between(error_begin_.yaw, error_end_.yaw)};
+}
+
+RigidTransform Robot::believed_pose(double seconds) const {
+  if (belief_.source == PoseSource::kOdometry) {
+    return to_transform(advance(odometry_, measured_, seconds));
+  }
+  const PlanarPose pose = advance(begin_, velocity_, seconds);
+  if (belief_.source == PoseSource::kTrue) return to_transform(pose);
+  const PoseError error = error_at(seconds);
+  return from_planar(pose.x + error.x, pose.y + error.y, pose.yaw + error.yaw);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,63 @@
+/// @file
+/// A robot that drives: where it is, and where it believes to be.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "simulator/path_follower.h"
+#include "simulator/pose_error.h"
+#include "simulator/unicycle.h"
+#include "tagfield/poses/rigid_transform.h"
+
+namespace tagfield {
+
+struct RobotSpec {
+  std::string name;
+  PlanarPose start;
+  DriveGeometry drive;
+  DrivingStyle style;
+  std::vector<Eigen::Vector2d> waypoints;  ///< [m, world]; none for a robot that stands.
+};
+
+/// One robot during one time step after another. Frame R is its base on the floor, x forward.
+class Robot {
+ public:
+  Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
+
+  /// Goes one time step on; true_pose and believed_pose then speak of that step.
+  void step(double seconds);
+
+  /// X_WR at `seconds` after the current step's beginning, between 0 and its length.
+  [[nodiscard]] RigidTransform true_pose(double seconds) const;
+  [[nodiscard]] RigidTransform believed_pose(double seconds) const;
+
+  [[nodiscard]] const std::string& name() const { return spec_.name; }
+  /// Whether it stands at its last waypoint.
+  [[nodiscard]] bool finished() const { return follower_.finished(); }
+  /// Way driven up to the current step's end [m].
+  [[nodiscard]] double travelled_m() const { return travelled_m_; }
+
+ private:
+  [[nodiscard]] PoseError error_at(double seconds) const;
+
+  RobotSpec spec_;
+  PoseBelief belief_;
+  std::uint64_t seed_;
+  std::uint64_t key_;
+  PathFollower follower_;
+
+  std::uint64_t steps_ = 0;
+  double step_seconds_ = 0.0;
+  double travelled_m_ = 0.0;
+  PlanarPose begin_;       ///< True pose as the step begins.
+  BodyVelocity velocity_;  ///< During the step.
+  PlanarPose odometry_;    ///< Dead-reckoned pose as the step begins.
+  BodyVelocity measured_;  ///< By the wheels during the step.
+  PoseError error_begin_;  ///< Of a noisy belief as the step begins,
+  PoseError error_end_;    ///< and as it ends.
+};
+
+}  // namespace tagfield

@@ -1,0 +1,78 @@
+/// @file
+/// What to simulate, as a plain struct. docs/scenario.md tells how to write one as YAML.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/lift.h"
+#include "simulator/pose_error.h"
+#include "simulator/robot.h"
+#include "tagfield/base/error.h"
+#include "tagfield/localization/hyperbola.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/antenna.h"
+
+namespace tagfield {
+
+/// An antenna and what carries it. Frame P is the carrier's: the robot's base, or the world.
+struct AntennaSpec {
+  AntennaParameters parameters;
+  std::string on;       ///< Name of a robot, or "" for the world.
+  RigidTransform X_PA;  ///< With the lift at its lower end.
+  Lift lift;            ///< Moves the antenna along P's z.
+  Location location;    ///< Where it was written, for messages.
+};
+
+/// A tag and how it moves.
+struct TagSpec {
+  std::string id;
+  std::string on;  ///< Name of a robot, or "" for the world.
+  /// Positions in P; one of them for a tag at rest in P. Before the first and after the last the
+  /// tag stays where that is.
+  Trajectory motion;
+  Time appears;
+  std::optional<Time> disappears;
+  Location location;
+};
+
+/// Whether the tag can move in the world.
+inline bool moves(const TagSpec& tag) { return !tag.on.empty() || tag.motion.size() > 1; }
+
+struct WorldSpec {
+  std::string path;                       ///< "" for empty space.
+  std::vector<std::string> search_paths;  ///< For `model://`.
+};
+
+/// How the tags' heights are known to localization.
+enum class KnownHeight {
+  kTag,      ///< Each tag's own, as from the rack that it is on.
+  kAntenna,  ///< Not at all: as high as the antennas in the mean.
+  kNumber,   ///< One for all, in `height_m`.
+};
+
+struct LocalizationSpec {
+  HyperbolaOptions hyperbola;
+  KnownHeight known_height = KnownHeight::kTag;
+  double height_m = 0.0;
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  WorldSpec world;
+  std::uint64_t seed = 1;
+  double time_step_s = 0.01;
+  std::optional<double> duration_s;  ///< Where not set: until all robots have arrived.
+  double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
+  std::vector<RobotSpec> robots;
+  PoseBelief pose;
+  std::vector<AntennaSpec> antennas;
+  std::vector<TagSpec> tags;
+  LocalizationSpec localization;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,287 @@
+#include "simulator/scenario_yaml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "simulator/internal/yaml_map.h"
+#include "simulator/placements.h"
+#include "simulator/tag_table.h"
+#include "tagfield/base/spelling.h"
+#include "tagfield/base/units.h"
+#include "tagfield/sdf/load_world.h"
+
+namespace tagfield {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr NumberRange kPositive = NumberRange::kPositive;
+constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
+
+/// `word` as one of `choices`; throws Error with the nearest.
+std::size_t choice(const YamlValue& value, const std::vector<std::string>& choices) {
+  const std::string word = value.text();
+  const auto found = std::find(choices.begin(), choices.end(), word);
+  if (found == choices.end()) {
+    value.fail(fmt::format("is '{}', which is not known{}", word, suggestion(word, choices)));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+/// A path as the user means it: from the file relative to the file, from --set to the current
+/// folder.
+std::string resolve_path(const YamlValue& value) {
+  const fs::path given = value.text();
+  const bool from_file = value.location().file == value.file();
+  if (given.is_absolute() || !from_file) return given.string();
+  return (fs::path(value.file()).parent_path() / given).lexically_normal().string();
+}
+
+Eigen::Vector3d position_of(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(3, 3);
+  return {n[0], n[1], n[2]};
+}
+
+/// [x, y, z] or [x, y, z, roll, pitch, yaw], as in SDF.
+RigidTransform pose_of(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(3, 6);
+  if (n.size() == 3) return from_translation({n[0], n[1], n[2]});
+  if (n.size() != 6) value.fail("must be [x, y, z] or [x, y, z, roll, pitch, yaw]");
+  return from_xyz_rpy({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+}
+
+WorldSpec world_of(YamlMap map) {
+  WorldSpec world;
+  if (!map.has("path")) {
+    map.self().fail("has no 'path': give the world's file with --set world.path=FILE");
+  }
+  world.path = resolve_path(map.at("path"));
+  for (const YamlValue& folder : map.list("model_paths")) {
+    world.search_paths.push_back(resolve_path(folder));
+  }
+  map.finish();
+  return world;
+}
+
+Eigen::Vector2d waypoint_of(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(2, 2);
+  return {n[0], n[1]};
+}
+
+RobotSpec robot_of(YamlMap map) {
+  RobotSpec robot;
+  robot.name = map.at("name").text();
+  const std::vector<double> start = map.at("start").numbers(3, 3);
+  robot.start = {start[0], start[1], start[2]};
+  robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
+  robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
+  robot.style.speed_m_s = map.number("speed_m_s", robot.style.speed_m_s, kPositive);
+  robot.style.most_turn_rad_s =
+      map.number("most_turn_rad_s", robot.style.most_turn_rad_s, kPositive);
+  robot.style.look_ahead_m = map.number("look_ahead_m", robot.style.look_ahead_m, kPositive);
+  for (const YamlValue& waypoint : map.list("waypoints")) {
+    robot.waypoints.push_back(waypoint_of(waypoint));
+  }
+  map.finish();
+  return robot;
+}
+
+PoseBelief belief_of(YamlMap map) {
+  PoseBelief belief;
+  if (map.has("source")) {
+    constexpr PoseSource kSources[] = {PoseSource::kTrue, PoseSource::kNoisy,
+                                       PoseSource::kOdometry};
+    belief.source = kSources[choice(map.at("source"), {"true", "noisy", "odometry"})];
+  }
+  belief.sigma_m = map.number("sigma_m", belief.sigma_m, kNotNegative);
+  belief.yaw_sigma_rad = radians(map.number("yaw_sigma_deg", 0.0, kNotNegative));
+  belief.time_constant_s = map.number("time_constant_s", belief.time_constant_s, kPositive);
+  belief.wheel_noise = map.number("wheel_noise", belief.wheel_noise, kNotNegative);
+  map.finish();
+  return belief;
+}
+
+Lift lift_of(YamlMap map) {
+  Lift lift;
+  lift.travel_m = map.at("travel_m").number(kPositive);
+  lift.speed_m_s = map.number("speed_m_s", lift.speed_m_s, kPositive);
+  map.finish();
+  return lift;
+}
+
+OptionalDistribution distribution_of(YamlMap& map) {
+  const std::vector<double> parameters = map.has("optional_distribution_params")
+                                             ? map.at("optional_distribution_params").numbers(0)
+                                             : std::vector<double>{};
+  if (!map.has("optional_distribution")) return {};
+  const YamlValue name = map.at("optional_distribution");
+  try {
+    return make_distribution(name.text(), parameters);
+  } catch (const Error& error) {
+    fail(name.location(), fmt::format("{}: {}", name.path(), error.what()));
+  }
+}
+
+PaperModel paper_model_of(YamlMap& map) {
+  PaperModel model;
+  model.frequency_hz = map.number("frequency_hz", model.frequency_hz, kPositive);
+  model.phase_offset_rad = map.number("phase_offset_rad", model.phase_offset_rad);
+  model.phase_noise_rad = map.number("phase_noise_rad", model.phase_noise_rad, kNotNegative);
+  model.rssi_noise = map.number("rssi_noise", model.rssi_noise, kNotNegative);
+  model.communication_gain = map.number("communication_gain", model.communication_gain, kPositive);
+  model.optional = distribution_of(map);
+  return model;
+}
+
+AntennaSpec antenna_of(YamlMap map) {
+  AntennaSpec antenna;
+  AntennaParameters& parameters = antenna.parameters;
+  antenna.location = map.self().location();
+  parameters.name = map.at("name").text();
+  parameters.reader = map.text("reader", parameters.reader);
+  parameters.rate_hz = map.number("rate_hz", parameters.rate_hz, kPositive);
+  parameters.range_m = map.number("range_m", parameters.range_m, kPositive);
+  parameters.range_sigma = map.number("range_sigma", parameters.range_sigma, kNotNegative);
+  parameters.model = paper_model_of(map);
+  antenna.on = map.text("on", "");
+  antenna.X_PA = pose_of(map.at("pose"));
+  if (map.has("lift")) antenna.lift = lift_of(YamlMap(map.at("lift")));
+  map.finish();
+  try {
+    check(parameters);
+  } catch (const Error& error) {
+    map.self().fail(fmt::format("('{}'): {}", parameters.name, error.what()));
+  }
+  return antenna;
+}
+
+/// Rows [t, x, y, z].
+Trajectory trajectory_of(const YamlValue& value) {
+  Trajectory trajectory;
+  for (const YamlValue& row : value.list()) {
+    const std::vector<double> n = row.numbers(4, 4);
+    trajectory.push_back({time_from_seconds(n[0]), from_translation({n[1], n[2], n[3]})});
+  }
+  if (trajectory.empty()) value.fail("must have at least one row [t, x, y, z]");
+  try {
+    require_rising_stamps(trajectory);
+  } catch (const Error& error) {
+    value.fail(error.what());
+  }
+  return trajectory;
+}
+
+TagSpec tag_of(YamlMap map) {
+  TagSpec tag;
+  tag.location = map.self().location();
+  tag.id = map.at("id").text();
+  tag.on = map.text("on", "");
+  if (map.has("trajectory")) {
+    if (map.has("position")) map.self().fail("has both 'position' and 'trajectory'");
+    tag.motion = trajectory_of(map.at("trajectory"));
+  } else {
+    tag.motion = {{Time{}, from_translation(position_of(map.at("position")))}};
+  }
+  tag.appears = time_from_seconds(map.number("appears_s", 0.0, kNotNegative));
+  if (map.has("disappears_s")) {
+    tag.disappears = time_from_seconds(map.at("disappears_s").number(kPositive));
+    if (*tag.disappears <= tag.appears) {
+      map.at("disappears_s").fail("must be later than appears_s");
+    }
+  }
+  map.finish();
+  return tag;
+}
+
+LocalizationSpec localization_of(YamlMap map) {
+  LocalizationSpec spec;
+  HyperbolaOptions& options = spec.hyperbola;
+  if (map.has("method")) choice(map.at("method"), {"hyperbola"});
+  options.stride_m = map.number("stride_m", options.stride_m, kPositive);
+  options.refine = map.boolean("refine", options.refine);
+  options.max_expected_error_m =
+      map.number("max_expected_error_m", options.max_expected_error_m, kPositive);
+  options.max_rms_m = map.number("max_rms_m", options.max_rms_m, kPositive);
+  if (map.has("tag_height_m")) {
+    spec.known_height = KnownHeight::kNumber;
+    spec.height_m = map.at("tag_height_m").number();
+  } else if (map.has("tag_heights")) {
+    constexpr KnownHeight kKinds[] = {KnownHeight::kTag, KnownHeight::kAntenna};
+    spec.known_height = kKinds[choice(map.at("tag_heights"), {"known", "unknown"})];
+  }
+  map.finish();
+  return spec;
+}
+
+void read_bodies(YamlMap& map, Scenario& scenario) {
+  for (const YamlValue& robot : map.list("robots")) {
+    scenario.robots.push_back(robot_of(YamlMap(robot)));
+  }
+  for (const YamlValue& antenna : map.list("antennas")) {
+    scenario.antennas.push_back(antenna_of(YamlMap(antenna)));
+  }
+  for (const YamlValue& tag : map.list("tags")) scenario.tags.push_back(tag_of(YamlMap(tag)));
+  if (map.has("tag_table")) {
+    const std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
+    scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
+  }
+}
+
+Scenario scenario_of(YamlMap map) {
+  Scenario scenario;
+  scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
+  scenario.description = map.text("description", "");
+  if (map.has("model")) choice(map.at("model"), {"paper"});
+  if (map.has("seed")) scenario.seed = map.at("seed").whole_number();
+  scenario.time_step_s = map.number("time_step_s", scenario.time_step_s, kPositive);
+  if (map.has("duration_s")) scenario.duration_s = map.at("duration_s").number(kPositive);
+  scenario.real_time = map.number("real_time", scenario.real_time, kNotNegative);
+  if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")));
+  if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
+  if (map.has("localization")) {
+    scenario.localization = localization_of(YamlMap(map.at("localization")));
+  }
+  read_bodies(map, scenario);
+  map.finish();
+  return scenario;
+}
+
+}  // namespace
+
+Override parse_override(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    fail({"--set " + argument, 0}, "expected key.path=value");
+  }
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
+  const YAML::Node root = read_yaml(path);
+  for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
+  try {
+    return scenario_of(YamlMap(YamlValue(root, path, "")));
+  } catch (const YAML::Exception& error) {
+    fail({path, error.mark.line + 1}, error.msg);
+  }
+}
+
+ScenarioWithWorld load_scenario_with_world(const std::string& path,
+                                           const std::vector<Override>& overrides,
+                                           Diagnostics& diagnostics) {
+  ScenarioWithWorld loaded;
+  Scenario& scenario = loaded.scenario;
+  scenario = load_scenario(path, overrides);
+  if (!scenario.world.path.empty()) {
+    loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
+    add_placements(loaded.scene, scenario, diagnostics);
+  }
+  if (scenario.antennas.empty()) {
+    fail({path, 0}, "no antennas: neither the scenario nor its world has one");
+  }
+  if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
+  return loaded;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,296 @@
+#include "simulator/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tagfield {
+namespace {
+
+constexpr double kLeastCell = 0.5;
+constexpr double kMostCell = 1e6;
+
+/// Half of the longest range: a query then visits some 30 columns.
+double cell_size(const Scenario& scenario) {
+  double longest = 0.0;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    longest = std::max(longest, antenna.parameters.range_m);
+  }
+  return std::clamp(longest / 2.0, kLeastCell, kMostCell);
+}
+
+bool is_fixed(const AntennaSpec& antenna) {
+  return antenna.on.empty() && !(antenna.lift.travel_m > 0.0);
+}
+
+/// X_PA at `stamp`, the lift's height included.
+RigidTransform mount_at(const AntennaSpec& antenna, Time stamp) {
+  return from_translation({0.0, 0.0, lift_height(antenna.lift, stamp)}) * antenna.X_PA;
+}
+
+std::optional<Time> end_of(const Scenario& scenario) {
+  if (scenario.duration_s) return time_from_seconds(*scenario.duration_s);
+  const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                                  [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
+  if (!drives) throw Error("duration_s must be given where no robot has waypoints to drive");
+  return std::nullopt;
+}
+
+}  // namespace
+
+double planned_length(const RobotSpec& robot) {
+  double length = 0.0;
+  Eigen::Vector2d at(robot.start.x, robot.start.y);
+  for (const Eigen::Vector2d& waypoint : robot.waypoints) {
+    length += (waypoint - at).norm();
+    at = waypoint;
+  }
+  return length;
+}
+
+Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
+    : seed_(seed),
+      time_step_(duration_from_seconds(scenario.time_step_s)),
+      end_(end_of(scenario)),
+      index_(cell_size(scenario)) {
+  if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
+  for (const RobotSpec& robot : scenario.robots) {
+    if (robot_named(robot.name) != nullptr) {
+      throw Error(fmt::format("two robots are called '{}'", robot.name));
+    }
+    robots_.emplace_back(robot, scenario.pose, seed_);
+    way_to_go_m_ += planned_length(robot);
+  }
+  for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
+  plan_appearances(scenario.tags);
+}
+
+/// Sorts what is to come so that the next to appear or disappear stands last.
+void Simulation::plan_appearances(const std::vector<TagSpec>& tags) {
+  std::unordered_map<std::string, Location> seen;
+  for (const TagSpec& tag : tags) {
+    const auto [first, is_new] = seen.emplace(tag.id, tag.location);
+    if (!is_new) {
+      fail(tag.location, fmt::format("a second tag has the ID '{}' (the first: {})", tag.id,
+                                     to_string(first->second)));
+    }
+    require_robot(tag.on, tag.location);
+    if (tag.disappears) to_disappear_.emplace_back(*tag.disappears, tag.id);
+  }
+  to_appear_ = tags;
+  // The list is used from its end, so tags of one time are added in the scenario's order.
+  std::reverse(to_appear_.begin(), to_appear_.end());
+  std::stable_sort(to_appear_.begin(), to_appear_.end(),
+                   [](const TagSpec& a, const TagSpec& b) { return a.appears > b.appears; });
+  std::stable_sort(to_disappear_.begin(), to_disappear_.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+}
+
+const Robot* Simulation::robot_named(const std::string& name) const {
+  const auto found = std::find_if(robots_.begin(), robots_.end(),
+                                  [&](const Robot& robot) { return robot.name() == name; });
+  return found == robots_.end() ? nullptr : &*found;
+}
+
+void Simulation::require_robot(const std::string& name, const Location& location) const {
+  if (!name.empty() && robot_named(name) == nullptr) {
+    fail(location, fmt::format("there is no robot '{}' to be on", name));
+  }
+}
+
+bool Simulation::finished() const {
+  if (end_) return now_ >= *end_;
+  return std::all_of(robots_.begin(), robots_.end(),
+                     [](const Robot& robot) { return robot.finished(); });
+}
+
+double Simulation::progress() const {
+  const double share = end_ ? to_seconds(now_) / std::max(to_seconds(*end_), 1e-9)
+                            : travelled_m() / std::max(way_to_go_m_, 1e-9);
+  return finished() ? 1.0 : std::clamp(share, 0.0, 1.0);
+}
+
+double Simulation::travelled_m() const {
+  double travelled = 0.0;
+  for (const Robot& robot : robots_) travelled += robot.travelled_m();
+  return travelled;
+}
+
+std::uint32_t Simulation::free_slot() {
+  if (free_slots_.empty()) {
+    tags_by_slot_.emplace_back();
+    return static_cast<std::uint32_t>(tags_by_slot_.size() - 1);
+  }
+  const std::uint32_t slot = free_slots_.back();
+  free_slots_.pop_back();
+  return slot;
+}
+
+void Simulation::add_tag(const TagSpec& tag) {
+  if (slots_.count(tag.id) != 0) {
+    fail(tag.location, fmt::format("there is a tag with the ID '{}' already", tag.id));
+  }
+  require_robot(tag.on, tag.location);
+  if (tag.motion.empty()) fail(tag.location, fmt::format("tag '{}' has no position", tag.id));
+  require_rising_stamps(tag.motion);
+  const std::uint32_t slot = free_slot();
+  slots_.emplace(tag.id, slot);
+  tags_by_slot_[slot] = {tag, slot};
+  index_.place(slot, tag.motion.front().X_WB.translation);
+  std::vector<std::uint32_t>& list = moves(tag) ? moving_slots_ : new_slots_;
+  list.insert(std::upper_bound(list.begin(), list.end(), slot), slot);
+  moved_to_ = Time::min();
+}
+
+void Simulation::remove_tag(const std::string& id) {
+  const auto found = slots_.find(id);
+  if (found == slots_.end()) throw Error(fmt::format("there is no tag with the ID '{}'", id));
+  const std::uint32_t slot = found->second;
+  slots_.erase(found);
+  index_.remove(slot);
+  for (std::vector<std::uint32_t>* list : {&moving_slots_, &new_slots_}) {
+    list->erase(std::remove(list->begin(), list->end(), slot), list->end());
+  }
+  free_slots_.push_back(slot);
+}
+
+void Simulation::add_antenna(const AntennaSpec& antenna) {
+  const std::string& name = antenna.parameters.name;
+  for (const AntennaSpec& other : antennas_) {
+    if (other.parameters.name == name) {
+      fail(antenna.location, fmt::format("there is an antenna called '{}' already", name));
+    }
+  }
+  require_robot(antenna.on, antenna.location);
+  try {
+    check(antenna.parameters);
+  } catch (const Error& error) {
+    fail(antenna.location, fmt::format("antenna '{}': {}", name, error.what()));
+  }
+  antennas_.push_back(antenna);
+}
+
+void Simulation::remove_antenna(const std::string& name) {
+  const auto found =
+      std::find_if(antennas_.begin(), antennas_.end(),
+                   [&](const AntennaSpec& antenna) { return antenna.parameters.name == name; });
+  if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
+  antennas_.erase(found);
+  recorded_fixed_.erase(std::remove(recorded_fixed_.begin(), recorded_fixed_.end(), name),
+                        recorded_fixed_.end());
+}
+
+void Simulation::step(Recording& recording) {
+  step_begin_ = now_;
+  now_ += time_step_;
+  step_robots();
+  for (const Update& update : updates_in_step()) {
+    handle_events(update.stamp);
+    record_new_tags(recording);
+    move_tags(update.stamp, recording);
+    update_antenna(update, recording);
+  }
+  handle_events(now_ - Duration(1));
+}
+
+void Simulation::step_robots() {
+  for (Robot& robot : robots_) robot.step(to_seconds(time_step_));
+}
+
+std::vector<Simulation::Update> Simulation::updates_in_step() const {
+  std::vector<Update> updates;
+  for (std::size_t i = 0; i < antennas_.size(); ++i) {
+    const AntennaParameters& antenna = antennas_[i].parameters;
+    std::int64_t number = first_update_at(antenna, step_begin_);
+    for (Time stamp = update_stamp(antenna, number); stamp < now_;
+         stamp = update_stamp(antenna, ++number)) {
+      updates.push_back({stamp, i});
+    }
+  }
+  std::stable_sort(updates.begin(), updates.end(),
+                   [](const Update& a, const Update& b) { return a.stamp < b.stamp; });
+  return updates;
+}
+
+/// Lets tags appear and disappear that are due by `until`.
+void Simulation::handle_events(Time until) {
+  while (!to_appear_.empty() && to_appear_.back().appears <= until) {
+    add_tag(to_appear_.back());
+    to_appear_.pop_back();
+  }
+  while (!to_disappear_.empty() && to_disappear_.back().first <= until) {
+    // Whoever uses this class may have removed the tag already.
+    if (slots_.count(to_disappear_.back().second) != 0) remove_tag(to_disappear_.back().second);
+    to_disappear_.pop_back();
+  }
+}
+
+double Simulation::seconds_into_step(Time stamp) const { return to_seconds(stamp - step_begin_); }
+
+Eigen::Vector3d Simulation::tag_position(const TagSpec& tag, Time stamp) const {
+  const Eigen::Vector3d p_PT = held_pose_at(tag.motion, stamp).translation;
+  if (tag.on.empty()) return p_PT;
+  return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * p_PT;
+}
+
+void Simulation::record_new_tags(Recording& recording) {
+  for (const std::uint32_t slot : new_slots_) {
+    const TagSpec& tag = tags_by_slot_[slot].spec;
+    recording.truth.tag_positions.push_back(
+        {std::max(tag.appears, Time{}), tag.id, index_.position(slot)});
+  }
+  new_slots_.clear();
+}
+
+/// Moves all that can move to `stamp`, once for all antennas that update then.
+void Simulation::move_tags(Time stamp, Recording& recording) {
+  if (stamp == moved_to_) return;
+  moved_to_ = stamp;
+  for (const std::uint32_t slot : moving_slots_) {
+    const TagSpec& tag = tags_by_slot_[slot].spec;
+    index_.place(slot, tag_position(tag, stamp));
+    recording.truth.tag_positions.push_back({stamp, tag.id, index_.position(slot)});
+  }
+  const double seconds = seconds_into_step(stamp);
+  for (const Robot& robot : robots_) {
+    recording.truth.robot_poses.push_back({stamp, robot.name(), robot.true_pose(seconds)});
+  }
+}
+
+RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
+                                         Recording& recording) {
+  const std::string& name = antenna.parameters.name;
+  const RigidTransform X_PA = mount_at(antenna, stamp);
+  if (is_fixed(antenna)) {
+    if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) == recorded_fixed_.end()) {
+      recorded_fixed_.push_back(name);
+      recording.believed_poses.push_back({stamp, name, X_PA});
+      recording.truth.antenna_poses.push_back({stamp, name, X_PA});
+    }
+    return X_PA;
+  }
+  const Robot* robot = antenna.on.empty() ? nullptr : robot_named(antenna.on);
+  const double seconds = seconds_into_step(stamp);
+  const RigidTransform X_WA = robot == nullptr ? X_PA : robot->true_pose(seconds) * X_PA;
+  const RigidTransform believed = robot == nullptr ? X_PA : robot->believed_pose(seconds) * X_PA;
+  recording.believed_poses.push_back({stamp, name, believed});
+  recording.truth.antenna_poses.push_back({stamp, name, X_WA});
+  return X_WA;
+}
+
+void Simulation::update_antenna(const Update& update, Recording& recording) {
+  const AntennaSpec& antenna = antennas_[update.antenna];
+  const RigidTransform X_WA = place_antenna(antenna, update.stamp, recording);
+  const double range = perturbed_range(antenna.parameters, update.stamp, seed_);
+  index_.within(X_WA.translation, range, tags_in_range_);
+  for (const std::uint32_t slot : tags_in_range_) {
+    const std::string& id = tags_by_slot_[slot].spec.id;
+    const LinkGeometry link = link_between(X_WA.translation, index_.position(slot));
+    recording.reads.push_back(read_tag(antenna.parameters, id, link, update.stamp, seed_));
+    recording.truth.distances.push_back(
+        {update.stamp, antenna.parameters.name, id, link.distance_m});
+  }
+}
+
+}  // namespace tagfield

@@ -1,0 +1,107 @@
+/// @file
+/// The headless simulator: a clock with a fixed step, robots, antennas and tags.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "simulator/robot.h"
+#include "simulator/scenario.h"
+#include "tagfield/link/tag_index.h"
+#include "tagfield/report/truth.h"
+
+namespace tagfield {
+
+/// What a run yields, in order of time.
+struct Recording {
+  std::vector<TagRead> reads;
+  std::vector<AntennaPose> believed_poses;  ///< A fixed antenna has one row.
+  Truth truth;
+};
+
+/// Runs a scenario step by step. Tags and antennas can be added and removed between any two steps.
+/// The same scenario and seed give the same recording.
+class Simulation {
+ public:
+  /// Throws Error on a scenario that can't be simulated: an ID used twice, an unknown robot, a
+  /// parameter out of range.
+  Simulation(const Scenario& scenario, std::uint64_t seed);
+
+  /// Goes on by one time step and appends to `recording` what came of it. Reads are stamped with
+  /// the time of their antenna's update, wherever in the step that falls.
+  void step(Recording& recording);
+
+  /// Time that the next step begins at.
+  [[nodiscard]] Time now() const { return now_; }
+  /// Whether the scenario's duration is over, or all robots have arrived.
+  [[nodiscard]] bool finished() const;
+  /// Share done, 0 to 1: of the duration where it is set, else of the robots' ways.
+  [[nodiscard]] double progress() const;
+  /// Way driven by all robots [m].
+  [[nodiscard]] double travelled_m() const;
+
+  /// Adds a tag now (its `appears` does not matter). Throws Error if the ID is present, or its
+  /// robot unknown.
+  void add_tag(const TagSpec& tag);
+  /// Throws Error if there is no such tag.
+  void remove_tag(const std::string& id);
+  /// Adds an antenna, to be heard from its first update from now on. Throws Error if the name is
+  /// present, its robot unknown, or a parameter out of range.
+  void add_antenna(const AntennaSpec& antenna);
+  /// Throws Error if there is no such antenna.
+  void remove_antenna(const std::string& name);
+
+ private:
+  struct PlacedTag {
+    TagSpec spec;
+    std::uint32_t slot = 0;
+  };
+  struct Update {
+    Time stamp;
+    std::size_t antenna = 0;
+  };
+
+  void step_robots();
+  void plan_appearances(const std::vector<TagSpec>& tags);
+  [[nodiscard]] std::vector<Update> updates_in_step() const;
+  void handle_events(Time until);
+  void record_new_tags(Recording& recording);
+  void move_tags(Time stamp, Recording& recording);
+  void update_antenna(const Update& update, Recording& recording);
+  /// True pose of the antenna, recorded with the believed one.
+  RigidTransform place_antenna(const AntennaSpec& antenna, Time stamp, Recording& recording);
+  void record_robots(Time stamp, Recording& recording);
+  [[nodiscard]] const Robot* robot_named(const std::string& name) const;
+  [[nodiscard]] Eigen::Vector3d tag_position(const TagSpec& tag, Time stamp) const;
+  [[nodiscard]] double seconds_into_step(Time stamp) const;
+  void require_robot(const std::string& name, const Location& location) const;
+  std::uint32_t free_slot();
+
+  std::uint64_t seed_;
+  Duration time_step_;
+  std::optional<Time> end_;
+  double way_to_go_m_ = 0.0;
+  Time now_{};         ///< End of the last step.
+  Time step_begin_{};  ///< Beginning of the last step.
+  std::vector<Robot> robots_;
+  std::vector<AntennaSpec> antennas_;
+  std::vector<std::string> recorded_fixed_;  ///< Fixed antennas whose pose is recorded.
+  TagIndex index_;
+  std::vector<PlacedTag> tags_by_slot_;
+  std::vector<std::uint32_t> free_slots_;
+  std::unordered_map<std::string, std::uint32_t> slots_;
+  std::vector<std::uint32_t> moving_slots_;  ///< Rising.
+  std::vector<std::uint32_t> new_slots_;     ///< Tags at rest whose place is not recorded yet.
+  std::vector<TagSpec> to_appear_;           ///< Latest first.
+  std::vector<std::pair<Time, std::string>> to_disappear_;  ///< Latest first.
+  std::vector<std::uint32_t> tags_in_range_;                ///< Kept to save allocations.
+  Time moved_to_ = Time::min();
+};
+
+/// Length of the robot's path over its waypoints, corners not rounded [m].
+double planned_length(const RobotSpec& robot);
+
+}  // namespace tagfield

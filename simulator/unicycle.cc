@@ -1,0 +1,28 @@
+#include "simulator/unicycle.h"
+
+#include <cmath>
+
+namespace tagfield {
+
+BodyVelocity body_velocity(const DriveGeometry& drive, const WheelSpeeds& wheels) {
+  return {drive.wheel_radius_m * (wheels.right + wheels.left) / 2.0,
+          drive.wheel_radius_m * (wheels.right - wheels.left) / drive.track_m};
+}
+
+WheelSpeeds wheel_speeds(const DriveGeometry& drive, const BodyVelocity& velocity) {
+  const double half_difference = velocity.turn * drive.track_m / 2.0;
+  return {(velocity.forward - half_difference) / drive.wheel_radius_m,
+          (velocity.forward + half_difference) / drive.wheel_radius_m};
+}
+
+PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double seconds) {
+  const double turned = velocity.turn * seconds;
+  // Chord of the arc: length v·t·sin(θ/2)/(θ/2), along the mean heading.
+  const double half = turned / 2.0;
+  const double shortening = std::abs(half) < 1e-6 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  const double chord = velocity.forward * seconds * shortening;
+  return {pose.x + chord * std::cos(pose.yaw + half), pose.y + chord * std::sin(pose.yaw + half),
+          pose.yaw + turned};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,48 @@
+/// @file
+/// Kinematics of a skid-steered robot: the paper's eqs. (6)–(8).
+#pragma once
+
+#include "tagfield/poses/rigid_transform.h"
+
+namespace tagfield {
+
+/// The robot's pose in the floor plane: q = [X, Y, Θ]ᵀ of eq. (6).
+struct PlanarPose {
+  double x = 0.0;    ///< [m, world]
+  double y = 0.0;    ///< [m, world]
+  double yaw = 0.0;  ///< [rad], not wrapped.
+};
+
+/// Angular velocities of the left and right wheels, ω_L and ω_R [rad/s].
+struct WheelSpeeds {
+  double left = 0.0;
+  double right = 0.0;
+};
+
+/// Velocities of the body [m/s, rad/s].
+struct BodyVelocity {
+  double forward = 0.0;
+  double turn = 0.0;
+};
+
+/// Wheels of the robot; the defaults are a Pioneer P3-AT's.
+struct DriveGeometry {
+  double wheel_radius_m = 0.111;
+  double track_m = 0.4;  ///< d: between the centres of the left and right wheels.
+};
+
+/// Eqs. (7) and (8): v = r(ω_R + ω_L)/2, ω = r(ω_R − ω_L)/d.
+BodyVelocity body_velocity(const DriveGeometry& drive, const WheelSpeeds& wheels);
+
+/// Wheel speeds that give `velocity`: the inverse of body_velocity.
+WheelSpeeds wheel_speeds(const DriveGeometry& drive, const BodyVelocity& velocity);
+
+/// Eq. (6) integrated over `seconds` of constant wheel speeds: an arc, exactly.
+PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double seconds);
+
+/// The pose in the world, on the floor.
+inline RigidTransform to_transform(const PlanarPose& pose) {
+  return from_planar(pose.x, pose.y, pose.yaw);
+}
+
+}  // namespace tagfield

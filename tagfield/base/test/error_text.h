@@ -1,0 +1,27 @@
+/// @file
+/// What an Error said, for tests of messages.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+
+/// The message of the Error that `body` throws; "(no error)" where it throws none.
+template <class Body>
+std::string error_of(const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+inline bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+}  // namespace tagfield

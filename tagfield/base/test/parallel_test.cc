@@ -1,0 +1,87 @@
+#include "tagfield/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tagfield {
+namespace {
+
+std::string thrown_by(std::size_t count, int threads,
+                      const std::function<void(std::size_t)>& body) {
+  try {
+    parallel_for(count, threads, body);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+class ParallelFor : public testing::TestWithParam<int> {};
+
+TEST_P(ParallelFor, CallsEachIndexOnce) {
+  for (const std::size_t count : {0u, 1u, 2u, 7u, 1000u}) {
+    std::vector<std::atomic<int>> calls(count);
+    parallel_for(count, GetParam(), [&](std::size_t i) { ++calls[i]; });
+    EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& n) { return n == 1; }));
+  }
+}
+
+TEST_P(ParallelFor, GivesWhatAPlainLoopGives) {
+  std::vector<std::size_t> squares(500);
+  parallel_for(squares.size(), GetParam(), [&](std::size_t i) { squares[i] = i * i; });
+  // Sum of squares below n: (n-1)n(2n-1)/6.
+  EXPECT_EQ(std::accumulate(squares.begin(), squares.end(), std::size_t{0}),
+            std::size_t{499} * 500 * 999 / 6);
+}
+
+TEST_P(ParallelFor, PassesOnTheLowestIndexThatThrew) {
+  const auto threads = static_cast<std::size_t>(std::max(GetParam(), 1));
+  std::atomic<std::size_t> begun{0};
+  // All wait for one another, so that every index throws.
+  const auto body = [&](std::size_t i) {
+    ++begun;
+    while (begun < threads) std::this_thread::yield();
+    throw std::runtime_error(std::to_string(i));
+  };
+  EXPECT_EQ(thrown_by(threads, GetParam(), body), "0");
+}
+
+TEST_P(ParallelFor, StopsAfterAnException) {
+  std::atomic<std::size_t> calls{0};
+  const auto body = [&](std::size_t i) {
+    ++calls;
+    if (i == 3) throw std::runtime_error("three");
+    // Those after it wait until it has been begun.
+    while (i > 3 && calls < 4) std::this_thread::yield();
+  };
+  EXPECT_EQ(thrown_by(10'000'000, GetParam(), body), "three");
+  EXPECT_LT(calls, 10'000'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(-1, 0, 1, 2, 3, 5, 8));
+
+TEST(ParallelForOnOneThread, RunsInOrderAndStopsAtOnce) {
+  std::vector<std::size_t> seen;
+  const auto body = [&](std::size_t i) {
+    seen.push_back(i);
+    if (i == 3) throw std::runtime_error("three");
+  };
+  EXPECT_EQ(thrown_by(1000, 1, body), "three");
+  EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3}));
+}
+
+TEST(ParallelForOnOneThread, StaysOnTheCallersThread) {
+  std::thread::id where;
+  parallel_for(1, 8, [&](std::size_t) { where = std::this_thread::get_id(); });
+  EXPECT_EQ(where, std::this_thread::get_id());
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,69 @@
+#include "tagfield/channel/paper_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+void require(bool holds, const char* parameter, const char* expected, double value) {
+  if (!holds) throw Error(fmt::format("{} must be {}, is {}", parameter, expected, value));
+}
+
+void require_positive(const char* parameter, double value) {
+  require(value > 0.0 && std::isfinite(value), parameter, "a finite number greater than 0", value);
+}
+
+void require_not_negative(const char* parameter, double value) {
+  require(value >= 0.0 && std::isfinite(value), parameter, "a finite number, 0 or more", value);
+}
+
+}  // namespace
+
+void check(const PaperModel& model) {
+  require_positive("frequency_hz", model.frequency_hz);
+  require_positive("wavelength", wavelength(model.frequency_hz));
+  require(std::isfinite(model.phase_offset_rad), "phase_offset_rad", "finite",
+          model.phase_offset_rad);
+  require_not_negative("phase_noise_rad", model.phase_noise_rad);
+  require_not_negative("rssi_noise", model.rssi_noise);
+  require_positive("communication_gain", model.communication_gain);
+}
+
+double paper_phase(const PaperModel& model, double distance_m, double noise_rad) {
+  // The phase turns once each half wavelength; reduced before it is scaled, a long distance neither
+  // overflows nor loses its last digits.
+  const double half_wavelength = 0.5 * wavelength(model.frequency_hz);
+  const double turn = std::fmod(distance_m, half_wavelength) / half_wavelength;
+  return wrap_to_two_pi(wrap_to_two_pi(model.phase_offset_rad) + kTwoPi * turn +
+                        wrap_to_two_pi(noise_rad));
+}
+
+double paper_rssi_dbm(const PaperModel& model, double distance_m, double noise) {
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const double amplitude =
+      model.communication_gain * (wavelength(model.frequency_hz) / (4.0 * kPi * distance_m));
+  // Each bounded before they are added: two infinities could cancel to a NaN.
+  const double sum = std::min(amplitude, kMost) + std::clamp(noise, -kMost, kMost);
+  const double decibels = 40.0 * std::log10(std::clamp(std::abs(sum), kLeast, kMost));
+  return std::round(decibels) + 0.0;  // Not -0.
+}
+
+Signal paper_signal(const PaperModel& model, const LinkGeometry& link, RandomStream& noise,
+                    RandomStream& optional_noise) {
+  const auto [n_phase, n_rssi] = standard_normal_pair(noise);
+  // Wrapped apart, so that a huge optional draw does not swallow the other noise.
+  const double phase_noise =
+      model.phase_noise_rad * n_phase + wrap_to_two_pi(draw(model.optional, optional_noise));
+  return {paper_phase(model, link.distance_m, phase_noise),
+          paper_rssi_dbm(model, link.distance_m, model.rssi_noise * n_rssi)};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,18 @@
+/// @file
+/// Geometry of one antenna-tag link.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tagfield {
+
+/// What a channel model needs to know of where the two ends are.
+struct LinkGeometry {
+  double distance_m = 0.0;  ///< D of the paper's equations, greater than 0.
+};
+
+/// Link between an antenna at `p_WA` and a tag at `p_WT` [m]. Ends that coincide count as 1 µm
+/// apart, so that no model divides by zero.
+LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT);
+
+}  // namespace tagfield

@@ -1,0 +1,56 @@
+/// @file
+/// Which tags are near an antenna, at a cost that does not grow with the tags elsewhere.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace tagfield {
+
+/// Points under slot numbers, in square columns of the world's x, y plane: halls are wider than
+/// they are high.
+class TagIndex {
+ public:
+  /// `cell_m` > 0 is the columns' edge; half of the antennas' range serves well.
+  explicit TagIndex(double cell_m);
+
+  /// Puts slot `slot` at `p_WT` [m], wherever it was before. Throws Error if not finite.
+  void place(std::uint32_t slot, const Eigen::Vector3d& p_WT);
+  /// Takes the slot out; one that is not in is left alone.
+  void remove(std::uint32_t slot);
+  /// Position of a slot that is in.
+  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
+    return positions_[slot];
+  }
+
+  /// Slots no further than `radius` [m] from `center`, rising, into `slots` (emptied first).
+  /// None where `center` is not finite or `radius` negative or NaN.
+  void within(const Eigen::Vector3d& center, double radius,
+              std::vector<std::uint32_t>& slots) const;
+
+ private:
+  struct Cell {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    bool operator==(const Cell& other) const { return x == other.x && y == other.y; }
+  };
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const;
+  };
+  using Columns = std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash>;
+
+  [[nodiscard]] Cell cell_of(double x, double y) const;
+  void collect(const std::vector<std::uint32_t>& column, const Eigen::Vector3d& center,
+               double radius, std::vector<std::uint32_t>& slots) const;
+  void within_all(const Eigen::Vector3d& center, double radius,
+                  std::vector<std::uint32_t>& slots) const;
+
+  double cell_m_;
+  Columns columns_;
+  std::vector<Eigen::Vector3d> positions_;
+  std::vector<bool> present_;
+};
+
+}  // namespace tagfield

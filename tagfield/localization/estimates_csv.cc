@@ -1,0 +1,26 @@
+#include "tagfield/localization/estimates_csv.h"
+
+#include <fmt/format.h>
+
+#include "tagfield/stream/csv.h"
+
+namespace tagfield {
+
+std::string estimates_to_csv(const std::vector<TagEstimate>& estimates) {
+  std::string text = "tag,verdict,candidate,x_m,y_m,z_m,rms_m,expected_error_m,reads,reason\n";
+  for (const TagEstimate& estimate : estimates) {
+    const std::string begin =
+        fmt::format("{},{}", csv_field(estimate.tag), to_string(estimate.verdict));
+    const std::string end = fmt::format("{},{}", estimate.reads, csv_field(estimate.reason));
+    if (estimate.candidates.empty()) text += fmt::format("{},,,,,,,{}\n", begin, end);
+    for (std::size_t i = 0; i < estimate.candidates.size(); ++i) {
+      const Candidate& candidate = estimate.candidates[i];
+      const Eigen::Vector3d& p = candidate.p_WT;
+      text += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n", begin, i + 1, p.x(),
+                          p.y(), p.z(), candidate.rms_m, candidate.expected_error_m, end);
+    }
+  }
+  return text;
+}
+
+}  // namespace tagfield

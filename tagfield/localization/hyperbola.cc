@@ -1,0 +1,255 @@
+#include "tagfield/localization/hyperbola.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/localization/residuals.h"
+#include "tagfield/localization/seeds.h"
+#include "tagfield/localization/segment_fit.h"
+#include "tagfield/localization/unwrap.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kFewestReads = 8;
+/// Reads beyond one for each unknown; a fit to fewer follows the noise and seems better than it is.
+constexpr std::size_t kFewestSpare = 16;
+constexpr Eigen::Index kThinReads = 120;  ///< Reads by which intersections are ranked.
+constexpr std::size_t kStarts = 12;       ///< Intersections to start a fit from.
+constexpr double kApart = 0.1;            ///< Starts nearer than this are one [m].
+constexpr double kSame = 0.03;            ///< Minima nearer than this are one [m].
+constexpr int kSlipRounds = 3;
+
+void require_positive(double value, const char* name) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
+}
+
+void check(const HyperbolaOptions& options, double tag_height) {
+  require_positive(options.stride_m, "stride_m");
+  require_positive(options.max_step, "max_step");
+  require_positive(options.max_expected_error_m, "max_expected_error_m");
+  require_positive(options.max_rms_m, "max_rms_m");
+  if (options.max_step > 1.0) throw Error("max_step must be at most 1");
+  if (options.max_hyperbolae < 2) throw Error("max_hyperbolae must be at least 2");
+  if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
+}
+
+/// What one tag's estimate is made of.
+struct Problem {
+  std::vector<PhaseSegment> segments;
+  FitData data;
+};
+
+/// Largest extent of any of the antennas, in all and seen from above [m].
+struct Extent {
+  double whole = 0.0;
+  double level = 0.0;
+};
+
+Extent extent_in_space(const std::vector<PhaseSample>& samples) {
+  if (samples.empty()) return {};
+  Eigen::Vector3d low = samples.front().p_WA;
+  Eigen::Vector3d high = low;
+  for (const PhaseSample& sample : samples) {
+    low = low.cwiseMin(sample.p_WA);
+    high = high.cwiseMax(sample.p_WA);
+  }
+  return {(high - low).norm(), (high - low).head<2>().norm()};
+}
+
+Extent largest_extent(const SamplesOfTag& samples) {
+  Extent largest;
+  for (const auto& [antenna, series] : samples) {
+    const Extent extent = extent_in_space(series);
+    largest.whole = std::max(largest.whole, extent.whole);
+    largest.level = std::max(largest.level, extent.level);
+  }
+  return largest;
+}
+
+std::size_t count_reads(const SamplesOfTag& samples) {
+  std::size_t count = 0;
+  for (const auto& [antenna, series] : samples) count += series.size();
+  return count;
+}
+
+/// Why these samples can't locate anything; empty if they might.
+std::string hopeless(const SamplesOfTag& samples) {
+  const std::size_t reads = count_reads(samples);
+  const Extent extent = largest_extent(samples);
+  if (reads == 0) return "no reads";
+  if (reads < kFewestReads) {
+    return fmt::format("only {} reads, at least {} are needed", reads, kFewestReads);
+  }
+  if (extent.whole < kStillExtent) {
+    return fmt::format("the antenna moved only {:.2f} m", extent.whole);
+  }
+  if (extent.level < kStillExtent) {
+    return fmt::format(
+        "geometry too weak: the antenna moved {:.2f} m, but only {:.2f} m of it sideways, so the "
+        "tag "
+        "may be anywhere around it",
+        extent.whole, extent.level);
+  }
+  return "";
+}
+
+Problem pose_problem(const SamplesOfTag& samples, double height, double max_step) {
+  Problem problem;
+  for (const auto& [antenna, series] : samples) {
+    if (extent_of(series) < kStillExtent) continue;
+    for (PhaseSegment& segment : unwrap(series, max_step)) {
+      if (segment.samples.size() >= 2) problem.segments.push_back(std::move(segment));
+    }
+  }
+  problem.data = make_fit_data(problem.segments, height);
+  return problem;
+}
+
+/// Why the phase that could be followed can't locate a tag; empty if it might.
+std::string too_few(const Problem& problem) {
+  const auto reads = static_cast<std::size_t>(problem.data.distance.size());
+  if (reads < kFewestReads) {
+    return "the antenna moved too far between reads for the phase to be followed";
+  }
+  // Unknown are the place and an offset for each segment.
+  if (reads < problem.segments.size() + 2 + kFewestSpare) {
+    return fmt::format("too few reads: the phase could be followed over {} in {} segments", reads,
+                       problem.segments.size());
+  }
+  return "";
+}
+
+std::vector<Eigen::Vector2d> refined(const FitData& data,
+                                     const std::vector<Eigen::Vector2d>& starts) {
+  std::vector<Eigen::Vector2d> minima;
+  minima.reserve(starts.size());
+  for (const Eigen::Vector2d& start : starts) minima.push_back(refine(data, start));
+  return minima;
+}
+
+/// The best place so far and its mirror image, with the other starts.
+std::vector<Eigen::Vector2d> with_mirror_images(const FitData& data,
+                                                std::vector<Eigen::Vector2d> places) {
+  const std::size_t count = std::min<std::size_t>(places.size(), 3);
+  for (std::size_t i = 0; i < count; ++i) places.push_back(mirror_image(data, places[i]));
+  return places;
+}
+
+/// Distinct local minima of E over all reads, best first: from the intersections on a part of the
+/// reads, then on all. Corrects the cycle slips that the best one shows.
+std::vector<Eigen::Vector2d> find_minima(Problem& problem, const std::vector<Guess>& ranked) {
+  const FitData thin = thinned(problem.data, kThinReads);
+  std::vector<Eigen::Vector2d> places = refined(thin, best_distinct(ranked, kStarts, kApart));
+  for (int round = 0; round < kSlipRounds; ++round) {
+    places = best_distinct(rank(problem.data, places), kStarts, kSame);
+    if (places.empty()) return places;
+    places = refined(problem.data, with_mirror_images(problem.data, places));
+    places = best_distinct(rank(problem.data, places), kStarts, kSame);
+    if (places.empty() || correct_slips(problem.data, places.front()) == 0) break;
+  }
+  return best_distinct(rank(problem.data, refined(problem.data, places)), kStarts, kSame);
+}
+
+/// Of the minima those that can't be told from the first.
+std::vector<Eigen::Vector2d> indistinct(const FitData& data,
+                                        const std::vector<Eigen::Vector2d>& minima) {
+  const Eigen::ArrayXd best = residuals(data, minima.front());
+  std::vector<Eigen::Vector2d> kept{minima.front()};
+  for (std::size_t i = 1; i < minima.size(); ++i) {
+    if (!tells_apart(data, best, residuals(data, minima[i]))) kept.push_back(minima[i]);
+  }
+  return kept;
+}
+
+/// The best intersection around each minimum, for those who want the method without its last step.
+std::vector<Eigen::Vector2d> unrefined(const FitData& data, const std::vector<Guess>& ranked,
+                                       const std::vector<Eigen::Vector2d>& minima) {
+  std::vector<Eigen::Vector2d> places;
+  const std::vector<Eigen::Vector2d> best = best_distinct(ranked, 60, 0.0);
+  const std::vector<Guess> guesses = rank(data, best);
+  for (const Eigen::Vector2d& minimum : minima) {
+    const auto nearest = [&](const Guess& guess) {
+      return std::none_of(minima.begin(), minima.end(), [&](const Eigen::Vector2d& other) {
+        return (guess.p - other).norm() < (guess.p - minimum).norm();
+      });
+    };
+    const auto found = std::find_if(guesses.begin(), guesses.end(), nearest);
+    places.push_back(found == guesses.end() ? minimum : found->p);
+  }
+  return places;
+}
+
+Candidate candidate_at(const FitData& data, const Eigen::Vector2d& p, double height) {
+  const auto reads = static_cast<double>(data.distance.size());
+  return {
+      {p.x(), p.y(), height}, std::sqrt(sum_of_squares(data, p) / reads), expected_error(data, p)};
+}
+
+/// Why the best candidate is no answer; empty if it is.
+std::string doubt(const Candidate& best, const HyperbolaOptions& options) {
+  if (best.rms_m > options.max_rms_m) {
+    return fmt::format("the phase does not fit a tag at rest: misfit {:.3f} m, limit {:.3f} m",
+                       best.rms_m, options.max_rms_m);
+  }
+  if (best.expected_error_m > options.max_expected_error_m) {
+    return best.expected_error_m > 100.0
+               ? "geometry too weak: the tag may be anywhere"
+               : fmt::format("geometry too weak: expected error {:.2f} m, limit {:.2f} m",
+                             best.expected_error_m, options.max_expected_error_m);
+  }
+  return "";
+}
+
+void judge(const HyperbolaOptions& options, TagEstimate& estimate) {
+  estimate.reason = doubt(estimate.candidates.front(), options);
+  if (!estimate.reason.empty()) {
+    estimate.candidates.clear();
+  } else if (estimate.candidates.size() == 1) {
+    estimate.verdict = Verdict::kLocated;
+  } else {
+    estimate.verdict = Verdict::kAmbiguous;
+    estimate.reason = fmt::format(
+        "{} places explain the phase equally well; a turn of the path would tell them apart",
+        estimate.candidates.size());
+  }
+}
+
+}  // namespace
+
+double extent_of(const std::vector<PhaseSample>& samples) { return extent_in_space(samples).whole; }
+
+TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
+                                 double tag_height, const HyperbolaOptions& options) {
+  check(options, tag_height);
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reads = count_reads(samples);
+  estimate.reason = hopeless(samples);
+  if (!estimate.reason.empty()) return estimate;
+  Problem problem = pose_problem(samples, tag_height, options.max_step);
+  estimate.reads = static_cast<std::size_t>(problem.data.distance.size());
+  estimate.reason = too_few(problem);
+  if (!estimate.reason.empty()) return estimate;
+  const auto conics = make_conics(problem.segments, options.stride_m, options.max_hyperbolae);
+  const std::vector<Guess> ranked =
+      rank(thinned(problem.data, kThinReads), intersect_all(conics, tag_height));
+  std::vector<Eigen::Vector2d> places = find_minima(problem, ranked);
+  if (places.empty()) {
+    estimate.reason = "no two hyperbolae meet";
+    return estimate;
+  }
+  places = indistinct(problem.data, places);
+  if (!options.refine) places = unrefined(problem.data, ranked, places);
+  for (const Eigen::Vector2d& p : places) {
+    estimate.candidates.push_back(candidate_at(problem.data, p, tag_height));
+  }
+  judge(options, estimate);
+  return estimate;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,99 @@
+#include "tagfield/localization/unwrap.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "made_reads.h"
+
+namespace tagfield {
+namespace {
+
+using namespace made;
+
+const Noise kNoiseless{0.0, 0.0, 0.0, 0.0, 0.0};
+
+/// Every segment's distances against those of the geometry, up to the first.
+double worst_departure(const std::vector<PhaseSegment>& segments, const Eigen::Vector3d& p_WT) {
+  double worst = 0.0;
+  for (const PhaseSegment& segment : segments) {
+    const double first = (p_WT - segment.samples[0].p_WA).norm();
+    for (std::size_t i = 0; i < segment.samples.size(); ++i) {
+      const double change = (p_WT - segment.samples[i].p_WA).norm() - first;
+      worst = std::max(worst, std::abs(segment.distance_m[i] - change));
+    }
+  }
+  return worst;
+}
+
+TEST(Unwrap, FollowsTheDistanceOverMetres) {
+  Rng rng(1);
+  const Path path = s_curve(20.0, 0.02);
+  const Eigen::Vector3d p_WT(4.0, 2.0, 0.9);
+  ReaderSetup setup;
+  setup.range_m = 100.0;
+  const auto samples = read_along(path, path, p_WT, kNoiseless, rng, setup);
+  const auto segments = unwrap(samples, 0.8);
+  ASSERT_EQ(segments.size(), 1u);
+  EXPECT_EQ(segments[0].samples.size(), path.size());
+  EXPECT_LT(worst_departure(segments, p_WT), 1e-6);
+  const auto [low, high] =
+      std::minmax_element(segments[0].distance_m.begin(), segments[0].distance_m.end());
+  EXPECT_GT(*high - *low, 8.0);  // many cycles
+}
+
+TEST(Unwrap, BreaksJustWhereTheTravelIsTooLong) {
+  rc::check([] {
+    Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+    const double step = uniform(rng, 0.005, 0.05);
+    const Path path = s_curve(6.0, step);
+    const Eigen::Vector3d p_WT(uniform(rng, -1.0, 5.0), uniform(rng, -4.0, 4.0), 1.0);
+    Noise noise = kNoiseless;
+    noise.lost = uniform(rng, 0.0, 0.7);
+    const auto samples = read_along(path, path, p_WT, noise, rng);
+    if (samples.empty()) return;
+    const auto segments = unwrap(samples, 0.8);
+    // The second differences of a noiseless phase leave the limit at max_step: λ/4 · 0.8.
+    const double limit = 0.8 * wavelength(865.7e6) / 4.0;
+    std::size_t breaks = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      if ((samples[i].p_WA - samples[i - 1].p_WA).norm() > limit) ++breaks;
+    }
+    RC_ASSERT(segments.size() == breaks + 1);
+    RC_ASSERT(worst_departure(segments, p_WT) < 1e-6);
+  });
+}
+
+TEST(Unwrap, ANewCarrierStartsANewSegment) {
+  Rng rng(2);
+  const Path path = straight(1.0, 0.02);
+  auto samples = read_along(path, {0.0, 2.0, 0.4}, kNoiseless, rng);
+  for (std::size_t i = 20; i < samples.size(); ++i) samples[i].frequency_hz = 866.3e6;
+  const auto segments = unwrap(samples, 0.8);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0].samples.size(), 20u);
+}
+
+TEST(Unwrap, NothingGivesNothing) { EXPECT_TRUE(unwrap({}, 0.8).empty()); }
+
+TEST(PhaseNoise, IsEstimatedThroughMotion) {
+  for (const double sigma : {0.05, 0.1, 0.3, 0.5}) {
+    Rng rng(3);
+    const Path path = s_curve(22.0, 0.02);
+    Noise noise;
+    noise.phase_rad = sigma;
+    const auto samples = read_along(path, {4.0, 2.0, 0.4}, noise, rng);
+    EXPECT_NEAR(phase_noise(samples), sigma, 0.15 * sigma) << sigma;
+  }
+}
+
+TEST(StepLimit, ShrinksWithTheNoiseButNotToNothing) {
+  EXPECT_DOUBLE_EQ(step_limit(0.0, 0.8), 0.8);
+  EXPECT_NEAR(step_limit(0.3, 0.8), 1.0 - 2.5 * std::sqrt(2.0) * 0.3 / kPi, 1e-12);
+  EXPECT_DOUBLE_EQ(step_limit(3.0, 0.8), 0.5);
+  EXPECT_DOUBLE_EQ(step_limit(3.0, 0.2), 0.2);
+}
+
+}  // namespace
+}  // namespace tagfield

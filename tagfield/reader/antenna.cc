@@ -1,0 +1,67 @@
+#include "tagfield/reader/antenna.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kMostRate = 1e6;
+
+std::uint64_t stamp_key(Time stamp) {
+  return static_cast<std::uint64_t>(stamp.time_since_epoch().count());
+}
+
+}  // namespace
+
+void check(const AntennaParameters& antenna) {
+  check(antenna.model);
+  if (!(antenna.rate_hz > 0.0 && antenna.rate_hz <= kMostRate)) {
+    throw Error(fmt::format("rate_hz must be greater than 0 and at most {}, is {}", kMostRate,
+                            antenna.rate_hz));
+  }
+  if (!(antenna.range_m > 0.0 && std::isfinite(antenna.range_m))) {
+    throw Error(
+        fmt::format("range_m must be a finite number greater than 0, is {}", antenna.range_m));
+  }
+  if (!(antenna.range_sigma >= 0.0 && std::isfinite(antenna.range_sigma))) {
+    throw Error(
+        fmt::format("range_sigma must be a finite number, 0 or more, is {}", antenna.range_sigma));
+  }
+}
+
+Time update_stamp(const AntennaParameters& antenna, std::int64_t number) {
+  return time_from_seconds(static_cast<double>(number) / antenna.rate_hz);
+}
+
+std::int64_t first_update_at(const AntennaParameters& antenna, Time time) {
+  auto number = static_cast<std::int64_t>(std::floor(to_seconds(time) * antenna.rate_hz)) - 1;
+  while (update_stamp(antenna, number) < time) ++number;
+  return number;
+}
+
+double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64_t seed) {
+  RandomStream stream(seed, Purpose::kReadRange, stream_key(antenna.name), 0, stamp_key(stamp));
+  return antenna.range_m * std::abs(1.0 + antenna.range_sigma * standard_normal(stream));
+}
+
+TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,
+                 Time stamp, std::uint64_t seed) {
+  const std::uint64_t antenna_key = stream_key(antenna.name);
+  const std::uint64_t tag_key = stream_key(tag);
+  RandomStream noise(seed, Purpose::kReadNoise, antenna_key, tag_key, stamp_key(stamp));
+  RandomStream optional(seed, Purpose::kOptionalNoise, antenna_key, tag_key, stamp_key(stamp));
+  const Signal signal = paper_signal(antenna.model, link, noise, optional);
+  return {stamp,
+          antenna.reader,
+          antenna.name,
+          tag,
+          antenna.model.frequency_hz,
+          signal.phase_rad,
+          signal.rssi_dbm};
+}
+
+}  // namespace tagfield

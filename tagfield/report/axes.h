@@ -1,0 +1,56 @@
+/// @file
+/// Axes of a figure: from data to places in the drawing, with grid, tick labels and titles.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/report/svg.h"
+
+namespace tagfield {
+
+/// One axis: data from `low` to `high` lie between `from` and `to` in the drawing.
+struct Scale {
+  double low = 0.0;
+  double high = 1.0;
+  double from = 0.0;
+  double to = 1.0;
+  std::vector<double> ticks;
+  bool logarithmic = false;  ///< Then 0 < low; what is below is taken as `low`.
+};
+
+struct Axes {
+  Scale x;
+  Scale y;  ///< `from` is the bottom, so it is the greater.
+};
+
+double place_on(const Scale& scale, double value);
+Place place_in(const Axes& axes, double x, double y);
+
+/// An axis that covers low … high with round ends and about `count` ticks.
+Scale round_scale(double low, double high, int count);
+/// An axis from exactly low to high, low < high, with about `count` ticks.
+Scale tight_scale(double low, double high, int count);
+/// Like round_scale, but logarithmic, with 0 < low, ends at ticks of 1, 2 or 5 times powers of ten.
+Scale logarithmic_scale(double low, double high);
+
+/// Draws grid, tick labels, and titles (with units): x below the right end, y above the left.
+void draw_axes(Svg& svg, const Axes& axes, const std::string& x_title, const std::string& y_title);
+/// Only the vertical lines of the grid, with labels and title: for rows with names.
+void draw_x_axis(Svg& svg, const Axes& axes, const std::string& title);
+
+/// An entry of a legend.
+enum class Symbol { kLine, kDiamond, kCross, kDot, kRing, kSquare };
+struct LegendEntry {
+  Symbol symbol = Symbol::kLine;
+  std::string css_class;
+  std::string text;
+};
+
+/// Draws the entries from the top left on, in rows that fit the width; returns the height used.
+double draw_legend(Svg& svg, const std::vector<LegendEntry>& entries);
+
+/// A horizontal bar of the colours from `low` to `high` [dBm], its top at `y`. Needs 44 of height.
+void draw_color_bar(Svg& svg, double y, double low, double high);
+
+}  // namespace tagfield

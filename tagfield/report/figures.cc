@@ -1,0 +1,39 @@
+#include "tagfield/report/figures.h"
+
+#include <Eigen/Geometry>
+
+namespace tagfield {
+namespace {
+
+constexpr double kVerticalMotion = 0.05;  ///< [m]
+constexpr std::size_t kFewErrors = 20;
+
+bool moves_vertically(const AntennaTrack* track) {
+  if (track == nullptr) return false;
+  Eigen::AlignedBox1d heights;
+  for (const StampedPose& pose : track->best()) {
+    heights.extend(pose.X_WB.translation.tail<1>());
+  }
+  return heights.sizes().x() > kVerticalMotion;
+}
+
+}  // namespace
+
+std::vector<Figure> all_figures(const RunFiles& run) {
+  std::vector<Figure> figures;
+  figures.push_back(map_figure(run));
+  figures.push_back(error_figure(run));
+  const auto errors = error_statistics(run.summary);
+  const bool several = run.summary.seeds.size() > 1 && errors && errors->count > 1;
+  if (several || (errors && errors->count >= kFewErrors)) {
+    figures.push_back(distribution_figure(run));
+  }
+  if (moves_vertically(busiest_track(run, true))) figures.push_back(height_figure(run));
+  figures.push_back(phase_figure(run));
+  figures.push_back(path_rssi_figure(run));
+  figures.push_back(fixed_rssi_figure(run));
+  if (figures.back().missing.empty()) figures.push_back(fixed_strip_figure(run));
+  return figures;
+}
+
+}  // namespace tagfield

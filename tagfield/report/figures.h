@@ -1,0 +1,59 @@
+/// @file
+/// The figures of the report, each in a source file of its own. All are 560 units wide.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/report/run_files.h"
+#include "tagfield/report/svg.h"
+
+namespace tagfield {
+
+/// A drawing with its words, or the word why there is none.
+struct Figure {
+  std::string name;     ///< Of the file, without ".svg"; also its anchor on the page.
+  std::string number;   ///< Of the paper's figure: "Fig. 9".
+  std::string title;    ///< A few words.
+  std::string caption;  ///< What is seen, plain text.
+  Svg svg;
+  std::string missing;  ///< Why it can't be drawn; "" where it is.
+};
+
+inline constexpr std::size_t kMostRows = 40;     ///< Tags shown one by one, with their names.
+inline constexpr std::size_t kMostMarks = 1500;  ///< Points in one figure.
+
+/// Fig. 9: path, true tags and estimates over the world from above.
+Figure map_figure(const RunFiles& run);
+
+/// Fig. 10: the error of each tag: bars for one seed, boxes for several, a histogram for many tags.
+Figure error_figure(const RunFiles& run);
+
+/// The share of errors up to each size, of all tags and seeds.
+Figure distribution_figure(const RunFiles& run);
+
+/// Fig. 11: height of the moving antenna over time.
+Figure height_figure(const RunFiles& run);
+
+/// Fig. 12: unwrapped phase distance of the tag with the most reads, and the true change.
+Figure phase_figure(const RunFiles& run);
+
+/// Fig. 13: RSSI of that tag along the path of the moving antenna.
+Figure path_rssi_figure(const RunFiles& run);
+
+/// Fig. 14: mean RSSI of all tags at the fixed antenna, from above.
+Figure fixed_rssi_figure(const RunFiles& run);
+
+/// With Fig. 14: every RSSI of each tag at the fixed antenna.
+Figure fixed_strip_figure(const RunFiles& run);
+
+/// All of them in the order of the page; those that make no sense for this run (such as a height
+/// that never changes) are left out, those that could be asked for say what is missing.
+std::vector<Figure> all_figures(const RunFiles& run);
+
+/// Every `step`-th, so that `count` things become at most `most` ≥ 1.
+inline std::size_t thinning(std::size_t count, std::size_t most) {
+  return count == 0 ? 1 : (count + most - 1) / most;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,30 @@
+/// @file
+/// RSSI of all tags at the fixed antenna, for the two figures that show it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/report/run_files.h"
+
+namespace tagfield {
+
+/// One tag at the fixed antenna.
+struct TagStrength {
+  std::string tag;
+  std::vector<double> rssi_dbm;         ///< In the order of time; never empty.
+  double mean_dbm = 0.0;                ///< Mean of the dBm values.
+  std::optional<Eigen::Vector3d> p_WT;  ///< True, else estimated.
+};
+
+/// In natural order of the tags.
+std::vector<TagStrength> strengths_at(const RunFiles& run, const AntennaTrack& track);
+
+/// Least and greatest of all values [dBm]; `strengths` must not be empty.
+std::pair<double, double> range_of(const std::vector<TagStrength>& strengths);
+
+/// The fixed antenna with the most reads, if it has any; else why not, in `missing`.
+const AntennaTrack* fixed_track(const RunFiles& run, std::string& missing);
+
+}  // namespace tagfield

@@ -1,0 +1,57 @@
+#include "tagfield/report/page.h"
+
+#include "tagfield/report/figures.h"
+#include "tagfield/report/page_text.h"
+#include "tagfield/report/run_files.h"
+#include "tagfield/report/style_sheet.h"
+#include "tagfield/report/tables.h"
+#include "tagfield/stream/files.h"
+
+namespace tagfield {
+namespace {
+
+/// Nothing may be fetched or run: only the page's own style counts.
+constexpr const char* kPolicy =
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+    "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n";
+
+std::string head(const Summary& summary) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
+         std::string(kPolicy) +
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
+         escaped(summary.scenario) + " – Tagfield report</title>\n<style>\n" + page_style() +
+         "</style>\n</head>\n";
+}
+
+std::string figures_html(const std::vector<Figure>& figures) {
+  std::string drawn;
+  std::string missing;
+  for (const Figure& figure : figures) {
+    (figure.missing.empty() ? drawn : missing) += figure_html(figure);
+  }
+  return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
+}
+
+std::string page_of(const Summary& summary, const std::vector<Figure>& figures) {
+  return head(summary) + "<body>\n" + page_header(summary) + "<main>\n" + key_numbers(summary) +
+         run_facts(summary) + "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" +
+         tag_table(summary) + "</main>\n" + page_footer() + "</body>\n</html>\n";
+}
+
+}  // namespace
+
+void write_report(const std::string& run_folder) {
+  const RunFiles run = read_run_files(run_folder);
+  const std::vector<Figure> figures = all_figures(run);
+  StagedFolder folder(run_folder);
+  for (const Figure& figure : figures) {
+    if (!figure.missing.empty()) continue;
+    folder.add("figures/" + figure.name + ".svg",
+               standalone_svg(figure.svg, figure.title, figure.caption));
+  }
+  folder.add("report.html", page_of(run.summary, figures));
+  folder.commit({"figures"});
+}
+
+}  // namespace tagfield

@@ -1,0 +1,180 @@
+#include "tagfield/report/page_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostWarnings = 50;
+constexpr std::size_t kMostSeeds = 6;
+
+std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>\n", escaped(text)); }
+
+std::string outcome_sentence(const Summary& summary) {
+  const std::size_t located = count(summary, Verdict::kLocated);
+  const std::size_t ambiguous = count(summary, Verdict::kAmbiguous);
+  const std::size_t lost = count(summary, Verdict::kNotLocated);
+  std::string text =
+      fmt::format("{} of {} located", grouped(located),
+                  counted(summary.tags.size(), summary.seeds.size() > 1 ? "outcome" : "tag"));
+  if (ambiguous > 0) text += fmt::format(", {} ambiguous", grouped(ambiguous));
+  if (lost > 0) text += fmt::format(", {} not located", grouped(lost));
+  const auto errors = error_statistics(summary);
+  if (!errors) return text + ". The true places are not known, so neither are the errors.";
+  return text + fmt::format(". The estimates are off by {} in the mean and by {} at most.",
+                            spoken_length(errors->mean), spoken_length(errors->max));
+}
+
+std::string warnings_note(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return "";
+  std::string html = "<div class=\"note\"><p><strong>" +
+                     std::string(warnings.size() == 1 ? "A warning" : "Warnings") +
+                     "</strong></p><ul>\n";
+  const std::size_t shown = std::min(warnings.size(), kMostWarnings);
+  for (std::size_t i = 0; i < shown; ++i) html += "<li>" + escaped(warnings[i]) + "</li>\n";
+  if (shown < warnings.size()) {
+    html += fmt::format("<li>and {} more in summary.json</li>\n", warnings.size() - shown);
+  }
+  return html + "</ul></div>\n";
+}
+
+std::string incomplete_note(const Summary& summary) {
+  if (summary.complete) return "";
+  return "<div class=\"note incomplete\"><p><strong>Incomplete run.</strong> It was interrupted;"
+         " everything below holds only for the part that was simulated.</p></div>\n";
+}
+
+std::string big(const std::string& name, const std::string& value, bool lead = false) {
+  return fmt::format("<div{}><dt>{}</dt><dd>{}</dd></div>\n", lead ? " class=\"lead\"" : "",
+                     escaped(name), escaped(value));
+}
+
+std::string fact(const std::string& name, const std::string& value) {
+  if (value.empty()) return "";
+  return "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
+}
+
+std::string spoken_method(const std::string& method) {
+  if (method == "hyperbola") return "hyperbolic intersections of the unwrapped phase (the paper's)";
+  return method;
+}
+
+std::string spoken_pose(const std::string& pose) {
+  if (pose == "true") return "the true antenna poses";
+  if (pose == "noisy") return "true poses with an error added";
+  if (pose == "odometry") return "wheel odometry";
+  if (pose == "given") return "as given with the reads";
+  return pose;
+}
+
+std::string spoken_seeds(const std::vector<std::uint64_t>& seeds) {
+  if (seeds.empty()) return "none: the reads came from outside";
+  const std::size_t shown = seeds.size() <= kMostSeeds ? seeds.size() : 1;
+  std::string text = fmt::format(
+      "{}", fmt::join(seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (shown < seeds.size()) text += fmt::format(" … {}", seeds.back());
+  return seeds.size() == 1 ? text : fmt::format("{} ({})", seeds.size(), text);
+}
+
+std::string spoken_duration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.{}f} s", seconds, seconds < 10.0 ? 2 : 1);
+  return fmt::format("{:.1f} min", seconds / 60.0);
+}
+
+}  // namespace
+
+std::string page_header(const Summary& summary) {
+  const std::string name = summary.scenario.empty() ? "A run" : summary.scenario;
+  std::string html = "<header>\n<p class=\"kind\">Tagfield report</p>\n<h1><bdi>" + escaped(name) +
+                     "</bdi></h1>\n";
+  if (!summary.description.empty()) {
+    html += "<p class=\"muted\">" + escaped(summary.description) + "</p>\n";
+  }
+  html += incomplete_note(summary);
+  html += paragraph(outcome_sentence(summary));
+  return html + "</header>\n";
+}
+
+std::string key_numbers(const Summary& summary) {
+  std::string html = "<dl class=\"numbers\">\n";
+  if (const auto errors = error_statistics(summary)) {
+    html += big("Mean error", spoken_length(errors->mean), true);
+    html += big("95 % within", spoken_length(errors->p95));
+    html += big("Greatest error", spoken_length(errors->max));
+  }
+  html += big("Located", fmt::format("{} of {}", grouped(count(summary, Verdict::kLocated)),
+                                     grouped(summary.tags.size())));
+  html += big("Reads", grouped(summary.reads));
+  html += big("Path", fmt::format("{:.1f} m", summary.path_length_m));
+  if (summary.simulated_s > 0.0) html += big("Simulated", spoken_duration(summary.simulated_s));
+  if (summary.real_time_factor > 0.0) {
+    html += big("Real-time factor",
+                summary.real_time_factor < 10.0
+                    ? fmt::format("{:.1f}×", summary.real_time_factor)
+                    : grouped(static_cast<std::size_t>(summary.real_time_factor + 0.5)) + "×");
+  }
+  return html + "</dl>\n";
+}
+
+std::string pose_error_text(const Summary& summary) {
+  if (!summary.pose_error) return "";
+  const PoseErrorSummary& pose = *summary.pose_error;
+  std::string text = fmt::format("The robot believed its antenna {} (rms) off its true place.",
+                                 spoken_length(pose.position_rms_m));
+  const auto errors = error_statistics(summary);
+  if (!errors || !pose.error_with_true_pose_m) return text;
+  const double with_truth = pose.error_with_true_pose_m->mean;
+  text += fmt::format(
+      " With the true pose the same reads give {} in the mean; with the believed one {}",
+      spoken_length(with_truth), spoken_length(errors->mean));
+  if (errors->mean > 2.0 * with_truth) {
+    return text + ": pose error, not phase noise, sets this figure.";
+  }
+  if (errors->mean > 1.1 * with_truth) return text + ": the pose error adds to that of the phase.";
+  return text + ": here the pose error makes little difference.";
+}
+
+std::string run_facts(const Summary& summary) {
+  std::string html = "<dl class=\"facts\">\n";
+  html += fact("Method", spoken_method(summary.method));
+  html += fact("Antenna poses", spoken_pose(summary.pose));
+  if (summary.pose_error) {
+    html += fact("Stated pose error",
+                 fmt::format("σ {} per axis, σ {:.2f}° in heading, time constant {:.3g} s",
+                             spoken_length(summary.pose_error->sigma_m),
+                             summary.pose_error->yaw_sigma_rad * 57.295779513,
+                             summary.pose_error->time_constant_s));
+  }
+  html += fact(summary.seeds.size() > 1 ? "Seeds" : "Seed", spoken_seeds(summary.seeds));
+  if (summary.wall_s > 0.0) html += fact("Computed in", spoken_duration(summary.wall_s));
+  html += "</dl>\n";
+  const std::string pose = pose_error_text(summary);
+  if (!pose.empty()) html += "<div class=\"note pose\">" + paragraph(pose) + "</div>\n";
+  return html + warnings_note(summary.warnings);
+}
+
+std::string figure_html(const Figure& figure) {
+  if (!figure.missing.empty()) {
+    return fmt::format("<p class=\"muted\"><strong>{} ({})</strong> is not drawn: {}</p>\n",
+                       escaped(figure.title), escaped(figure.number), escaped(figure.missing));
+  }
+  return fmt::format(
+      "<figure id=\"{}\">\n{}<figcaption><strong>{}.</strong> {} <span class=\"muted\">({} of the"
+      " paper)</span></figcaption>\n</figure>\n",
+      escaped(figure.name), inline_svg(figure.svg, figure.title), escaped(figure.title),
+      escaped(figure.caption), escaped(figure.number));
+}
+
+std::string page_footer() {
+  return "<footer>\n<p>Model and experiment follow S. D’Avella, M. Unetti, P. Tripicchio, “RFID"
+         " Gazebo-Based Simulator With RSSI and Phase Signals for UHF Tags Localization and"
+         " Tracking”, IEEE Access 10, 2022, doi:10.1109/ACCESS.2022.3152199. Please cite it for"
+         " them.</p>\n<p>Made by Tagfield from the files beside this page. The figures lie in"
+         " figures/ as SVG files, fit for a paper.</p>\n</footer>\n";
+}
+
+}  // namespace tagfield

@@ -1,0 +1,32 @@
+/// @file
+/// The page in words: sentences and numbers about a run, as HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/report/figures.h"
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+
+/// Title, description, what came out in a sentence, warnings, and that the run is incomplete.
+std::string page_header(const Summary& summary);
+
+/// The big numbers.
+std::string key_numbers(const Summary& summary);
+
+/// How far off the robot believed its antenna, and what that does to the errors; "" where it
+/// believed the truth. Plain text.
+std::string pose_error_text(const Summary& summary);
+
+/// Method, poses, seeds.
+std::string run_facts(const Summary& summary);
+
+/// One figure with its caption, or the words why it is missing.
+std::string figure_html(const Figure& figure);
+
+/// How to cite the paper.
+std::string page_footer();
+
+}  // namespace tagfield

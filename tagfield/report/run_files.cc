@@ -1,0 +1,156 @@
+#include "tagfield/report/run_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+#include "tagfield/base/error.h"
+#include "tagfield/report/text.h"
+#include "tagfield/stream/files.h"
+#include "tagfield/stream/poses_csv.h"
+#include "tagfield/stream/reads_csv.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMovingExtent = 0.05;  ///< [m]
+
+using Trajectories = std::map<std::string, Trajectory>;
+
+/// By antenna, in rising order of time, each stamp once.
+Trajectories by_antenna(const std::vector<AntennaPose>& poses) {
+  Trajectories trajectories;
+  for (const AntennaPose& pose : poses) {
+    trajectories[pose.antenna].push_back({pose.stamp, pose.X_WA});
+  }
+  const auto earlier = [](const auto& a, const auto& b) { return a.stamp < b.stamp; };
+  const auto same = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
+  for (auto& [antenna, trajectory] : trajectories) {
+    std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
+    trajectory.erase(std::unique(trajectory.begin(), trajectory.end(), same), trajectory.end());
+  }
+  return trajectories;
+}
+
+bool is_moving(const Trajectory& trajectory) {
+  Eigen::AlignedBox3d box;
+  for (const StampedPose& pose : trajectory) box.extend(pose.X_WB.translation);
+  return box.sizes().norm() > kMovingExtent;
+}
+
+/// Reads of an antenna without a pose have no track: no figure can place them.
+std::vector<AntennaTrack> tracks_of(const std::vector<TagRead>& reads, const Trajectories& believed,
+                                    Trajectories truth) {
+  std::map<std::string, AntennaTrack> tracks;
+  for (const auto& [antenna, trajectory] : believed) {
+    tracks[antenna] = {antenna, trajectory, truth[antenna], {}, is_moving(trajectory)};
+  }
+  for (const TagRead& read : reads) {
+    const auto track = tracks.find(read.antenna);
+    if (track != tracks.end()) track->second.reads.push_back(&read);
+  }
+  std::vector<AntennaTrack> list;
+  for (auto& [antenna, track] : tracks) {
+    std::stable_sort(track.reads.begin(), track.reads.end(),
+                     [](const TagRead* a, const TagRead* b) { return a->stamp < b->stamp; });
+    list.push_back(std::move(track));
+  }
+  return list;
+}
+
+/// Keeps the tags' places in `run` and gives back the antennas' ways.
+Trajectories take_truth(const Truth& truth, RunFiles& run) {
+  for (const TagPosition& position : truth.tag_positions) {
+    run.true_places[position.tag].push_back(position);
+  }
+  for (auto& [tag, places] : run.true_places) {
+    std::stable_sort(places.begin(), places.end(),
+                     [](const TagPosition& a, const TagPosition& b) { return a.stamp < b.stamp; });
+  }
+  return by_antenna(truth.antenna_poses);
+}
+
+std::vector<Silhouette> read_top_view(const std::string& path) {
+  try {
+    return top_view_from_json(read_text_file(path));
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    if (what.rfind(path, 0) == 0) throw;
+    fail({path, 0}, what);
+  }
+}
+
+}  // namespace
+
+RunFiles read_run_files(const std::string& folder) {
+  RunFiles run;
+  const std::string summary_file = folder + "/summary.json";
+  run.summary = summary_from_json(read_text_file(summary_file), summary_file);
+  run.reads = read_reads_csv(folder + "/reads.csv");
+  const Trajectories believed = by_antenna(read_poses_csv(folder + "/antenna_poses.csv"));
+  Trajectories truth;
+  if (fs::exists(folder + "/truth")) truth = take_truth(read_truth(folder), run);
+  if (fs::exists(folder + "/top_view.json")) {
+    run.top_view = read_top_view(folder + "/top_view.json");
+  }
+  run.tracks = tracks_of(run.reads, believed, std::move(truth));
+  return run;
+}
+
+const AntennaTrack* busiest_track(const RunFiles& run, bool moving) {
+  const AntennaTrack* busiest = nullptr;
+  for (const AntennaTrack& track : run.tracks) {
+    if (track.moving != moving) continue;
+    if (busiest == nullptr || track.reads.size() > busiest->reads.size()) busiest = &track;
+  }
+  return busiest;
+}
+
+std::string busiest_tag(const AntennaTrack& track) {
+  std::map<std::string, std::size_t> counts;
+  for (const TagRead* read : track.reads) ++counts[read->tag];
+  const auto fewer = [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second < b.second : natural_less(b.first, a.first);
+  };
+  const auto most = std::max_element(counts.begin(), counts.end(), fewer);
+  return most == counts.end() ? "" : most->first;
+}
+
+std::vector<const TagRead*> reads_of(const AntennaTrack& track, const std::string& tag) {
+  std::vector<const TagRead*> reads;
+  std::copy_if(track.reads.begin(), track.reads.end(), std::back_inserter(reads),
+               [&](const TagRead* read) { return read->tag == tag; });
+  return reads;
+}
+
+std::vector<const TagOutcome*> first_outcomes(const Summary& summary) {
+  std::vector<const TagOutcome*> outcomes;
+  for (const TagOutcome& outcome : summary.tags) {
+    if (outcome.seed == summary.tags.front().seed) outcomes.push_back(&outcome);
+  }
+  std::stable_sort(outcomes.begin(), outcomes.end(), [](const TagOutcome* a, const TagOutcome* b) {
+    return natural_less(a->estimate.tag, b->estimate.tag);
+  });
+  return outcomes;
+}
+
+std::optional<Eigen::Vector3d> known_place(const TagOutcome& outcome) {
+  if (outcome.truth_m) return outcome.truth_m;
+  const bool located = outcome.estimate.verdict == Verdict::kLocated;
+  if (!located || outcome.estimate.candidates.empty()) return std::nullopt;
+  return outcome.estimate.candidates.front().p_WT;
+}
+
+std::optional<Eigen::Vector3d> true_place(const RunFiles& run, const std::string& tag, Time stamp) {
+  const auto places = run.true_places.find(tag);
+  if (places == run.true_places.end()) return std::nullopt;
+  const auto after = std::upper_bound(
+      places->second.begin(), places->second.end(), stamp,
+      [](Time time, const TagPosition& position) { return time < position.stamp; });
+  if (after == places->second.begin()) return std::nullopt;
+  return (after - 1)->p_WT;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,68 @@
+/// @file
+/// A run's folder in memory, and what the figures ask of it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/tag_read.h"
+#include "tagfield/report/summary.h"
+#include "tagfield/report/truth.h"
+#include "tagfield/world/top_view.h"
+
+namespace tagfield {
+
+/// One antenna in one run.
+struct AntennaTrack {
+  std::string antenna;
+  Trajectory believed;                ///< Never empty.
+  Trajectory truth;                   ///< Empty where unknown.
+  std::vector<const TagRead*> reads;  ///< In rising order of time.
+  bool moving = false;                ///< By over 5 cm, as believed.
+
+  /// The true one where known.
+  [[nodiscard]] const Trajectory& best() const { return truth.empty() ? believed : truth; }
+};
+
+/// All that a page is made of. Not to be copied: tracks point into `reads`.
+struct RunFiles {
+  Summary summary;
+  std::vector<TagRead> reads;  ///< Of the first seed, as all below.
+  std::map<std::string, std::vector<TagPosition>>
+      true_places;                   ///< By tag, in rising order of time.
+  std::vector<Silhouette> top_view;  ///< Empty where unknown.
+  std::vector<AntennaTrack> tracks;  ///< By name.
+
+  RunFiles() = default;
+  RunFiles(const RunFiles&) = delete;
+  RunFiles& operator=(const RunFiles&) = delete;
+  RunFiles(RunFiles&&) = default;
+  RunFiles& operator=(RunFiles&&) = default;
+};
+
+/// Reads summary.json, reads.csv and antenna_poses.csv, and truth/ and top_view.json where they
+/// are. Throws Error if one is malformed, or one of the first three is missing.
+RunFiles read_run_files(const std::string& folder);
+
+/// The moving (or resting) antenna with the most reads, or nullptr.
+const AntennaTrack* busiest_track(const RunFiles& run, bool moving);
+
+/// The tag with the most reads in a track (the first in natural order among equals), or "".
+std::string busiest_tag(const AntennaTrack& track);
+
+/// Reads of one tag in a track, in rising order of time.
+std::vector<const TagRead*> reads_of(const AntennaTrack& track, const std::string& tag);
+
+/// Outcomes of the first seed, in natural order of their tags.
+std::vector<const TagOutcome*> first_outcomes(const Summary& summary);
+
+/// The place that is best known of a tag: true, else estimated; none where it moved or is unknown.
+std::optional<Eigen::Vector3d> known_place(const TagOutcome& outcome);
+
+/// Where a tag really was at `stamp`, if that is known.
+std::optional<Eigen::Vector3d> true_place(const RunFiles& run, const std::string& tag, Time stamp);
+
+}  // namespace tagfield

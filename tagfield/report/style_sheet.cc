@@ -1,0 +1,123 @@
+#include "tagfield/report/style_sheet.h"
+
+#include <fmt/format.h>
+
+namespace tagfield {
+namespace {
+
+/// The palette whose colours are the page's own properties.
+Palette page_palette() {
+  return {"var(--paper)", "var(--panel)",     "var(--ink)",   "var(--muted)",    "var(--grid)",
+          "var(--wall)",  "var(--wall-edge)", "var(--truth)", "var(--estimate)", "var(--believed)"};
+}
+
+std::string properties(const Palette& palette) {
+  return fmt::format(
+      "--paper:{};--panel:{};--ink:{};--muted:{};--grid:{};--wall:{};--wall-edge:{};"
+      "--truth:{};--estimate:{};--believed:{}",
+      palette.paper, palette.panel, palette.ink, palette.muted, palette.grid, palette.wall,
+      palette.wall_edge, palette.truth, palette.estimate, palette.believed);
+}
+
+constexpr const char* kLayout = R"(*{box-sizing:border-box}
+html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
+body{margin:0;background:var(--paper);color:var(--ink);
+font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,Helvetica,Arial,sans-serif;
+overflow-wrap:anywhere}
+main,header,footer{max-width:1216px;margin:0 auto;padding:0 14px}
+header{padding-top:28px}
+.kind{margin:0;color:var(--muted);font-size:.9rem}
+h1{margin:0;font-size:1.9rem;line-height:1.2;font-weight:650;letter-spacing:-.01em}
+h2{margin:2.6rem 0 .8rem;font-size:1.25rem;font-weight:650}
+p{margin:.5rem 0;max-width:46rem}
+.muted,footer{color:var(--muted)}
+.numbers{display:flex;flex-wrap:wrap;gap:1px;
+margin:1.4rem 0;padding:0;background:var(--grid);border:1px solid var(--grid);border-radius:10px;
+overflow:hidden}
+.numbers div{flex:1 1 auto;min-width:132px;background:var(--paper);padding:.7rem .9rem}
+.numbers dt{color:var(--muted);font-size:.85rem;line-height:1.3}
+.numbers dd{margin:.1rem 0 0;font-size:1.5rem;line-height:1.25;font-weight:600;
+font-variant-numeric:tabular-nums;white-space:nowrap}
+.numbers .lead dd{color:var(--estimate)}
+.facts{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1.1rem;margin:0}
+.facts dt{color:var(--muted)}
+.facts dd{margin:0}
+.note{max-width:none;margin:1.2rem 0;padding:.75rem 1rem;background:var(--panel);
+border-left:4px solid var(--muted);border-radius:0 8px 8px 0}
+.note p{margin:.2rem 0;max-width:58rem}
+.note ul{margin:.3rem 0;padding-left:1.2rem}
+.incomplete{border-left-color:var(--truth)}
+.pose{border-left-color:var(--believed)}
+figure{margin:0 0 2.4rem;break-inside:avoid}
+figure svg{display:block;width:100%;height:auto}
+figcaption{margin-top:.5rem;font-size:.92rem;line-height:1.45;color:var(--muted)}
+figcaption strong{color:var(--ink);font-weight:600}
+.table{overflow-x:auto;border:1px solid var(--grid);border-radius:10px}
+table{border-collapse:collapse;width:100%;font-size:.92rem;font-variant-numeric:tabular-nums;
+overflow-wrap:normal}
+th,td{padding:.4rem .75rem;text-align:right;white-space:nowrap;
+border-bottom:1px solid var(--grid)}
+thead th{color:var(--muted);font-weight:500;vertical-align:bottom}
+tbody tr:last-child>*{border-bottom:0}
+tbody th,thead tr:first-child th:first-child{text-align:left;position:sticky;left:0;
+background:var(--paper)}
+tbody th{font-weight:600}
+th[colspan]{text-align:center}
+th.words,td.words{text-align:left}
+td.words:last-child{white-space:normal;min-width:15rem}
+footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
+@media (min-width:900px){.figures{columns:2;column-gap:36px}}
+@media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}}
+@media print{.figures{columns:1}}
+)";
+
+}  // namespace
+
+Palette light_palette() {
+  return {"#ffffff", "#f4f6f8", "#1b1f24", "#57616b", "#e3e7eb",
+          "#dde2e8", "#b4bdc7", "#c4129c", "#1659d6", "#bf6400"};
+}
+
+Palette dark_palette() {
+  return {"#13161a", "#1c2127", "#e9ecef", "#a4aeb9", "#2b323a",
+          "#2d353e", "#4d5865", "#ff66d8", "#74aaff", "#f2a54a"};
+}
+
+std::string figure_style(const Palette& c) {
+  std::string rules = fmt::format(
+      "svg text{{font-family:Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif;"
+      "font-size:15px;fill:{}}}\n"
+      "svg .faint{{fill:{}}}\nsvg .rim{{fill:{};stroke:{};stroke-width:4;stroke-linejoin:round}}\n"
+      "svg .grid{{stroke:{};stroke-width:1}}\nsvg .axis{{stroke:{};stroke-width:1}}\n"
+      "svg .frame{{fill:none;stroke:{};stroke-width:1}}\n",
+      c.ink, c.muted, c.paper, c.paper, c.grid, c.muted, c.wall_edge);
+  rules += fmt::format(
+      "svg .wall{{fill:{};fill-rule:evenodd;stroke:{};stroke-width:0.8}}\n"
+      "svg .path{{fill:none;stroke:{};stroke-width:1.7;stroke-linejoin:round}}\n"
+      "svg .thin{{fill:none;stroke:{};stroke-width:1;stroke-linejoin:round}}\n"
+      "svg .ink{{fill:{}}}\n"
+      "svg .start{{fill:{};stroke:{};stroke-width:1.7}}\n"
+      "svg .rule{{stroke:{};stroke-width:1.2;stroke-dasharray:5 4}}\n",
+      c.wall, c.wall_edge, c.ink, c.muted, c.ink, c.paper, c.ink, c.ink);
+  rules += fmt::format(
+      "svg .believed{{fill:none;stroke:{};stroke-width:1.5;stroke-dasharray:6 3}}\n"
+      "svg .truth{{fill:{}}}\nsvg .true-line{{fill:none;stroke:{};stroke-width:2}}\n"
+      "svg .estimate{{fill:none;stroke:{};stroke-width:2.4}}\n"
+      "svg .halo{{fill:none;stroke:{};stroke-width:5}}\nsvg .measured{{fill:{}}}\n"
+      "svg .pair{{stroke:{};stroke-width:1.4;stroke-dasharray:3 4}}\n",
+      c.believed, c.truth, c.truth, c.estimate, c.paper, c.estimate, c.estimate);
+  rules += fmt::format(
+      "svg .bar{{fill:{};fill-opacity:0.85}}\nsvg .box{{fill:{};fill-opacity:0.25;stroke:{};"
+      "stroke-width:1}}\nsvg .whisker{{stroke:{};stroke-width:1.2}}\n"
+      "svg .spot{{fill:{};fill-opacity:0.5}}\nsvg .curve{{fill:none;stroke:{};stroke-width:2.2}}\n",
+      c.estimate, c.estimate, c.estimate, c.estimate, c.estimate, c.estimate);
+  return rules;
+}
+
+std::string page_style() {
+  return ":root{color-scheme:light dark;" + properties(light_palette()) + "}\n" +
+         "@media (prefers-color-scheme:dark){:root{" + properties(dark_palette()) + "}}\n" +
+         kLayout + figure_style(page_palette());
+}
+
+}  // namespace tagfield

@@ -1,0 +1,64 @@
+#include "tagfield/report/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tagfield {
+namespace {
+
+/// Linear between the ranks around it, as NumPy's default; `rising` must not be empty.
+double quantile(const std::vector<double>& rising, double fraction) {
+  const double rank = fraction * static_cast<double>(rising.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, rising.size() - 1);
+  return rising[below] + (rank - static_cast<double>(below)) * (rising[above] - rising[below]);
+}
+
+std::vector<double> errors_of(const Summary& summary) {
+  std::vector<double> errors;
+  for (const TagOutcome& outcome : summary.tags) {
+    if (const auto error = error_of(outcome)) errors.push_back(*error);
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::optional<double> error_of(const TagOutcome& outcome) {
+  const TagEstimate& estimate = outcome.estimate;
+  const bool located = estimate.verdict == Verdict::kLocated && !estimate.candidates.empty();
+  if (!located || !outcome.truth_m) return std::nullopt;
+  return (estimate.candidates.front().p_WT - *outcome.truth_m).norm();
+}
+
+std::optional<ErrorStatistics> statistics(std::vector<double> errors_m) {
+  if (errors_m.empty()) return std::nullopt;
+  std::sort(errors_m.begin(), errors_m.end());
+  ErrorStatistics result;
+  result.count = errors_m.size();
+  result.mean =
+      std::accumulate(errors_m.begin(), errors_m.end(), 0.0) / static_cast<double>(errors_m.size());
+  result.median = quantile(errors_m, 0.5);
+  result.p95 = quantile(errors_m, 0.95);
+  result.max = errors_m.back();
+  result.min = errors_m.front();
+  return result;
+}
+
+std::optional<ErrorStatistics> error_statistics(const Summary& summary) {
+  return statistics(errors_of(summary));
+}
+
+std::size_t count(const Summary& summary, Verdict verdict) {
+  const auto matches = [&](const TagOutcome& tag) { return tag.estimate.verdict == verdict; };
+  return static_cast<std::size_t>(std::count_if(summary.tags.begin(), summary.tags.end(), matches));
+}
+
+std::size_t count_over(const Summary& summary, double limit_m) {
+  const std::vector<double> errors = errors_of(summary);
+  const auto over = [&](double error) { return error > limit_m; };
+  return static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), over));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,86 @@
+/// @file
+/// Estimates judged against the truth: the numbers of a run, and their JSON.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/tag_estimate.h"
+#include "tagfield/report/truth.h"
+
+namespace tagfield {
+
+/// One tag in one run (one seed).
+struct TagOutcome {
+  std::uint64_t seed = 0;
+  TagEstimate estimate;
+  std::optional<Eigen::Vector3d> truth_m;  ///< None where unknown, or where the tag moved.
+  bool moved = false;                      ///< The tag did not rest, so it has no one true place.
+};
+
+/// |estimate − truth| [m] of a located tag with a known place.
+std::optional<double> error_of(const TagOutcome& outcome);
+
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double mean = 0.0;  ///< [m], as all below.
+  double median = 0.0;
+  double p95 = 0.0;  ///< Linear between the ranks around it, as NumPy's default.
+  double max = 0.0;
+  double min = 0.0;
+};
+
+/// None where `errors_m` is empty.
+std::optional<ErrorStatistics> statistics(std::vector<double> errors_m);
+
+/// Error of the believed antenna pose, where it is not the true one.
+struct PoseErrorSummary {
+  double sigma_m = 0.0;  ///< As stated in the scenario, per axis.
+  double time_constant_s = 0.0;
+  double yaw_sigma_rad = 0.0;
+  double position_rms_m = 0.0;  ///< Of the antenna in this run, horizontally, as it came out.
+  /// Tags located from the same reads with the true poses, for comparison.
+  std::optional<ErrorStatistics> error_with_true_pose_m;
+};
+
+/// Everything that a page needs besides the files in the run's folder.
+struct Summary {
+  std::string scenario;              ///< Name.
+  std::string description;           ///< One line of the scenario, or "".
+  std::vector<std::uint64_t> seeds;  ///< Empty where reads came from outside.
+  std::string method;                ///< "hyperbola"
+  std::string pose;      ///< What the believed pose is: "true", "noisy", "odometry", "given".
+  bool complete = true;  ///< False where the run was interrupted.
+  double path_length_m = 0.0;
+  std::size_t reads = 0;     ///< Of the first seed.
+  double simulated_s = 0.0;  ///< Of the first seed.
+  double wall_s = 0.0;       ///< Simulation and localization of all seeds, files and page excepted.
+  double real_time_factor = 0.0;  ///< Simulated time of all seeds over wall_s.
+  std::optional<PoseErrorSummary> pose_error;
+  std::vector<TagOutcome> tags;  ///< By seed, then by ID.
+  std::vector<std::string> warnings;
+};
+
+/// Errors of all located tags, over all seeds.
+std::optional<ErrorStatistics> error_statistics(const Summary& summary);
+
+/// How many tags of all seeds came out so.
+std::size_t count(const Summary& summary, Verdict verdict);
+
+/// How many located tags are further off than `limit_m`.
+std::size_t count_over(const Summary& summary, double limit_m);
+
+/// summary.json: scenario, description, seeds, method, pose, complete, path_length_m, reads,
+/// simulated_s, wall_s, real_time_factor, pose_error, tags: [{id, seed, verdict, reason, truth_m,
+/// moved, estimate_m, error_m, rms_m, expected_error_m, candidates_m, reads}], error_m: {mean,
+/// median, p95, max, min, count}, over_0_3_m, located, ambiguous, not_located, warnings. What is
+/// unknown is null. `estimate_m` is null unless the tag is located.
+std::string to_json(const Summary& summary);
+
+/// Inverse of to_json. Throws Error "FILE: …" on text that is not such a summary.
+Summary summary_from_json(const std::string& text, const std::string& file);
+
+}  // namespace tagfield

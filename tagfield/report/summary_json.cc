@@ -1,0 +1,203 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tagfield/base/error.h"
+#include "tagfield/report/checked_json.h"
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kFarOff = 0.3;  ///< [m]
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json point(const Eigen::Vector3d& p) {
+  return Json::array({number(p.x()), number(p.y()), number(p.z())});
+}
+
+Json statistics_json(const std::optional<ErrorStatistics>& statistics) {
+  if (!statistics) return nullptr;
+  return {{"mean", number(statistics->mean)}, {"median", number(statistics->median)},
+          {"p95", number(statistics->p95)},   {"max", number(statistics->max)},
+          {"min", number(statistics->min)},   {"count", statistics->count}};
+}
+
+Json pose_error_json(const std::optional<PoseErrorSummary>& error) {
+  if (!error) return nullptr;
+  return {{"sigma_m", number(error->sigma_m)},
+          {"time_constant_s", number(error->time_constant_s)},
+          {"yaw_sigma_rad", number(error->yaw_sigma_rad)},
+          {"position_rms_m", number(error->position_rms_m)},
+          {"error_with_true_pose_m", statistics_json(error->error_with_true_pose_m)}};
+}
+
+/// One property of each candidate, best first.
+template <typename Property>
+Json of_each(const std::vector<Candidate>& candidates, Property property) {
+  Json list = Json::array();
+  for (const Candidate& candidate : candidates) list.push_back(property(candidate));
+  return list;
+}
+
+void put_candidates(Json& json, const TagEstimate& estimate) {
+  const auto& all = estimate.candidates;
+  json["rms_m"] = all.empty() ? Json(nullptr) : number(all.front().rms_m);
+  json["expected_error_m"] = all.empty() ? Json(nullptr) : number(all.front().expected_error_m);
+  json["candidates_m"] = of_each(all, [](const Candidate& c) { return point(c.p_WT); });
+  json["candidates_rms_m"] = of_each(all, [](const Candidate& c) { return number(c.rms_m); });
+  json["candidates_expected_error_m"] =
+      of_each(all, [](const Candidate& c) { return number(c.expected_error_m); });
+}
+
+Json tag_json(const TagOutcome& outcome) {
+  const TagEstimate& estimate = outcome.estimate;
+  const bool located = estimate.verdict == Verdict::kLocated && !estimate.candidates.empty();
+  Json json;
+  json["id"] = estimate.tag;
+  json["seed"] = outcome.seed;
+  json["verdict"] = to_string(estimate.verdict);
+  json["reason"] = estimate.reason;
+  json["truth_m"] = outcome.truth_m ? point(*outcome.truth_m) : Json(nullptr);
+  json["moved"] = outcome.moved;
+  json["estimate_m"] = located ? point(estimate.candidates.front().p_WT) : Json(nullptr);
+  json["error_m"] = number(error_of(outcome));
+  put_candidates(json, estimate);
+  json["reads"] = estimate.reads;
+  return json;
+}
+
+void put_run(Json& json, const Summary& summary) {
+  json["scenario"] = summary.scenario;
+  json["description"] = summary.description;
+  json["seeds"] = summary.seeds;
+  json["method"] = summary.method;
+  json["pose"] = summary.pose;
+  json["complete"] = summary.complete;
+  json["path_length_m"] = number(summary.path_length_m);
+  json["reads"] = summary.reads;
+  json["simulated_s"] = number(summary.simulated_s);
+  json["wall_s"] = number(summary.wall_s);
+  json["real_time_factor"] = number(summary.real_time_factor);
+  json["pose_error"] = pose_error_json(summary.pose_error);
+}
+
+/// A figure of the run; null, that is unknown, reads as 0.
+double number_or_zero(const JsonPlace& place) { return is_null(place) ? 0.0 : number_at(place); }
+
+std::optional<ErrorStatistics> statistics_at(const JsonPlace& place) {
+  if (is_null(place)) return std::nullopt;
+  ErrorStatistics result;
+  result.count = whole_at(member(place, "count"));
+  result.mean = number_at(member(place, "mean"));
+  result.median = number_at(member(place, "median"));
+  result.p95 = number_at(member(place, "p95"));
+  result.max = number_at(member(place, "max"));
+  result.min = number_at(member(place, "min"));
+  return result;
+}
+
+std::optional<PoseErrorSummary> pose_error_at(const JsonPlace& place) {
+  if (is_null(place)) return std::nullopt;
+  PoseErrorSummary result;
+  result.sigma_m = number_or_zero(member(place, "sigma_m"));
+  result.time_constant_s = number_or_zero(member(place, "time_constant_s"));
+  result.yaw_sigma_rad = number_or_zero(member(place, "yaw_sigma_rad"));
+  result.position_rms_m = number_or_zero(member(place, "position_rms_m"));
+  result.error_with_true_pose_m = statistics_at(member(place, "error_with_true_pose_m"));
+  return result;
+}
+
+Verdict verdict_at(const JsonPlace& place) {
+  const std::string word = text_at(place);
+  try {
+    return verdict_from_string(word);
+  } catch (const Error&) {
+    fail_at(place, "is '" + word + "', expected located, ambiguous or not_located");
+  }
+}
+
+std::vector<Candidate> candidates_at(const JsonPlace& tag) {
+  const auto points = elements(member(tag, "candidates_m"));
+  const auto misfits = elements(member(tag, "candidates_rms_m"));
+  const auto expected = elements(member(tag, "candidates_expected_error_m"));
+  if (misfits.size() != points.size() || expected.size() != points.size()) {
+    fail_at(tag, "has lists of candidates of different lengths");
+  }
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    candidates.push_back(
+        {point_at(points[i]), number_or_zero(misfits[i]), number_or_zero(expected[i])});
+  }
+  return candidates;
+}
+
+TagOutcome tag_at(const JsonPlace& place) {
+  TagOutcome outcome;
+  outcome.seed = whole_at(member(place, "seed"));
+  outcome.estimate.tag = text_at(member(place, "id"));
+  outcome.estimate.verdict = verdict_at(member(place, "verdict"));
+  outcome.estimate.reason = text_at(member(place, "reason"));
+  outcome.estimate.candidates = candidates_at(place);
+  outcome.estimate.reads = whole_at(member(place, "reads"));
+  const JsonPlace truth = member(place, "truth_m");
+  if (!is_null(truth)) outcome.truth_m = point_at(truth);
+  outcome.moved = truth_at(member(place, "moved"));
+  const bool empty = outcome.estimate.candidates.empty();
+  if (empty && outcome.estimate.verdict != Verdict::kNotLocated) {
+    fail_at(place, "is " + to_string(outcome.estimate.verdict) + " but has no candidates_m");
+  }
+  return outcome;
+}
+
+void take_run(const JsonPlace& top, Summary& summary) {
+  summary.scenario = text_at(member(top, "scenario"));
+  summary.description = text_at(member(top, "description"));
+  for (const JsonPlace& seed : elements(member(top, "seeds"))) {
+    summary.seeds.push_back(whole_at(seed));
+  }
+  summary.method = text_at(member(top, "method"));
+  summary.pose = text_at(member(top, "pose"));
+  summary.complete = truth_at(member(top, "complete"));
+  summary.path_length_m = number_or_zero(member(top, "path_length_m"));
+  summary.reads = whole_at(member(top, "reads"));
+  summary.simulated_s = number_or_zero(member(top, "simulated_s"));
+  summary.wall_s = number_or_zero(member(top, "wall_s"));
+  summary.real_time_factor = number_or_zero(member(top, "real_time_factor"));
+  summary.pose_error = pose_error_at(member(top, "pose_error"));
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  put_run(json, summary);
+  Json& tags = json["tags"] = Json::array();
+  for (const TagOutcome& outcome : summary.tags) tags.push_back(tag_json(outcome));
+  json["error_m"] = statistics_json(error_statistics(summary));
+  json["over_0_3_m"] = count_over(summary, kFarOff);
+  json["located"] = count(summary, Verdict::kLocated);
+  json["ambiguous"] = count(summary, Verdict::kAmbiguous);
+  json["not_located"] = count(summary, Verdict::kNotLocated);
+  json["warnings"] = summary.warnings;
+  // Names come from outside and may not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Summary summary_from_json(const std::string& text, const std::string& file) {
+  const nlohmann::json json = parsed_json(text, file);
+  const JsonPlace top{&json, file, ""};
+  Summary summary;
+  take_run(top, summary);
+  for (const JsonPlace& tag : elements(member(top, "tags"))) summary.tags.push_back(tag_at(tag));
+  for (const JsonPlace& warning : elements(member(top, "warnings"))) {
+    summary.warnings.push_back(text_at(warning));
+  }
+  return summary;
+}
+
+}  // namespace tagfield

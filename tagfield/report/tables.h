@@ -1,0 +1,17 @@
+/// @file
+/// The table of the report, as HTML.
+#pragma once
+
+#include <string>
+
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+
+inline constexpr std::size_t kMostTableRows = 500;
+
+/// A row a tag: one seed with its estimate, several with the statistics of their errors. Only the
+/// first `kMostTableRows` tags, with a word on the others.
+std::string tag_table(const Summary& summary);
+
+}  // namespace tagfield

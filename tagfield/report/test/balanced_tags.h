@@ -1,0 +1,31 @@
+/// @file
+/// Whether every tag of a markup is closed in its turn.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tagfield {
+
+/// The first tag that is not closed or was never opened; "" where all is well. Knows HTML's
+/// elements without an end.
+inline std::string unbalanced_tag(const std::string& markup) {
+  static const std::set<std::string> without_end = {"meta", "br", "!DOCTYPE", "?xml"};
+  std::vector<std::string> open;
+  for (std::size_t at = markup.find('<'); at != std::string::npos; at = markup.find('<', at + 1)) {
+    const std::size_t end = markup.find('>', at);
+    if (end == std::string::npos) return "<";
+    const std::string tag = markup.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag.front() == '/') {
+      if (open.empty() || open.back() != tag.substr(1)) return tag;
+      open.pop_back();
+    } else if (tag.back() != '/' && without_end.count(name) == 0) {
+      open.push_back(name);
+    }
+  }
+  return open.empty() ? "" : open.back();
+}
+
+}  // namespace tagfield

@@ -1,0 +1,175 @@
+#include "tagfield/report/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tagfield/report/test/balanced_tags.h"
+#include "tagfield/report/test/run_folder.h"
+
+namespace tagfield {
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Made {
+  Names drawn;
+  Names missing;
+  std::vector<Figure> figures;
+};
+
+Made make(const FolderPlan& plan) {
+  const RunFolder folder(plan);
+  Made made;
+  made.figures = all_figures(read_run_files(folder.path()));
+  for (const Figure& figure : made.figures) {
+    (figure.missing.empty() ? made.drawn : made.missing).push_back(figure.name);
+  }
+  return made;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+const Figure& find(const Made& made, const std::string& name) {
+  return *std::find_if(made.figures.begin(), made.figures.end(),
+                       [&](const Figure& figure) { return figure.name == name; });
+}
+
+TEST(AllFigures, OfOneSeedAreThePapers) {
+  EXPECT_EQ(make({}).drawn, (Names{"fig09_map", "fig10_errors", "fig12_phase_distance",
+                                   "fig13_rssi_path", "fig14_rssi_fixed", "fig14_rssi_values"}));
+}
+
+TEST(AllFigures, OfSeveralSeedsHoldADistribution) {
+  FolderPlan plan;
+  plan.seeds = {1, 2};
+  const Made made = make(plan);
+  EXPECT_EQ(std::count(made.drawn.begin(), made.drawn.end(), "fig10_distribution"), 1);
+}
+
+TEST(AllFigures, OfALiftedAntennaHoldItsHeight) {
+  FolderPlan plan;
+  plan.lift_m = 0.5;
+  const Made made = make(plan);
+  EXPECT_EQ(std::count(made.drawn.begin(), made.drawn.end(), "fig11_antenna_height"), 1);
+}
+
+TEST(AllFigures, WithoutAFixedAntennaSaySo) {
+  FolderPlan plan;
+  plan.fixed = false;
+  EXPECT_EQ(make(plan).missing, (Names{"fig14_rssi_fixed"}));
+}
+
+TEST(AllFigures, WithoutAMovingAntennaSaySo) {
+  FolderPlan plan;
+  plan.moving = false;
+  EXPECT_EQ(make(plan).missing, (Names{"fig12_phase_distance", "fig13_rssi_path"}));
+}
+
+TEST(AllFigures, WithoutReadsSaySo) {
+  FolderPlan plan;
+  plan.reads = false;
+  EXPECT_EQ(make(plan).missing,
+            (Names{"fig12_phase_distance", "fig13_rssi_path", "fig14_rssi_fixed"}));
+}
+
+TEST(AllFigures, WithoutTruthSayThatErrorsAreUnknown) {
+  FolderPlan plan;
+  plan.truth = false;
+  plan.top_view = false;
+  EXPECT_EQ(make(plan).missing, (Names{"fig10_errors"}));
+}
+
+TEST(AllFigures, AreWellFormed) {
+  FolderPlan plan;
+  plan.lift_m = 1.0;
+  plan.seeds = {1, 2, 3};
+  plan.tags = {"<script>", "\"&'", "ta\x01g"};
+  for (const Figure& figure : make(plan).figures) {
+    EXPECT_EQ(unbalanced_tag(standalone_svg(figure.svg, figure.title, figure.caption)), "")
+        << figure.name;
+    EXPECT_GT(figure.svg.height, 100.0) << figure.name;
+  }
+}
+
+TEST(MapFigure, MarksEachTagAndEstimate) {
+  const Figure figure = find(make({}), "fig09_map");
+  EXPECT_EQ(count_of(figure.svg.body, "true place:"), 3U);
+  EXPECT_EQ(count_of(figure.svg.body, "estimate: "), 3U);
+  EXPECT_EQ(count_of(figure.svg.body, "class=\"wall\""), 1U);
+  EXPECT_EQ(count_of(figure.svg.body, "class=\"believed\""), 0U);
+}
+
+TEST(MapFigure, JoinsWhatIsAmbiguous) {
+  const RunFolder folder(FolderPlan{});
+  Summary summary = summary_of({});
+  summary.tags[0].estimate.verdict = Verdict::kAmbiguous;
+  summary.tags[0].estimate.candidates.push_back({{1.0, 1.0, 1.0}, 0.0, 0.0});
+  folder.put("summary.json", to_json(summary));
+  const Figure figure = map_figure(read_run_files(folder.path()));
+  EXPECT_EQ(count_of(figure.svg.body, "class=\"pair\""), 1U);
+}
+
+TEST(MapFigure, LeavesOutAnEstimateFarAstray) {
+  const RunFolder folder(FolderPlan{});
+  Summary summary = summary_of({});
+  summary.tags[0].estimate.candidates[0].p_WT.x() = 1e6;
+  folder.put("summary.json", to_json(summary));
+  const Figure figure = map_figure(read_run_files(folder.path()));
+  EXPECT_NE(figure.caption.find("1 estimate lies beyond"), std::string::npos) << figure.caption;
+}
+
+TEST(PhaseFigure, AgreesWithTheTruthWherePhaseHasNoNoise) {
+  const Figure figure = find(make({}), "fig12_phase_distance");
+  EXPECT_GT(count_of(figure.svg.body, "class=\"measured\""), 300U);
+  EXPECT_EQ(count_of(figure.svg.body, "<polyline"), 1U);
+}
+
+TEST(PhaseFigure, DoesWithoutTruth) {
+  FolderPlan plan;
+  plan.truth = false;
+  const Figure figure = find(make(plan), "fig12_phase_distance");
+  EXPECT_EQ(count_of(figure.svg.body, "true-line"), 0U);
+}
+
+TEST(ErrorFigure, OfManyTagsIsAHistogram) {
+  FolderPlan plan;
+  plan.tags = many_tags(60);
+  const Figure figure = find(make(plan), "fig10_errors");
+  EXPECT_EQ(count_of(figure.svg.body, "class=\"bar\""), 1U);  // All are off by 10 mm.
+  EXPECT_NE(figure.svg.body.find("60 errors"), std::string::npos);
+}
+
+TEST(ErrorFigure, TakesErrorsOfNothing) {
+  FolderPlan plan;
+  plan.error_m = 0.0;
+  plan.seeds = {1, 2};
+  const Made made = make(plan);
+  EXPECT_EQ(unbalanced_tag(find(made, "fig10_errors").svg.body), "");
+  EXPECT_EQ(unbalanced_tag(find(made, "fig10_distribution").svg.body), "");
+}
+
+TEST(AllFigures, OfThousandsOfTagsStaySmall) {
+  FolderPlan plan;
+  plan.tags = many_tags(3000);
+  plan.moving = false;
+  for (const Figure& figure : make(plan).figures) {
+    EXPECT_LT(figure.svg.body.size(), 500'000U) << figure.name;
+  }
+}
+
+TEST(Thinning, KeepsToTheMost) {
+  EXPECT_EQ(thinning(0, 10), 1U);
+  EXPECT_EQ(thinning(10, 10), 1U);
+  EXPECT_EQ(thinning(11, 10), 2U);
+  EXPECT_EQ(thinning(100, 10), 10U);
+}
+
+}  // namespace
+}  // namespace tagfield

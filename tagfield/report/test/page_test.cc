@@ -1,0 +1,118 @@
+#include "tagfield/report/page.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/base/error.h"
+#include "tagfield/report/page_text.h"
+#include "tagfield/report/test/balanced_tags.h"
+#include "tagfield/report/test/run_folder.h"
+
+namespace tagfield {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The page made from a plan.
+std::string page_of(const FolderPlan& plan) {
+  const RunFolder folder(plan);
+  write_report(folder.path());
+  return folder.text("report.html");
+}
+
+TEST(WriteReport, DrawsEachFigureOnThePageAndAsAFile) {
+  const RunFolder folder(FolderPlan{});
+  write_report(folder.path());
+  const std::string page = folder.text("report.html");
+  EXPECT_EQ(unbalanced_tag(page), "");
+  for (const std::string name : {"fig09_map", "fig10_errors", "fig12_phase_distance",
+                                 "fig13_rssi_path", "fig14_rssi_fixed", "fig14_rssi_values"}) {
+    EXPECT_TRUE(holds(page, std::string("<figure id=\"").append(name).append("\">"))) << name;
+    EXPECT_EQ(unbalanced_tag(folder.text(std::string("figures/").append(name).append(".svg"))), "")
+        << name;
+    EXPECT_FALSE(folder.text(std::string("figures/").append(name).append(".svg")).empty()) << name;
+  }
+}
+
+TEST(WriteReport, GivesTheSameBytes) { EXPECT_EQ(page_of({}), page_of({})); }
+
+TEST(WriteReport, AsksForNothing) {
+  const std::string page = page_of({});
+  EXPECT_TRUE(holds(page, "default-src 'none'"));
+  for (const std::string alien :
+       {"<script", "<link", "<img", "src=", "href=", "http://", "https://"}) {
+    EXPECT_FALSE(holds(page, alien)) << alien;
+  }
+}
+
+TEST(WriteReport, MakesHostileNamesHarmless) {
+  FolderPlan plan;
+  plan.tags = {"<script>alert(1)</script>", "\"><img src=x onerror=alert(1)>", "'"};
+  const std::string page = page_of(plan);
+  EXPECT_FALSE(holds(page, "<script"));
+  EXPECT_FALSE(holds(page, "<img"));
+  EXPECT_EQ(unbalanced_tag(page), "");
+}
+
+TEST(WriteReport, RemovesFiguresOfAnOlderReport) {
+  const RunFolder folder(FolderPlan{});
+  folder.put("figures/fig99_old.svg", "<svg/>");
+  write_report(folder.path());
+  EXPECT_EQ(folder.text("figures/fig99_old.svg"), "");
+}
+
+TEST(WriteReport, ReplacesNothingIfAFileIsBad) {
+  const RunFolder folder(FolderPlan{});
+  folder.put("report.html", "old");
+  folder.put("reads.csv", "nonsense");
+  EXPECT_THROW(write_report(folder.path()), Error);
+  EXPECT_EQ(folder.text("report.html"), "old");
+}
+
+TEST(WriteReport, ComesWithoutReads) {
+  FolderPlan plan;
+  plan.reads = false;
+  EXPECT_TRUE(holds(page_of(plan), "the moving antenna read no tag."));
+}
+
+TEST(WriteReport, NeedsItsFiles) {
+  for (const std::string name : {"summary.json", "reads.csv", "antenna_poses.csv"}) {
+    const RunFolder folder(FolderPlan{});
+    folder.remove(name);
+    EXPECT_THROW(write_report(folder.path()), Error) << name;
+  }
+}
+
+TEST(PageHeader, MarksAnInterruptedRun) {
+  Summary summary = summary_of({});
+  EXPECT_FALSE(holds(page_header(summary), "Incomplete"));
+  summary.complete = false;
+  EXPECT_TRUE(holds(page_header(summary), "Incomplete run."));
+}
+
+TEST(PoseErrorText, SaysPlainlyWhatSetsTheError) {
+  Summary summary = summary_of({});
+  EXPECT_EQ(pose_error_text(summary), "");
+  summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.0, 0.0141, statistics({0.004})};
+  EXPECT_EQ(pose_error_text(summary),
+            "The robot believed its antenna 14 mm (rms) off its true place. With the true pose the"
+            " same reads give 4.0 mm in the mean; with the believed one 10 mm: pose error, not"
+            " phase noise, sets this figure.");
+}
+
+TEST(PoseErrorText, DoesWithoutAComparison) {
+  Summary summary = summary_of({});
+  summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.0, 0.0141, std::nullopt};
+  EXPECT_EQ(pose_error_text(summary),
+            "The robot believed its antenna 14 mm (rms) off its true place.");
+}
+
+TEST(RunFacts, ListWarnings) {
+  Summary summary = summary_of({});
+  summary.warnings = {"a <warning>"};
+  EXPECT_TRUE(holds(run_facts(summary), "a &lt;warning&gt;"));
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,49 @@
+/// @file
+/// Small run folders for the tests: an antenna that drives a square, one that stands, three tags.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+
+/// What a made folder holds.
+struct FolderPlan {
+  std::vector<std::string> tags = {"tag1", "tag2", "tag10"};
+  std::vector<std::uint64_t> seeds = {1};
+  bool truth = true;
+  bool top_view = true;
+  bool moving = true;     ///< Has a moving antenna.
+  bool fixed = true;      ///< Has a fixed one.
+  bool reads = true;      ///< The antennas read anything.
+  double lift_m = 0.0;    ///< The moving antenna rises by that on its way.
+  double error_m = 0.01;  ///< Of every estimate, along x.
+};
+
+/// A folder that vanishes with this.
+class RunFolder {
+ public:
+  explicit RunFolder(const FolderPlan& plan);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// Text of a file in it; "" where there is none.
+  [[nodiscard]] std::string text(const std::string& name) const;
+  void put(const std::string& name, const std::string& text) const;
+  void remove(const std::string& name) const;
+
+ private:
+  std::string path_;
+};
+
+/// t0, t1, …
+std::vector<std::string> many_tags(int count);
+
+/// The summary that goes with a plan.
+Summary summary_of(const FolderPlan& plan);
+
+}  // namespace tagfield

@@ -1,0 +1,51 @@
+#include "tagfield/report/tables.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/report/test/balanced_tags.h"
+#include "tagfield/report/test/run_folder.h"
+
+namespace tagfield {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(TagTable, HoldsEstimateAndError) {
+  const std::string html = tag_table(summary_of({}));
+  EXPECT_EQ(unbalanced_tag(html), "");
+  EXPECT_TRUE(holds(html, "<td>4.010</td>"));
+  EXPECT_TRUE(holds(html, "<td>10.0</td>"));
+  EXPECT_LT(html.find("tag2"), html.find("tag10"));
+  EXPECT_FALSE(holds(html, "Remark"));
+}
+
+TEST(TagTable, SaysWhyATagIsNotLocated) {
+  Summary summary = summary_of({});
+  summary.tags[0].estimate = {"tag1", Verdict::kNotLocated, "too few <reads>", {}, 3};
+  const std::string html = tag_table(summary);
+  EXPECT_TRUE(holds(html, "too few &lt;reads&gt;"));
+  EXPECT_TRUE(holds(html, "not located"));
+}
+
+TEST(TagTable, OfSeveralSeedsHoldsStatistics) {
+  FolderPlan plan;
+  plan.seeds = {1, 2, 3};
+  const std::string html = tag_table(summary_of(plan));
+  EXPECT_EQ(unbalanced_tag(html), "");
+  EXPECT_TRUE(holds(html, "3 of 3"));
+}
+
+TEST(TagTable, StopsAtManyTags) {
+  FolderPlan plan;
+  plan.tags = many_tags(2000);
+  const std::string html = tag_table(summary_of(plan));
+  EXPECT_TRUE(holds(html, "The first 500 of 2,000 tags"));
+  EXPECT_FALSE(holds(html, ">t500<"));
+}
+
+TEST(TagTable, OfNothingSaysSo) { EXPECT_TRUE(holds(tag_table({}), "No tag")); }
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+#include "tagfield/report/truth.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/base/error.h"
+#include "tagfield/report/test/run_folder.h"
+
+namespace tagfield {
+namespace {
+
+TEST(Truth, ComesBackTheSame) {
+  const RunFolder run(FolderPlan{});
+  Truth truth;
+  truth.antenna_poses = {{time_from_seconds(1.5), "a", from_translation({1.0, 2.0, 3.0})}};
+  truth.robot_poses = {{time_from_seconds(2.5), "r", from_planar(1.0, 2.0, 0.5)}};
+  truth.tag_positions = {{time_from_seconds(0.25), "a,\"b\"", {-1.0, 0.5, 2.0}}};
+  truth.distances = {{time_from_seconds(0.25), "a", "t", 1.25}};
+  StagedFolder folder(run.path());
+  stage_truth(truth, folder);
+  folder.commit();
+  const Truth after = read_truth(run.path());
+  ASSERT_EQ(after.antenna_poses.size(), 1U);
+  EXPECT_EQ(after.antenna_poses[0].antenna, "a");
+  ASSERT_EQ(after.robot_poses.size(), 1U);
+  EXPECT_NEAR(yaw_of(after.robot_poses[0].X_WA.rotation), 0.5, 1e-8);
+  ASSERT_EQ(after.tag_positions.size(), 1U);
+  EXPECT_EQ(after.tag_positions[0].tag, "a,\"b\"");
+  EXPECT_EQ(after.tag_positions[0].stamp, time_from_seconds(0.25));
+  EXPECT_TRUE(after.tag_positions[0].p_WT.isApprox(Eigen::Vector3d(-1.0, 0.5, 2.0)));
+  EXPECT_EQ(run.text("truth/distances.csv"),
+            "stamp_s,antenna,tag,distance_m\n0.250000000,a,t,1.250000\n");
+}
+
+TEST(ReadTruth, NamesTheFileThatIsMissing) {
+  const RunFolder run(FolderPlan{});
+  run.remove("truth/tags.csv");
+  try {
+    read_truth(run.path());
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("truth/tags.csv"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,49 @@
+#include "tagfield/sdf/internal/context.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace tagfield::sdf_internal {
+
+std::string shown(const Context& context, const std::string& file) {
+  return file.empty() || file == context.absolute_path ? context.given_path : file;
+}
+
+Location location_of(const Context& context, const sdf::ElementPtr& element) {
+  for (sdf::ElementPtr at = element; at; at = at->GetParent()) {
+    if (at->LineNumber()) return {shown(context, at->FilePath()), *at->LineNumber()};
+  }
+  return {context.given_path, 0};
+}
+
+sdf::ElementPtr written_child(const sdf::ElementPtr& element, const std::string& name) {
+  if (!element) return nullptr;
+  sdf::ElementPtr child = element->FindElement(name);
+  return child && child->GetExplicitlySetInFile() ? child : nullptr;
+}
+
+std::string file_text(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) fail({path, 0}, "no such file");
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) fail({path, 0}, "can't be read");
+  return text;
+}
+
+const XmlOutline& outline_of(Context& context, const std::string& path) {
+  const auto [entry, is_new] = context.outlines.try_emplace(path);
+  if (is_new) {
+    try {
+      entry->second = outline_xml(file_text(path));
+    } catch (const Error&) {
+      // Only line numbers are lost: whoever needs the file itself says so.
+      entry->second = {};
+    }
+  }
+  return entry->second;
+}
+
+}  // namespace tagfield::sdf_internal

@@ -1,0 +1,31 @@
+/// @file
+/// RFID sensors to placements.
+#pragma once
+
+#include <sdf/Sensor.hh>
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/rigid_transform.h"
+#include "tagfield/sdf/internal/context.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield::sdf_internal {
+
+/// A placement with the names that would tell it from others, shortest first.
+struct NamedPlacement {
+  Placement placement;
+  std::string model;  ///< Scoped name of the model that it stands on.
+  std::string link;
+};
+
+/// Antenna or tag `sensor` on a link L at X_WL. Its parameters are the children of its first
+/// <plugin>, and its <update_rate> if it has one.
+NamedPlacement read_sensor(Context& context, const sdf::Sensor& sensor, const RigidTransform& X_WL,
+                           const std::string& model, const std::string& link);
+
+/// The placements under names of their own: the sensor's, and where several share it
+/// "model::sensor", and where several share that "model::link::sensor".
+std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors);
+
+}  // namespace tagfield::sdf_internal

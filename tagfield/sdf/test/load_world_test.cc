@@ -1,0 +1,225 @@
+#include "tagfield/sdf/load_world.h"
+
+#include "tagfield/sdf/test/world_test.h"
+
+namespace tagfield {
+namespace {
+
+class LoadWorld : public WorldTest {
+ protected:
+  template <typename T>
+  T only_shape(const std::string& geometry) {
+    const Scene scene = load(model_with(geometry));
+    EXPECT_EQ(scene.collisions.size(), 1U);
+    EXPECT_TRUE(warnings().empty());
+    return std::get<T>(scene.collisions.at(0).shape);
+  }
+};
+
+TEST_F(LoadWorld, ReadsABox) {
+  EXPECT_EQ(only_shape<Box>("<box><size>1 2 3</size></box>").size, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST_F(LoadWorld, ReadsACylinder) {
+  const auto cylinder =
+      only_shape<Cylinder>("<cylinder><radius>0.5</radius><length>2</length></cylinder>");
+  EXPECT_EQ(cylinder.radius, 0.5);
+  EXPECT_EQ(cylinder.length, 2.0);
+}
+
+TEST_F(LoadWorld, ReadsASphere) {
+  EXPECT_EQ(only_shape<Sphere>("<sphere><radius>0.25</radius></sphere>").radius, 0.25);
+}
+
+TEST_F(LoadWorld, ReadsAPlaneAndNormalizesItsNormal) {
+  const auto plane = only_shape<Plane>("<plane><normal>0 3 4</normal><size>5 6</size></plane>");
+  EXPECT_LT((plane.normal - Eigen::Vector3d(0.0, 0.6, 0.8)).norm(), 1e-12);
+  EXPECT_EQ(plane.size, Eigen::Vector2d(5.0, 6.0));
+}
+
+TEST_F(LoadWorld, ReadsAMeshBesideTheFileThatNamesIt) {
+  write("meshes/triangle.obj", kTriangleObj);
+  const auto mesh =
+      only_shape<MeshPtr>("<mesh><uri>meshes/triangle.obj</uri><scale>2 3 1</scale></mesh>");
+  ASSERT_EQ(mesh->triangles.size(), 1U);
+  EXPECT_EQ(mesh->vertices[1], Eigen::Vector3d(2, 0, 0));
+  EXPECT_EQ(mesh->vertices[2], Eigen::Vector3d(0, 3, 0));
+}
+
+TEST_F(LoadWorld, MeshesOfOneFileAreShared) {
+  write("t.obj", kTriangleObj);
+  const auto collision = [](const std::string& name, const std::string& scale) {
+    return "<collision name='" + name + "'><geometry><mesh><uri>t.obj</uri><scale>" + scale +
+           "</scale></mesh></geometry></collision>";
+  };
+  const Scene scene = load("<model name='m'><link name='l'>" + collision("a", "1 1 1") +
+                           collision("b", "1 1 1") + collision("c", "2 1 1") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 3U);
+  const auto mesh = [&scene](std::size_t i) {
+    return std::get<MeshPtr>(scene.collisions[i].shape);
+  };
+  EXPECT_EQ(mesh(0), mesh(1));
+  EXPECT_NE(mesh(0), mesh(2));
+}
+
+TEST_F(LoadWorld, IncludesModelsFromSearchPathsUnderTheirNewName) {
+  write("library/crate/model.config",
+        "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("library/crate/model.sdf",
+        "<sdf version='1.6'><model name='crate'><link name='l'><collision name='c'><geometry>"
+        "<mesh><uri>model://crate/meshes/t.obj</uri></mesh></geometry></collision></link></model>"
+        "</sdf>");
+  write("library/crate/meshes/t.obj", kTriangleObj);
+  const std::string path =
+      write("world.sdf", world("<include><uri>model://crate</uri><name>red</name>"
+                               "<pose>1 2 3 0 0 0</pose></include><include><uri>model://crate</uri>"
+                               "</include>"));
+  const Scene scene = load_file(path, {path_of("library")});
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"red", "crate"}));
+  ASSERT_EQ(scene.collisions.size(), 2U);
+  EXPECT_EQ(scene.collisions[0].name, "red::l::c");
+  EXPECT_EQ(scene.collisions[0].X_WC.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<MeshPtr>(scene.collisions[0].shape),
+            std::get<MeshPtr>(scene.collisions[1].shape));
+  EXPECT_TRUE(warnings().empty());
+}
+
+TEST_F(LoadWorld, SearchPathsComeBeforeTheCurrentFolder) {
+  for (const std::string& folder : std::vector<std::string>{"library", "current"}) {
+    write(folder + "/crate/model.config",
+          "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+    write(folder + "/crate/model.sdf",
+          "<sdf version='1.6'><model name='from_" + folder + "'><link name='l'/></model></sdf>");
+  }
+  const std::string path = write("w.sdf", world("<include><uri>model://crate</uri></include>"));
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(path_of("current"));
+  const Scene scene = load_file(path, {path_of("library")});
+  std::filesystem::current_path(before);
+  EXPECT_EQ(scene.models, std::vector<std::string>{"from_library"});
+}
+
+TEST_F(LoadWorld, RelativeMeshOfAnIncludedModelIsBesideThatModel) {
+  write("models/crate/model.config",
+        "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");
+  write("models/crate/model.sdf",
+        "<sdf version='1.6'>" + model_with("<mesh><uri>meshes/t.obj</uri></mesh>") + "</sdf>");
+  write("models/crate/meshes/t.obj", kTriangleObj);
+  EXPECT_EQ(load("<include><uri>model://crate</uri></include>").collisions.size(), 1U);
+}
+
+TEST_F(LoadWorld, TakesAFileOfOneModelForAScene) {
+  const std::string path = write("model.sdf",
+                                 "<sdf version='1.6'><model name='crate'>"
+                                 "<pose>1 2 3 0 0 0</pose><link name='l'>"
+                                 "<collision name='c'><geometry><sphere><radius>1"
+                                 "</radius></sphere></geometry></collision></link>"
+                                 "</model></sdf>");
+  const Scene scene = load_file(path);
+  EXPECT_EQ(scene.name, "crate");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(scene.collisions[0].X_WC.translation, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST_F(LoadWorld, UnsupportedShapesAreLeftOutWithAWarning) {
+  const Scene scene = load(
+      "<model name='m'><link name='l'>\n"
+      "<collision name='pill'><geometry><capsule><radius>1</radius><length>1</length></capsule>"
+      "</geometry></collision>\n"
+      "<collision name='egg'><geometry><ellipsoid><radii>1 2 3</radii></ellipsoid></geometry>"
+      "</collision>\n"
+      "<collision name='hill'><geometry><heightmap><uri>a.png</uri></heightmap></geometry>"
+      "</collision>\n"
+      "<collision name='bar'><geometry><polyline><height>1</height><point>0 0</point>"
+      "<point>1 0</point><point>0 1</point></polyline></geometry></collision>\n"
+      "<collision name='none'><geometry><empty/></geometry></collision>\n"
+      "<collision name='ball'><geometry><sphere><radius>1</radius></sphere></geometry>"
+      "</collision></link></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(scene.collisions[0].name, "m::l::ball");
+  ASSERT_EQ(warnings().size(), 4U);
+  EXPECT_EQ(warnings()[0], path_of("world.sdf") +
+                               ":4: collision 'm::l::pill' is left out: shape <capsule> is not "
+                               "supported");
+  EXPECT_NE(warnings()[1].find("<ellipsoid>"), std::string::npos);
+  EXPECT_NE(warnings()[2].find("<heightmap>"), std::string::npos);
+  EXPECT_NE(warnings()[3].find("<polyline>"), std::string::npos);
+}
+
+TEST_F(LoadWorld, NamesTheMaterialsOnceAndSorted) {
+  write("t.obj", std::string("mtllib t.mtl\nusemtl Steel\n") + kTriangleObj);
+  write("t.mtl", "newmtl Steel\nKd 1 1 1\n");
+  const auto visual = [](const std::string& name, const std::string& material) {
+    return "<visual name='" + name + "'><geometry><mesh><uri>t.obj</uri></mesh></geometry>" +
+           material + "</visual>";
+  };
+  const auto script = [](const std::string& name) {
+    return "<material><script><uri>file://x</uri><name>" + name + "</name></script></material>";
+  };
+  const Scene scene = load("<model name='m'><link name='l'>" + visual("a", script("Gazebo/Wood")) +
+                           visual("b", script("Gazebo/Blue")) + visual("c", script("Gazebo/Wood")) +
+                           visual("d", "<material><diffuse>1 0.5 0 1</diffuse></material>") +
+                           visual("e", "") + "</link></model>");
+  EXPECT_EQ(scene.materials, (std::vector<std::string>{"Gazebo/Blue", "Gazebo/Wood", "Steel",
+                                                       "rgba(1, 0.5, 0, 1)"}));
+  EXPECT_TRUE(warnings().empty());
+}
+
+TEST_F(LoadWorld, VisualMeshThatIsMissingIsOnlyAWarning) {
+  const Scene scene = load(
+      "<model name='m'><link name='l'>\n<visual name='v'><geometry><mesh><uri>nosuch.dae</uri>"
+      "</mesh></geometry></visual></link></model>");
+  EXPECT_TRUE(scene.materials.empty());
+  ASSERT_EQ(warnings().size(), 1U);
+  EXPECT_NE(warnings()[0].find("world.sdf:4: visual 'v'"), std::string::npos) << warnings()[0];
+}
+
+TEST_F(LoadWorld, InvalidInertiaIsAWarningInPlainWords) {
+  const Scene scene = load(
+      "<model name='m'><link name='bad'><inertial><inertia><ixx>900</ixx><iyy>1</iyy><izz>1</izz>"
+      "<ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial><collision name='c'><geometry>"
+      "<sphere><radius>1</radius></sphere></geometry></collision></link></model>");
+  EXPECT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(warnings(),
+            std::vector<std::string>{path_of("world.sdf") +
+                                     ": a link named 'bad' has invalid inertia (ignored: inertia "
+                                     "is not used)"});
+}
+
+TEST_F(LoadWorld, BrokenJointsAndUnknownElementsAreWarnings) {
+  const Scene scene = load(
+      "<banana/>\n<model name='m'><pose>1 0 0 0 0 0</pose><link name='l'><collision name='c'>"
+      "<geometry><sphere><radius>1</radius></sphere></geometry></collision></link>"
+      "<joint name='j' type='fixed'><parent>l</parent><child>nope</child></joint></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(scene.collisions[0].X_WC.translation, Eigen::Vector3d(1, 0, 0));
+  ASSERT_GE(warnings().size(), 2U);
+  EXPECT_EQ(warnings()[0], path_of("world.sdf") + ":3: <banana> in <world> is not SDF (ignored)");
+  EXPECT_NE(warnings()[1].find("joints are not used"), std::string::npos) << warnings()[1];
+}
+
+TEST_F(LoadWorld, ModelWithoutLinksIsAWarning) {
+  const Scene scene = load("<model name='empty'><pose>1 2 3 0 0 0</pose></model>\n" +
+                           model_with("<sphere><radius>1</radius></sphere>"));
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"empty", "m"}));
+  EXPECT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(warnings().size(), 1U);
+}
+
+TEST_F(LoadWorld, SavedStateIsNotUsedAndSaysSo) {
+  load("<state world_name='test'><model name='m'><pose>9 9 9 0 0 0</pose></model></state>\n" +
+       model_with("<sphere><radius>1</radius></sphere>"));
+  ASSERT_EQ(warnings().size(), 1U);
+  EXPECT_NE(warnings()[0].find("world.sdf:3: <state> is not used"), std::string::npos);
+}
+
+TEST_F(LoadWorld, PrintsNothing) {
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  load("<banana/>" + model_with("<banana/>"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+}  // namespace
+}  // namespace tagfield

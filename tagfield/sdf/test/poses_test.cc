@@ -1,0 +1,100 @@
+#include <numbers>
+
+#include "tagfield/sdf/test/world_test.h"
+
+namespace tagfield {
+namespace {
+
+/// Expected poses are worked out by hand: a quarter turn about z takes (x, y) to (-y, x).
+class LoadWorldPoses : public WorldTest {
+ protected:
+  static std::string ball(const std::string& name, const std::string& pose) {
+    return "<collision name='" + name + "'>" + pose +
+           "<geometry><sphere><radius>1</radius></sphere></geometry></collision>";
+  }
+
+  static void expect_pose(const Collision& collision, const Eigen::Vector3d& p_WC,
+                          double quarter_turns) {
+    const double yaw = quarter_turns * std::numbers::pi / 2.0;
+    const Eigen::Quaterniond expected(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+    EXPECT_LT((collision.X_WC.translation - p_WC).norm(), 1e-9)
+        << collision.name << " is at " << collision.X_WC.translation.transpose();
+    EXPECT_LT(collision.X_WC.rotation.angularDistance(expected), 1e-9) << collision.name;
+  }
+};
+
+const char* const kQuarter = "1.5707963267948966";
+
+TEST_F(LoadWorldPoses, ComposeFromModelToLinkToCollision) {
+  const Scene scene = load("<model name='m'><pose>10 0 0 0 0 " + std::string(kQuarter) +
+                           "</pose><link name='l'><pose>1 0 0.5 0 0 " + kQuarter + "</pose>" +
+                           ball("c", "<pose>2 0 0 0 0 0</pose>") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  // Model turns (1, 0) to (0, 1); link and model together turn (2, 0) to (-2, 0).
+  expect_pose(scene.collisions[0], {8.0, 1.0, 0.5}, 2.0);
+}
+
+TEST_F(LoadWorldPoses, RollPitchYawTurnAboutFixedAxes) {
+  const Scene scene =
+      load("<model name='m'><pose>0 0 0 " + std::string(kQuarter) + " 0 " + kQuarter +
+           "</pose><link name='l'>" + ball("c", "<pose>0 1 0 0 0 0</pose>") + "</link></model>");
+  // Roll first: y goes to z; yaw then leaves z alone.
+  EXPECT_LT((scene.collisions.at(0).X_WC.translation - Eigen::Vector3d(0, 0, 1)).norm(), 1e-9);
+}
+
+TEST_F(LoadWorldPoses, NestedModelsFramesAndRelativeTo) {
+  const Scene scene =
+      load("<frame name='dock'><pose>5 5 0 0 0 " + std::string(kQuarter) +
+           "</pose></frame><model name='outer'><pose relative_to='dock'>1 0 0 0 0 0</pose>"
+           "<frame name='top'><pose>0 0 2 0 0 0</pose></frame>"
+           "<frame name='arm' attached_to='top'><pose>0 1 0 0 0 " +
+           kQuarter +
+           "</pose></frame>"
+           "<link name='l'><pose relative_to='arm'>1 0 0 0 0 0</pose>" +
+           ball("a", "") + ball("b", "<pose relative_to='top'>0 0 1 0 0 0</pose>") +
+           "</link><model name='inner'><pose relative_to='top'>3 0 0 0 0 0</pose><link name='k'>"
+           "<pose>0 0 1 0 0 0</pose>" +
+           ball("c", "") + "</link></model></model>");
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"outer", "outer::inner"}));
+  ASSERT_EQ(scene.collisions.size(), 3U);
+  // outer stands at dock (5, 5), turned by a quarter, plus (1, 0) turned to (0, 1): (5, 6).
+  // arm is at (0, 1, 2) in outer: (4, 6, 2), turned by two quarters; (1, 0) is (-1, 0) there.
+  EXPECT_EQ(scene.collisions[0].name, "outer::l::a");
+  expect_pose(scene.collisions[0], {3.0, 6.0, 2.0}, 2.0);
+  // b is 1 m above top, which is 2 m above outer.
+  expect_pose(scene.collisions[1], {5.0, 6.0, 3.0}, 1.0);
+  // inner is at (3, 0, 2) in outer, its link 1 m above.
+  EXPECT_EQ(scene.collisions[2].name, "outer::inner::k::c");
+  expect_pose(scene.collisions[2], {5.0, 9.0, 3.0}, 1.0);
+}
+
+TEST_F(LoadWorldPoses, PlacementFramePutsThatFrameWhereThePoseSays) {
+  const Scene scene = load(
+      "<model name='m' placement_frame='foot'><pose>4 0 0 0 0 0</pose>"
+      "<frame name='foot'><pose>0 0 -1 0 0 0</pose></frame><link name='l'>" +
+      ball("c", "") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  expect_pose(scene.collisions[0], {4.0, 0.0, 1.0}, 0.0);
+}
+
+TEST_F(LoadWorldPoses, HarmlessErrorsElsewhereLeavePosesAsTheyStand) {
+  const Scene scene =
+      load("<model name='world'><pose>1 2 3 0 0 0</pose><link name='l'>" +
+           ball("c", "<pose>0 0 1 0 0 0</pose>") +
+           "</link></model><model name='m'><pose>5 0 0 0 0 0</pose><link name='l'>" +
+           ball("c", "") + "</link></model>");
+  ASSERT_EQ(scene.collisions.size(), 2U);
+  expect_pose(scene.collisions[0], {1.0, 2.0, 4.0}, 0.0);
+  expect_pose(scene.collisions[1], {5.0, 0.0, 0.0}, 0.0);
+  EXPECT_FALSE(warnings().empty());
+}
+
+TEST_F(LoadWorldPoses, FramesBesideAReservedNameAreNotReliedOn) {
+  const std::string error = error_of(
+      "<model name='world'><link name='l'/></model>\n<frame name='f'><pose>1 0 0 0 0 0</pose>"
+      "</frame><model name='m'>\n<pose relative_to='f'>5 0 0 0 0 0</pose><link name='l'/></model>");
+  EXPECT_EQ(error.rfind("world.sdf:5: can't tell where frame 'f' is", 0), 0U) << error;
+}
+
+}  // namespace
+}  // namespace tagfield

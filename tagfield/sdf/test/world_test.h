@@ -1,0 +1,85 @@
+/// @file
+/// What the tests of load_world share: a folder of files of their own.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tagfield/sdf/load_world.h"
+
+namespace tagfield {
+
+class WorldTest : public testing::Test {
+ protected:
+  WorldTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("tagfield_sdf_" + std::to_string(getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~WorldTest() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path_of(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+
+  std::string write(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+    return path.string();
+  }
+
+  /// Loads a world whose first two lines are <sdf> and <world>, so that `inside` starts on line 3.
+  Scene load(const std::string& inside, const std::string& version = "1.9") {
+    return load_file(write("world.sdf", world(inside, version)));
+  }
+
+  Scene load_file(const std::string& path, const std::vector<std::string>& search_paths = {}) {
+    return load_world(path, search_paths, diagnostics_);
+  }
+
+  /// The message of the Error that loading `path` throws, or "".
+  std::string error_of_file(const std::string& path) {
+    try {
+      load_file(path);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// The same for a world as load() makes it, and without the file's folder.
+  std::string error_of(const std::string& inside, const std::string& version = "1.9") {
+    const std::string message = error_of_file(write("world.sdf", world(inside, version)));
+    const std::string prefix = folder_.string() + "/";
+    return message.rfind(prefix, 0) == 0 ? message.substr(prefix.size()) : message;
+  }
+
+  static std::string world(const std::string& inside, const std::string& version = "1.9") {
+    return "<sdf version='" + version + "'>\n<world name='test'>\n" + inside + "\n</world></sdf>\n";
+  }
+
+  /// A model "m" with a link "l" with a collision "c", each on the line of its own: 3, 4 and 5.
+  static std::string model_with(const std::string& geometry) {
+    return "<model name='m'>\n<link name='l'>\n<collision name='c'>\n<geometry>" + geometry +
+           "</geometry></collision></link></model>";
+  }
+
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return diagnostics_.warnings(); }
+
+  Diagnostics diagnostics_;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// A triangle with corners at the origin, (1, 0, 0) and (0, 1, 0).
+inline const char* const kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+}  // namespace tagfield

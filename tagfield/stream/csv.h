@@ -1,0 +1,45 @@
+/// @file
+/// Tables as CSV files (RFC 4180, with a header line). Every complaint names file and line.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/time.h"
+
+namespace tagfield {
+
+/// A line of a table.
+struct CsvRow {
+  int line = 0;  ///< In the file, 1-based.
+  std::vector<std::string> fields;
+};
+
+/// A table in memory. Each row has as many fields as the header.
+struct CsvTable {
+  std::string file;
+  std::vector<std::string> header;
+  std::vector<CsvRow> rows;
+
+  /// Place of the column `name`. Throws Error with the columns there are.
+  [[nodiscard]] std::size_t column(std::string_view name) const;
+  [[nodiscard]] bool has_column(std::string_view name) const;
+  /// Finite number in a field; throws Error "FILE:LINE: …" on anything else.
+  [[nodiscard]] double number(const CsvRow& row, std::size_t column) const;
+  /// Stamp in a field, in seconds (see parse_stamp).
+  [[nodiscard]] Time stamp(const CsvRow& row, std::size_t column) const;
+  /// Text in a field that must not be empty.
+  [[nodiscard]] const std::string& text(const CsvRow& row, std::size_t column) const;
+};
+
+/// Reads a table. Columns may stand in any order and there may be more of them than one asks for;
+/// blank lines are skipped. Throws Error if the file can't be read, is empty, is not text, or has a
+/// line with more or fewer fields than the header.
+CsvTable read_csv(const std::string& path);
+
+/// `text` as one field: quoted where it must be.
+std::string csv_field(std::string_view text);
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+/// @file
+/// Antenna poses as CSV: `stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/trajectory.h"
+
+namespace tagfield {
+
+/// Text of the table, a row a pose in the order given; `who` heads the column of names.
+std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::string& who = "antenna");
+
+/// Reads the table. Quaternions are normalized. Throws Error "FILE:LINE: …" on a missing column,
+/// text where a number belongs, or a quaternion of length far from 1 (0.9 to 1.1 is taken).
+std::vector<AntennaPose> read_poses_csv(const std::string& path,
+                                        const std::string& who = "antenna");
+
+}  // namespace tagfield

@@ -1,0 +1,17 @@
+/// @file
+/// Names that try a table's quoting, for RapidCheck.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <string>
+
+namespace tagfield {
+
+/// Not empty, without NUL; full of commas, quotes, spaces, line ends and bytes beyond ASCII.
+inline std::string odd_name() {
+  const auto odd = rc::gen::elementOf(std::string(",\"\r\n \t;'ab1\xc3\xa9\xef\xbb\xbf\xff"));
+  return *rc::gen::nonEmpty(rc::gen::container<std::string>(odd));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,224 @@
+#!/usr/bin/python3
+"""Opens report.html of run folders in headless Chromium and looks whether it keeps its word.
+
+    page_test.py [--screenshots DIR] RUN_FOLDER…
+
+Checks at desktop and phone width, light and dark: nothing on the console, no request but the page
+itself, every figure drawn and of some size, no sideways scrolling, legible text, a dark background
+in the dark. Checks that each file in figures/ is XML that stands alone. Needs Debian's packages
+chromium, chromium-driver and python3-selenium; exits 77 (skipped) where one is missing, 1 with a
+line for each failure, 0 where all is well.
+"""
+
+import argparse
+import json
+import pathlib
+import shutil
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+SKIPPED = 77
+CHROMIUM = "/usr/bin/chromium"
+CHROMEDRIVER = "/usr/bin/chromedriver"
+SCREENS = {"desktop": (1280, 900, False), "phone": (390, 844, True)}
+THEMES = ("light", "dark")
+LEAST_FONT_PX = 9.0
+LEAST_CONTRAST = 4.5  # WCAG 2.1, success criterion 1.4.3, for text.
+
+LOOK = """
+const visible = [...document.querySelectorAll('figure')].map(figure => {
+  const svg = figure.querySelector('svg');
+  if (!svg) return {id: figure.id, width: 0, height: 0, marks: 0, fonts: [], caption: ''};
+  const box = svg.getBoundingClientRect();
+  const scale = box.width / svg.viewBox.baseVal.width;
+  const texts = [...svg.querySelectorAll('text')];
+  return {
+    id: figure.id, width: box.width, height: box.height,
+    marks: svg.querySelectorAll(
+      'circle,polyline,path:not(.wall),rect:not(.frame),line:not(.grid):not(.axis)').length,
+    fonts: texts.map(text => parseFloat(getComputedStyle(text).fontSize) * scale),
+    cut: texts.filter(text => {
+      const place = text.getBoundingClientRect();
+      return place.left < box.left - 1 || place.right > box.right + 1 ||
+             place.top < box.top - 1 || place.bottom > box.bottom + 1;
+    }).map(text => text.textContent),
+    colors: [...new Set(texts.filter(text => !text.classList.contains('rim'))
+      .map(text => getComputedStyle(text).fill))],
+    caption: figure.querySelector('figcaption')?.textContent ?? '',
+  };
+});
+const body = getComputedStyle(document.body);
+return {figures: visible, background: body.backgroundColor, ink: body.color,
+        scroll: document.scrollingElement.scrollWidth, inner: window.innerWidth,
+        scripts: document.scripts.length};
+"""
+
+
+def skip(what):
+    print(f"skipped: {what}")
+    sys.exit(SKIPPED)
+
+
+def start_browser(profile):
+    try:
+        from selenium import webdriver
+        from selenium.webdriver.chrome.service import Service
+    except ImportError:
+        skip("python3-selenium is not installed")
+    for program in (CHROMIUM, CHROMEDRIVER):
+        if not shutil.which(program):
+            skip(f"{program} is not installed")
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for flag in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
+                 "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                 "--disable-sync", "--hide-scrollbars", f"--user-data-dir={profile}"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
+
+
+def luminance(color):
+    """Relative luminance of "rgb(r, g, b)" (WCAG 2.1)."""
+    parts = [float(part) for part in color[color.index("(") + 1:-1].split(",")[:3]]
+    linear = [part / 255 / 12.92 if part <= 10.3 else ((part / 255 + 0.055) / 1.055) ** 2.4
+              for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one, other):
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def requests_of(driver):
+    """Addresses that the page asked for since the last call."""
+    addresses = []
+    for entry in driver.get_log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] == "Network.requestWillBeSent":
+            addresses.append(message["params"]["request"]["url"])
+    return addresses
+
+
+def open_page(driver, page, screen, theme):
+    width, height, mobile = SCREENS[screen]
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": width, "height": height, "deviceScaleFactor": 2 if mobile else 1,
+        "mobile": mobile})
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+        "features": [{"name": "prefers-color-scheme", "value": theme}]})
+    driver.get_log("performance")
+    driver.get(page.as_uri())
+    return driver.execute_script(LOOK)
+
+
+def figure_faults(figure, background):
+    name = f"figure {figure['id']}"
+    if figure["width"] <= 200 or figure["height"] <= 100:
+        yield f"{name} is {figure['width']:.0f}×{figure['height']:.0f} px, expected over 200×100"
+        return
+    if figure["marks"] == 0:
+        yield f"{name} is empty"
+    if min(figure["fonts"], default=LEAST_FONT_PX) < LEAST_FONT_PX:
+        yield f"{name} has text of {min(figure['fonts']):.1f} px, expected {LEAST_FONT_PX} or more"
+    for text in figure["cut"]:
+        yield f"{name} cuts off '{text}'"
+    for color in figure["colors"]:
+        if contrast(color, background) < LEAST_CONTRAST:
+            yield f"{name} has text of {color} on {background}, too faint"
+    if len(figure["caption"]) < 20:
+        yield f"{name} has no caption"
+
+
+def view_faults(driver, page, theme, seen):
+    for entry in driver.get_log("browser"):
+        if entry["level"] in ("WARNING", "SEVERE"):
+            yield f"console: {entry['message']}"
+    for address in requests_of(driver):
+        if address != page.as_uri():
+            yield f"requests {address[:200]}"
+    if seen["scripts"]:
+        yield f"holds {seen['scripts']} scripts"
+    if seen["scroll"] > seen["inner"]:
+        yield f"scrolls sideways: {seen['scroll']} px wide in a window of {seen['inner']} px"
+    if (luminance(seen["background"]) < 0.1) != (theme == "dark"):
+        yield f"has the background {seen['background']}"
+    if contrast(seen["ink"], seen["background"]) < LEAST_CONTRAST:
+        yield f"has text of {seen['ink']} on {seen['background']}, too faint"
+    for figure in seen["figures"]:
+        yield from figure_faults(figure, seen["background"])
+
+
+def take_screenshot(driver, path):
+    import base64
+    size = driver.execute_cdp_cmd("Page.getLayoutMetrics", {})["cssContentSize"]
+    image = driver.execute_cdp_cmd("Page.captureScreenshot", {
+        "captureBeyondViewport": True,
+        "clip": {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}})
+    path.write_bytes(base64.b64decode(image["data"]))
+
+
+def svg_faults(path):
+    try:
+        root = ElementTree.parse(path).getroot()
+    except ElementTree.ParseError as error:
+        yield f"{path.name} is not well-formed: {error}"
+        return
+    if root.tag != "{http://www.w3.org/2000/svg}svg":
+        yield f"{path.name} is no SVG"
+    for element in root.iter():
+        for name, value in element.attrib.items():
+            if name.endswith("href") or ("url(" in value and "url(#" not in value):
+                yield f"{path.name} points outside: {value[:80]}"
+    text = path.read_text(encoding="utf-8")
+    for alien in ("var(--", "@import", "@font-face", "<script"):
+        if alien in text:
+            yield f"{path.name} holds {alien}"
+
+
+def check_folder(driver, folder, screenshots):
+    page = (folder / "report.html").resolve()
+    if not page.exists():
+        yield "has no report.html"
+        return
+    figures = set()
+    for screen in SCREENS:
+        for theme in THEMES:
+            seen = open_page(driver, page, screen, theme)
+            figures = {figure["id"] for figure in seen["figures"]}
+            for fault in view_faults(driver, page, theme, seen):
+                yield f"({screen}, {theme}) {fault}"
+            if screenshots:
+                take_screenshot(driver, screenshots / f"{folder.name}-{screen}-{theme}.png")
+    files = sorted((folder / "figures").glob("*.svg"))
+    if {path.stem for path in files} != figures:
+        yield f"figures/ holds {[path.stem for path in files]}, the page {sorted(figures)}"
+    for path in files:
+        yield from svg_faults(path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="RUN_FOLDER")
+    parser.add_argument("--screenshots", type=pathlib.Path, metavar="DIR")
+    arguments = parser.parse_args()
+    if arguments.screenshots:
+        arguments.screenshots.mkdir(parents=True, exist_ok=True)
+    failures = 0
+    with tempfile.TemporaryDirectory(prefix="page_test-") as profile:
+        driver = start_browser(profile)
+        try:
+            for folder in arguments.folders:
+                for fault in check_folder(driver, folder, arguments.screenshots):
+                    print(f"{folder}: {fault}")
+                    failures += 1
+        finally:
+            driver.quit()
+    print(f"{len(arguments.folders)} pages, {failures} failures")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
