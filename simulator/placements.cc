@@ -4,22 +4,20 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <sstream>
 
+#include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
 
 namespace tagfield {
 namespace {
 
 double number_of(const RawParameter& parameter, const std::string& text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [after, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || after != end) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) {
     fail(parameter.location, fmt::format("<{}> is '{}', expected a number", parameter.key, text));
   }
-  return value;
+  return *value;
 }
 
 std::vector<double> numbers_of(const RawParameter& parameter) {

@@ -13,6 +13,8 @@ namespace tagfield {
 namespace {
 
 constexpr const char* kCommandLine = "--set";
+// Tag of YAML nodes that did not come from the file.
+constexpr const char* kFromCommandLine = "!set";
 
 void require_in_range(const YamlValue& value, double number, NumberRange range) {
   if (!std::isfinite(number)) value.fail(fmt::format("must be finite, is {}", number));
@@ -66,9 +68,24 @@ std::vector<std::string> split_at_dots(std::string_view path) {
   fail({fmt::format("{} {}", kCommandLine, key_path), 0}, why);
 }
 
+void mark_as_from_command_line(YAML::Node node) {
+  node.SetTag(kFromCommandLine);
+  if (node.IsSequence()) {
+    for (const YAML::Node& element : node) mark_as_from_command_line(element);
+  }
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      mark_as_from_command_line(entry.first);
+      mark_as_from_command_line(entry.second);
+    }
+  }
+}
+
 YAML::Node parse_value(std::string_view key_path, const std::string& text) {
   try {
-    return YAML::Load(text);
+    const YAML::Node value = YAML::Load(text);
+    mark_as_from_command_line(value);
+    return value;
   } catch (const YAML::Exception& error) {
     leads_nowhere(key_path, fmt::format("'{}' is not a YAML value: {}", text, error.msg));
   }
@@ -81,10 +98,9 @@ void YamlValue::fail(const std::string& message) const {
 }
 
 Location YamlValue::location() const {
+  if (node_.Tag() == kFromCommandLine) return {kCommandLine, 0};
   const YAML::Mark mark = node_.Mark();
-  // What --set put in has no place in the file.
-  if (mark.is_null()) return {node_.IsDefined() && !path_.empty() ? kCommandLine : file_, 0};
-  return {file_, mark.line + 1};
+  return {file_, mark.is_null() ? 0 : mark.line + 1};
 }
 
 double YamlValue::number(NumberRange range) const {
@@ -179,7 +195,8 @@ void YamlMap::finish() const {
   for (const auto& entry : self_.node()) {
     const std::string key = entry.first.as<std::string>("");
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    const YAML::Node& place = entry.first.Mark().is_null() ? entry.second : entry.first;
+    const bool from_file = entry.second.Tag() != kFromCommandLine;
+    const YAML::Node& place = from_file ? entry.first : entry.second;
     const Location location = YamlValue(place, self_.file(), key).location();
     const std::string where = self_.path().empty() ? "" : fmt::format(" in {}", self_.path());
     tagfield::fail(location,

@@ -34,7 +34,7 @@ Extent content_extent(const RunFiles& run, const Outcomes& outcomes) {
   for (const TagOutcome* outcome : outcomes) {
     for (const Candidate& candidate : outcome->estimate.candidates) {
       const Eigen::Vector2d place = candidate.p_WT.head<2>();
-      if (certain.isEmpty() || certain.exteriorDistance(place) < 0.5 * reach) extent.extend(place);
+      if (certain.isEmpty() || certain.exteriorDistance(place) < reach) extent.extend(place);
     }
   }
   return extent;

@@ -10,6 +10,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kColorBar = 50.0;
+constexpr double kFarthestTag = 30.0;  ///< [m] An estimate further off the path is not shown.
 
 /// A read with the place of the antenna.
 struct PlacedRead {
@@ -55,6 +56,9 @@ void draw_tag(Svg& svg, MapView& map, const TagOutcome* outcome) {
   const auto place = outcome == nullptr ? std::nullopt : known_place(*outcome);
   if (!place) return;
   const Place center = on_map(map, *place);
+  const bool shown = center.x() > map.axes.x.from && center.x() < map.axes.x.to &&
+                     center.y() > map.axes.y.to && center.y() < map.axes.y.from;
+  if (!shown) return;
   if (outcome->truth_m) {
     add_diamond(svg, center, 8.5, styled("truth"), clean_text(outcome->estimate.tag));
   } else {
@@ -66,7 +70,10 @@ void draw_tag(Svg& svg, MapView& map, const TagOutcome* outcome) {
 Extent content_of(const AntennaTrack& track, const TagOutcome* outcome) {
   Extent content;
   for (const StampedPose& pose : track.best()) content.extend(pose.X_WB.translation.head<2>());
-  if (outcome != nullptr && outcome->truth_m) content.extend(outcome->truth_m->head<2>());
+  const auto place = outcome == nullptr ? std::nullopt : known_place(*outcome);
+  if (place && content.exteriorDistance(place->head<2>()) < kFarthestTag) {
+    content.extend(place->head<2>());
+  }
   return content;
 }
 

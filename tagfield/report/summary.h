@@ -75,12 +75,16 @@ std::size_t count_over(const Summary& summary, double limit_m);
 
 /// summary.json: scenario, description, seeds, method, pose, complete, path_length_m, reads,
 /// simulated_s, wall_s, real_time_factor, pose_error, tags: [{id, seed, verdict, reason, truth_m,
-/// moved, estimate_m, error_m, rms_m, expected_error_m, candidates_m, reads}], error_m: {mean,
-/// median, p95, max, min, count}, over_0_3_m, located, ambiguous, not_located, warnings. What is
-/// unknown is null. `estimate_m` is null unless the tag is located.
+/// moved, estimate_m, error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m,
+/// candidates_expected_error_m, reads}], error_m: {mean, median, p95, max, min, count}, over_0_3_m,
+/// located, ambiguous, not_located, warnings. What is unknown or not finite is null. `estimate_m`
+/// is null unless the tag is located; `rms_m` and `expected_error_m` are the best candidate's, and
+/// the three lists of candidates are equally long. Bytes that are not UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
-/// Inverse of to_json. Throws Error "FILE: …" on text that is not such a summary.
+/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure of the
+/// run that is null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false",
+/// on one line, on text that is not such a summary.
 Summary summary_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

@@ -84,15 +84,33 @@ void StagedFolder::add(const fs::path& name, const std::string& text) {
 }
 
 void StagedFolder::commit(const std::vector<fs::path>& stale) {
-  for (const fs::path& name : stale) {
-    std::error_code ignored;
-    fs::remove_all(folder_ / name, ignored);
-  }
   for (const fs::path& name : names_) {
     make_folder((folder_ / name).parent_path());
     rename_over(staging_ / name, folder_ / name);
   }
+  for (const fs::path& name : stale) remove_stale(name);
   names_.clear();
+}
+
+/// Removes what stands under `name`, except what was added there.
+void StagedFolder::remove_stale(const fs::path& name) {
+  const auto is_new = [&](const fs::path& file) {
+    return std::find(names_.begin(), names_.end(), file.lexically_relative(folder_)) !=
+           names_.end();
+  };
+  std::error_code ignored;
+  const fs::path place = folder_ / name;
+  if (!fs::is_directory(place, ignored)) {
+    if (!is_new(place)) fs::remove(place, ignored);
+    return;
+  }
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::recursive_directory_iterator(place, ignored)) {
+    if (!entry.is_directory() && !is_new(entry.path())) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, ignored);
+  // Removes only an empty folder.
+  fs::remove(place, ignored);
 }
 
 }  // namespace tagfield

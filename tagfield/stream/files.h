@@ -36,6 +36,8 @@ class StagedFolder {
   [[nodiscard]] const std::filesystem::path& staging() const { return staging_; }
 
  private:
+  void remove_stale(const std::filesystem::path& name);
+
   std::filesystem::path folder_;
   std::filesystem::path staging_;
   std::vector<std::filesystem::path> names_;

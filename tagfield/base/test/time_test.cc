@@ -58,7 +58,7 @@ TEST(ParseStamp, RefusesAllElse) {
        {"",  ".",   "1e",  "nan", "inf", "-inf", "12.3.4", "1e400", "abc", "-",
         "+", "--1", "+-1", "-+1", " 1",  "1 ",   "1s",     "0x10",  "1,5", "12:30"}) {
     const std::string message = error_of([&] { parse_stamp(text); });
-    EXPECT_EQ(message, "'" + std::string(text) + "' is not a time in seconds");
+    EXPECT_EQ(message, std::string("'").append(text).append("' is not a time in seconds"));
   }
 }
 

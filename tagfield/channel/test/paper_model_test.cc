@@ -192,7 +192,9 @@ struct RssiCase {
 class PaperSignalRssi : public testing::TestWithParam<RssiCase> {};
 
 TEST_P(PaperSignalRssi, MeanFollowsEquationFive) {
-  const auto [gain, noise, distance] = GetParam();
+  const double gain = GetParam().gain;
+  const double noise = GetParam().noise;
+  const double distance = GetParam().distance_m;
   PaperModel model = noiseless();
   model.communication_gain = gain;
   model.rssi_noise = noise;

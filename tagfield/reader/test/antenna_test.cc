@@ -51,8 +51,8 @@ TEST(UpdateStamp, CountsFromZero) {
 
 TEST(UpdateStamp, DoesNotDriftOverAMonth) {
   constexpr std::int64_t kDays = 30;
-  EXPECT_EQ(update_stamp(antenna_named("a"), 15 * 86'400 * kDays),
-            at(86'400 * kDays * 1'000'000'000));
+  EXPECT_EQ(update_stamp(antenna_named("a"), kDays * 86'400 * 15),
+            at(kDays * 86'400 * 1'000'000'000));
   for (const double rate : {0.01, 0.3, 29.97, 59.94, 1000.0 / 3.0}) {
     for (std::int64_t day = 1; day <= kDays; ++day) {
       const auto number = static_cast<std::int64_t>(86'400.0 * static_cast<double>(day) * rate);

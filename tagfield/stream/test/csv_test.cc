@@ -166,7 +166,8 @@ TEST(CsvField, QuotesOnlyWhereItMust) {
 RC_GTEST_PROP(CsvField, IsReadBackAsItWas, ()) {
   const std::string a = odd_name();
   const std::string b = odd_name();
-  const CsvTable table = table_of("a,b\n" + csv_field(a) + "," + csv_field(b) + "\n1,2\n");
+  const CsvTable table =
+      table_of(std::string("a,b\n") + csv_field(a) + "," + csv_field(b) + "\n1,2\n");
   RC_ASSERT(table.rows.size() == 2u);
   RC_ASSERT(table.rows[0].fields == (Fields{a, b}));
 }
