@@ -85,6 +85,7 @@ void Simulation::plan_appearances(const std::vector<TagSpec>& tags) {
                    [](const TagSpec& a, const TagSpec& b) { return a.appears > b.appears; });
   std::stable_sort(to_disappear_.begin(), to_disappear_.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
+  handle_events(Time{});
 }
 
 const Robot* Simulation::robot_named(const std::string& name) const {

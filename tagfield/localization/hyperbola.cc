@@ -205,10 +205,17 @@ std::string doubt(const Candidate& best, const HyperbolaOptions& options) {
   return "";
 }
 
+TagEstimate not_located(TagEstimate estimate, const std::string& why) {
+  estimate.verdict = Verdict::kNotLocated;
+  estimate.reason = fmt::format("cannot localize: {}", why);
+  estimate.candidates.clear();
+  return estimate;
+}
+
 void judge(const HyperbolaOptions& options, TagEstimate& estimate) {
-  estimate.reason = doubt(estimate.candidates.front(), options);
-  if (!estimate.reason.empty()) {
-    estimate.candidates.clear();
+  const std::string why_not = doubt(estimate.candidates.front(), options);
+  if (!why_not.empty()) {
+    estimate = not_located(std::move(estimate), why_not);
   } else if (estimate.candidates.size() == 1) {
     estimate.verdict = Verdict::kLocated;
   } else {
@@ -229,20 +236,17 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   TagEstimate estimate;
   estimate.tag = tag;
   estimate.reads = count_reads(samples);
-  estimate.reason = hopeless(samples);
-  if (!estimate.reason.empty()) return estimate;
+  const std::string why_hopeless = hopeless(samples);
+  if (!why_hopeless.empty()) return not_located(std::move(estimate), why_hopeless);
   Problem problem = pose_problem(samples, tag_height, options.max_step);
   estimate.reads = static_cast<std::size_t>(problem.data.distance.size());
-  estimate.reason = too_few(problem);
-  if (!estimate.reason.empty()) return estimate;
+  const std::string why_too_few = too_few(problem);
+  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
   const auto conics = make_conics(problem.segments, options.stride_m, options.max_hyperbolae);
   const std::vector<Guess> ranked =
       rank(thinned(problem.data, kThinReads), intersect_all(conics, tag_height));
   std::vector<Eigen::Vector2d> places = find_minima(problem, ranked);
-  if (places.empty()) {
-    estimate.reason = "no two hyperbolae meet";
-    return estimate;
-  }
+  if (places.empty()) return not_located(std::move(estimate), "no two hyperbolae meet");
   places = indistinct(problem.data, places);
   if (!options.refine) places = unrefined(problem.data, ranked, places);
   for (const Eigen::Vector2d& p : places) {

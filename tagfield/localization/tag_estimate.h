@@ -11,7 +11,7 @@ namespace tagfield {
 enum class Verdict {
   kLocated,     ///< One candidate.
   kAmbiguous,   ///< Several that the data can't tell apart, such as the two mirror images.
-  kNotLocated,  ///< None, and `reason` says why.
+  kNotLocated,  ///< None; `reason` is "cannot localize: " and why.
 };
 
 /// "located", "ambiguous", "not_located".

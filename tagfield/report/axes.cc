@@ -59,6 +59,12 @@ void draw_symbol(Svg& svg, const LegendEntry& entry, const Place& center) {
 
 }  // namespace
 
+double row_height(std::size_t rows) {
+  constexpr double kLeast = 26.0;
+  constexpr double kLeastTogether = 150.0;
+  return std::max(kLeast, kLeastTogether / static_cast<double>(std::max<std::size_t>(rows, 1)));
+}
+
 double place_on(const Scale& scale, double value) {
   return scale.from + fraction_of(scale, value) * (scale.to - scale.from);
 }

@@ -39,6 +39,9 @@ void draw_axes(Svg& svg, const Axes& axes, const std::string& x_title, const std
 /// Only the vertical lines of the grid, with labels and title: for rows with names.
 void draw_x_axis(Svg& svg, const Axes& axes, const std::string& title);
 
+/// Height of each of `rows` rows with names; few rows are higher, so that the figure is no strip.
+double row_height(std::size_t rows);
+
 /// An entry of a legend.
 enum class Symbol { kLine, kDiamond, kCross, kDot, kRing, kSquare };
 struct LegendEntry {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/report/summary.h"
+
 namespace tagfield {
 namespace {
 
@@ -38,6 +40,11 @@ double strength_opacity(double strength) {
 std::string hex_color(const Rgb& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte_of(color[0]), byte_of(color[1]),
                      byte_of(color[2]));
+}
+
+std::pair<double, double> color_range(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {quantile(values, 0.05), quantile(values, 0.95)};
 }
 
 double strength_of(double value, double low, double high) {

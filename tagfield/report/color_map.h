@@ -5,6 +5,8 @@
 
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tagfield {
 
@@ -19,6 +21,10 @@ double strength_opacity(double strength);
 
 /// "#rrggbb".
 std::string hex_color(const Rgb& color);
+
+/// The ends of the colour scale for these values: the middle nine tenths of them, because a few
+/// reads that noise all but cancelled (eq. 5) lie far below the others. `values` must not be empty.
+std::pair<double, double> color_range(std::vector<double> values);
 
 /// `value` as a strength between `low` (0) and `high` (1); 0.5 where the two are equal.
 double strength_of(double value, double low, double high);

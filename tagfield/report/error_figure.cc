@@ -10,7 +10,6 @@
 namespace tagfield {
 namespace {
 
-constexpr double kRowHeight = 26.0;
 constexpr double kNameWidth = 122.0;
 constexpr double kTop = 30.0;
 constexpr double kBottom = 48.0;
@@ -37,12 +36,12 @@ Axes row_axes(const ErrorStatistics& errors, std::size_t rows, bool several) {
   axes.x.from = kNameWidth;
   axes.x.to = kDrawingWidth - kValueRoom;
   axes.y.to = kTop;
-  axes.y.from = kTop + kRowHeight * static_cast<double>(rows) + 4.0;
+  axes.y.from = kTop + row_height(rows) * static_cast<double>(rows) + 4.0;
   return axes;
 }
 
-double row_center(std::size_t row) {
-  return kTop + kRowHeight * (static_cast<double>(row) + 0.5) + 2.0;
+double row_center(std::size_t row, std::size_t rows) {
+  return kTop + row_height(rows) * (static_cast<double>(row) + 0.5) + 2.0;
 }
 
 void draw_name(Svg& svg, const std::string& tag, double y) {
@@ -107,7 +106,7 @@ void draw_rows(Figure& figure, const std::vector<TagRow>& rows, const ErrorStati
   figure.svg.height = axes.y.from + kBottom;
   draw_x_axis(figure.svg, axes, axes.x.logarithmic ? "error [mm], logarithmic" : "error [mm]");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    draw_row(figure.svg, axes, rows[i], row_center(i), seeds > 1);
+    draw_row(figure.svg, axes, rows[i], row_center(i, rows.size()), seeds > 1);
   }
   draw_mean(figure.svg, axes, errors.mean);
   figure.caption = "Distance between the estimated and the true place of each tag.";

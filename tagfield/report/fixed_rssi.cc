@@ -37,6 +37,14 @@ std::vector<TagStrength> strengths_at(const RunFiles& run, const AntennaTrack& t
   return list;
 }
 
+std::vector<double> all_values(const std::vector<TagStrength>& strengths) {
+  std::vector<double> values;
+  for (const TagStrength& strength : strengths) {
+    values.insert(values.end(), strength.rssi_dbm.begin(), strength.rssi_dbm.end());
+  }
+  return values;
+}
+
 std::pair<double, double> range_of(const std::vector<TagStrength>& strengths) {
   double low = strengths.front().rssi_dbm.front();
   double high = low;

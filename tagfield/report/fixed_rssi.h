@@ -18,6 +18,9 @@ struct TagStrength {
   std::optional<Eigen::Vector3d> p_WT;  ///< True, else estimated.
 };
 
+/// All values of all tags together.
+std::vector<double> all_values(const std::vector<TagStrength>& strengths);
+
 /// In natural order of the tags.
 std::vector<TagStrength> strengths_at(const RunFiles& run, const AntennaTrack& track);
 

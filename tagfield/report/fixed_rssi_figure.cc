@@ -27,7 +27,7 @@ std::string spoken_strength(const TagStrength& strength) {
 
 void draw_links(Svg& svg, MapView& map, const Place& antenna,
                 const std::vector<TagStrength>& strengths) {
-  const auto [low, high] = range_of(strengths);
+  const auto [low, high] = color_range(all_values(strengths));
   const std::size_t step = thinning(strengths.size(), kMostMarks / 2);
   for (std::size_t i = 0; i < strengths.size(); i += step) {
     if (!strengths[i].p_WT) continue;
@@ -79,7 +79,7 @@ Figure fixed_rssi_figure(const RunFiles& run) {
   const Eigen::Vector3d p_WA = track->best().front().X_WB.translation;
   MapView map = make_map(figure.name, content_of(p_WA, strengths), run.top_view, kColorBar);
   const Place antenna = on_map(map, p_WA);
-  const auto [low, high] = range_of(strengths);
+  const auto [low, high] = color_range(all_values(strengths));
   figure.svg.height = map_bottom(map);
   draw_color_bar(figure.svg, 2.0, low, high);
   draw_map(figure.svg, map, run.top_view);

@@ -10,7 +10,6 @@
 namespace tagfield {
 namespace {
 
-constexpr double kRowHeight = 26.0;
 constexpr double kNameWidth = 122.0;
 constexpr double kTop = 12.0;
 
@@ -29,14 +28,14 @@ std::vector<TagStrength> strongest(std::vector<TagStrength> strengths, std::size
 
 /// Equal values of a tag are one spot, the larger the more there are.
 void draw_strip(Svg& svg, const Axes& axes, const TagStrength& strength, double y,
-                std::size_t most) {
+                const std::pair<double, double>& colors, std::size_t most) {
   std::map<double, std::size_t> counts;
   for (const double value : strength.rssi_dbm) ++counts[value];
   const std::size_t step = thinning(counts.size(), most);
   std::size_t index = 0;
   for (const auto& [value, count] : counts) {
     if (index++ % step != 0) continue;
-    const double level = strength_of(value, axes.x.low, axes.x.high);
+    const double level = strength_of(value, colors.first, colors.second);
     const double share = static_cast<double>(count) / static_cast<double>(strength.rssi_dbm.size());
     add_circle(svg, {place_on(axes.x, value), y}, 3.0 + 5.0 * share,
                filled(hex_color(strength_color(level)), strength_opacity(level)),
@@ -50,7 +49,7 @@ Axes strip_axes(const std::vector<TagStrength>& strengths) {
   axes.x.from = kNameWidth;
   axes.x.to = kDrawingWidth - 26.0;
   axes.y.to = kTop;
-  axes.y.from = kTop + kRowHeight * static_cast<double>(strengths.size()) + 4.0;
+  axes.y.from = kTop + row_height(strengths.size()) * static_cast<double>(strengths.size()) + 4.0;
   return axes;
 }
 
@@ -63,12 +62,13 @@ Figure fixed_strip_figure(const RunFiles& run) {
   const std::vector<TagStrength> all = strengths_at(run, *track);
   const std::vector<TagStrength> shown = strongest(all, kMostRows);
   const Axes axes = strip_axes(shown);
+  const auto colors = color_range(all_values(shown));
   figure.svg.height = axes.y.from + 48.0;
   draw_x_axis(figure.svg, axes, "RSSI [dBm]");
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double y = kTop + kRowHeight * (static_cast<double>(i) + 0.5) + 2.0;
+    const double y = kTop + row_height(shown.size()) * (static_cast<double>(i) + 0.5) + 2.0;
     add_text(figure.svg, {kNameWidth - 10.0, y + 5.0}, shortened(shown[i].tag, 10), Anchor::kEnd);
-    draw_strip(figure.svg, axes, shown[i], y, kMostMarks / shown.size());
+    draw_strip(figure.svg, axes, shown[i], y, colors, kMostMarks / shown.size());
   }
   figure.caption =
       "Every value received from each tag: a spot for each that occurs, the larger "

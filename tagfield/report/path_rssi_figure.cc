@@ -27,10 +27,10 @@ std::vector<PlacedRead> placed(const AntennaTrack& track, const std::string& tag
 }
 
 std::pair<double, double> rssi_range(const std::vector<PlacedRead>& reads) {
-  const auto [low, high] = std::minmax_element(
-      reads.begin(), reads.end(),
-      [](const PlacedRead& a, const PlacedRead& b) { return a.read->rssi_dbm < b.read->rssi_dbm; });
-  return {low->read->rssi_dbm, high->read->rssi_dbm};
+  std::vector<double> values;
+  values.reserve(reads.size());
+  for (const PlacedRead& placed_read : reads) values.push_back(placed_read.read->rssi_dbm);
+  return color_range(std::move(values));
 }
 
 void draw_reads(Svg& svg, const MapView& map, const std::vector<PlacedRead>& reads) {
@@ -99,8 +99,9 @@ Figure path_rssi_figure(const RunFiles& run) {
   draw_tag(figure.svg, map, outcome);
   figure.title += fmt::format(", {}", shortened(tag, 24));
   figure.caption = fmt::format(
-      "Strength of {}'s answers where {} received them, over {}. Where only the thin line is, it "
-      "received none.",
+      "Strength of {}'s answers where {} received them, over {}; the colours span the middle 90 % "
+      "of "
+      "the values. Where only the thin line is, it received none.",
       shortened(tag, 32), shortened(track->antenna, 32), counted(reads.size(), "read"));
   const std::size_t step = thinning(reads.size(), kMostMarks);
   if (step > 1) figure.caption += fmt::format(" One read in {} is drawn.", step);

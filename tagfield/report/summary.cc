@@ -7,14 +7,6 @@
 namespace tagfield {
 namespace {
 
-/// Linear between the ranks around it, as NumPy's default; `rising` must not be empty.
-double quantile(const std::vector<double>& rising, double fraction) {
-  const double rank = fraction * static_cast<double>(rising.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, rising.size() - 1);
-  return rising[below] + (rank - static_cast<double>(below)) * (rising[above] - rising[below]);
-}
-
 std::vector<double> errors_of(const Summary& summary) {
   std::vector<double> errors;
   for (const TagOutcome& outcome : summary.tags) {
@@ -24,6 +16,13 @@ std::vector<double> errors_of(const Summary& summary) {
 }
 
 }  // namespace
+
+double quantile(const std::vector<double>& rising, double fraction) {
+  const double rank = fraction * static_cast<double>(rising.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, rising.size() - 1);
+  return rising[below] + (rank - static_cast<double>(below)) * (rising[above] - rising[below]);
+}
 
 std::optional<double> error_of(const TagOutcome& outcome) {
   const TagEstimate& estimate = outcome.estimate;

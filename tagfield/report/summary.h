@@ -33,6 +33,10 @@ struct ErrorStatistics {
   double min = 0.0;
 };
 
+/// The value below which `fraction` of the values lie, linear between the ranks around it, as
+/// NumPy's default. `rising` must be sorted and not be empty.
+double quantile(const std::vector<double>& rising, double fraction);
+
 /// None where `errors_m` is empty.
 std::optional<ErrorStatistics> statistics(std::vector<double> errors_m);
 

@@ -265,20 +265,22 @@ TEST(Hyperbola, AnAntennaThatAlsoMovesUpAndDownLocates) {
 
 TEST(Hyperbola, WhatCannotBeLocatedSaysWhy) {
   Rng rng(14);
-  EXPECT_EQ(locate({}, 0.4).reason, "no reads");
-  EXPECT_EQ(locate({{"a", {}}}, 0.4).reason, "no reads");
+  EXPECT_EQ(locate({}, 0.4).reason, "cannot localize: no reads");
+  EXPECT_EQ(locate({{"a", {}}}, 0.4).reason, "cannot localize: no reads");
   const Path still(50, Eigen::Vector3d(1.0, 1.0, 0.4));
   const auto samples = read_along(still, {2.0, 2.0, 0.4}, Noise{}, rng);
   const TagEstimate estimate = locate({{"a", samples}}, 0.4);
   EXPECT_EQ(estimate.verdict, Verdict::kNotLocated);
-  EXPECT_EQ(estimate.reason, "the antenna moved only 0.00 m");
+  EXPECT_EQ(estimate.reason, "cannot localize: the antenna moved only 0.00 m");
   const std::vector<PhaseSample> few(samples.begin(), samples.begin() + 3);
-  EXPECT_EQ(locate({{"a", few}}, 0.4).reason, "only 3 reads, at least 8 are needed");
+  EXPECT_EQ(locate({{"a", few}}, 0.4).reason,
+            "cannot localize: only 3 reads, at least 8 are needed");
   const auto some = read_along(straight(0.2, 0.02), {2.0, 2.0, 0.4}, Noise{}, rng);
   EXPECT_NE(locate({{"a", some}}, 0.4).reason.find("too few reads"), std::string::npos);
   const auto sparse = read_along(straight(40.0, 0.5), {2.0, 2.0, 0.4}, Noise{}, rng);
-  EXPECT_EQ(locate({{"a", sparse}}, 0.4).reason,
-            "the antenna moved too far between reads for the phase to be followed");
+  EXPECT_EQ(
+      locate({{"a", sparse}}, 0.4).reason,
+      "cannot localize: the antenna moved too far between reads for the phase to be followed");
 }
 
 TEST(Hyperbola, ATagThatRidesAlongIsNotLocated) {

@@ -107,7 +107,7 @@ TEST(Locate, ATagWithoutPosesIsListedWithItsReason) {
   ASSERT_EQ(estimates.size(), 2u);
   EXPECT_EQ(estimates[1].tag, "zebra");
   EXPECT_EQ(estimates[1].verdict, Verdict::kNotLocated);
-  EXPECT_EQ(estimates[1].reason, "no reads");
+  EXPECT_EQ(estimates[1].reason, "cannot localize: no reads");
   EXPECT_EQ(diagnostics.warnings().size(), 1u);
 }
 

@@ -1,0 +1,127 @@
+// How fast the headless simulator is: the paper's experiment, many tags, and the cost of a read
+// from 100 to 100,000 tags. BENCHMARK.md has the results and the command.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "simulator/experiment.h"
+#include "simulator/scenario_yaml.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kSimulatedSeconds = 4.0;
+
+void add_tag(Scenario& scenario, double x, double y) {
+  TagSpec tag;
+  tag.id = "E280" + std::to_string(scenario.tags.size());
+  tag.motion = {{Time{}, from_translation({x, y, 1.0})}};
+  scenario.tags.push_back(std::move(tag));
+}
+
+/// Tags on a square grid `spacing_m` apart, centred on the origin.
+void add_tag_grid(Scenario& scenario, std::int64_t tags, double spacing_m) {
+  const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(tags))));
+  const double middle = 0.5 * static_cast<double>(side - 1);
+  for (std::int64_t i = 0; i < tags; ++i) {
+    add_tag(scenario, (static_cast<double>(i % side) - middle) * spacing_m,
+            (static_cast<double>(i / side) - middle) * spacing_m);
+  }
+}
+
+/// Four antennas at the corners of a square of 4 m around the origin, 7 m of range, 15 Hz.
+Scenario four_antennas() {
+  Scenario scenario;
+  scenario.duration_s = kSimulatedSeconds;
+  for (const double x : {-2.0, 2.0}) {
+    for (const double y : {-2.0, 2.0}) {
+      AntennaSpec antenna;
+      antenna.parameters.name = "antenna" + std::to_string(scenario.antennas.size());
+      antenna.X_PA = from_translation({x, y, 2.0});
+      scenario.antennas.push_back(antenna);
+    }
+  }
+  return scenario;
+}
+
+void clear(Recording& recording) {
+  recording.reads.clear();
+  recording.believed_poses.clear();
+  recording.truth.antenna_poses.clear();
+  recording.truth.robot_poses.clear();
+  recording.truth.tag_positions.clear();
+  recording.truth.distances.clear();
+}
+
+/// Steps the scenario to its end again and again; counts reads and simulated time for each second.
+/// Placing the tags, once for each run, is not timed.
+void run_steps(benchmark::State& state, const Scenario& scenario) {
+  double reads = 0.0;
+  double simulated_s = 0.0;
+  Recording recording;
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto simulation = std::make_unique<Simulation>(scenario, 1);
+    simulation->step(recording);
+    const Time begin = simulation->now();
+    state.ResumeTiming();
+    while (!simulation->finished()) {
+      clear(recording);
+      simulation->step(recording);
+      reads += static_cast<double>(recording.reads.size());
+    }
+    state.PauseTiming();
+    simulated_s += to_seconds(simulation->now() - begin);
+    simulation.reset();
+    state.ResumeTiming();
+  }
+  using benchmark::Counter;
+  state.counters["real_time_factor"] = Counter(simulated_s, Counter::kIsRate);
+  state.counters["reads_per_s"] = Counter(reads, Counter::kIsRate);
+  state.counters["time_per_read"] = Counter(reads, Counter::kIsRate | Counter::kInvert);
+}
+
+/// scenarios/paper_warehouse.yaml, simulated and localized on one core; loading, files and page
+/// excepted.
+void PaperWarehouse(benchmark::State& state) {
+  Diagnostics diagnostics;
+  const Scenario scenario =
+      load_scenario_with_world(std::string(TAGFIELD_SOURCE_DIR) + "/scenarios/paper_warehouse.yaml",
+                               {}, diagnostics)
+          .scenario;
+  double simulated_s = 0.0;
+  for (auto _ : state) {
+    simulated_s += run_seeds(scenario, 1, 1, {}, diagnostics).front().simulated_s;
+  }
+  state.counters["real_time_factor"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
+}
+BENCHMARK(PaperWarehouse)->Unit(benchmark::kMillisecond);
+
+/// 10,000 tags a metre apart in a hall of 100 m by 100 m, as a warehouse has them.
+void TenThousandTagsInAHall(benchmark::State& state) {
+  Scenario scenario = four_antennas();
+  add_tag_grid(scenario, 10'000, 1.0);
+  run_steps(state, scenario);
+}
+BENCHMARK(TenThousandTagsInAHall)->Unit(benchmark::kMillisecond);
+
+/// 10,000 tags on 5 m by 5 m: every antenna reads every tag in every update.
+void TenThousandTagsAllInRange(benchmark::State& state) {
+  Scenario scenario = four_antennas();
+  add_tag_grid(scenario, 10'000, 0.05);
+  run_steps(state, scenario);
+}
+BENCHMARK(TenThousandTagsAllInRange)->Unit(benchmark::kMillisecond);
+
+/// A hall that grows with its tags, one to the square metre: the cost of each read must not grow.
+void GrowingHall(benchmark::State& state) {
+  Scenario scenario = four_antennas();
+  add_tag_grid(scenario, state.range(0), 1.0);
+  run_steps(state, scenario);
+}
+BENCHMARK(GrowingHall)->RangeMultiplier(10)->Range(100, 100'000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace tagfield

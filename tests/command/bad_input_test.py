@@ -1,0 +1,841 @@
+#!/usr/bin/python3
+"""Bad input gets one clear line and exit code 2, and leaves nothing behind; odd input a warning.
+
+Each fault is one line of a table: what is changed in an input that works, and what the complaint
+must say. With --show the complaints are printed, for people to judge their words.
+"""
+
+import os
+import shutil
+
+from common import (Skip, case, check, check_equal, check_in, files_in, main, read_csv, read_json)
+
+MOST_SECONDS = 10.0
+
+SCENARIO = """\
+name: base
+description: A cart reads two tags
+seed: 1
+model: paper
+time_step_s: 0.01
+duration_s: 1
+real_time: 0
+robots:
+  - name: cart
+    start: [0, 0, 0]
+    wheel_radius_m: 0.1
+    track_m: 0.4
+    speed_m_s: 0.5
+    most_turn_rad_s: 1.0
+    look_ahead_m: 0.3
+    waypoints: [[1, 0], [1, 1]]
+antennas:
+  - name: mast
+    reader: reader_1
+    on: cart
+    pose: [0, 0, 1]
+    lift: {travel_m: 0.5, speed_m_s: 0.1}
+    rate_hz: 15
+    frequency_hz: 865.7e6
+    phase_offset_rad: 0
+    phase_noise_rad: 0.1
+    rssi_noise: 0.01
+    range_m: 7
+    range_sigma: 0.05
+    communication_gain: 3
+    optional_distribution: normal_distribution
+    optional_distribution_params: [0, 0.1]
+  - name: gate
+    pose: [2, 2, 1]
+tags:
+  - id: near
+    position: [1, 2, 1]
+    appears_s: 0
+  - id: far
+    trajectory: [[0, 2, 0, 1], [1, 3, 0, 1]]
+    disappears_s: 0.9
+pose:
+  source: noisy
+  sigma_m: 0.01
+  yaw_sigma_deg: 0.5
+  time_constant_s: 5
+  wheel_noise: 0.01
+localization:
+  method: hyperbola
+  stride_m: 0.3
+  refine: true
+  max_expected_error_m: 0.15
+  max_rms_m: 0.08
+  tag_height_m: 1
+"""
+
+MODEL = """\
+<?xml version="1.0"?>
+<sdf version="1.6">
+  <world name="hall">
+    <model name="rack">
+      <static>true</static>
+      <link name="link">
+        <collision name="body"><geometry>GEOMETRY</geometry></collision>
+      </link>
+    </model>
+  </world>
+</sdf>
+"""
+BOX = "<box><size>1 1 1</size></box>"
+WORLD = MODEL.replace("GEOMETRY", BOX)
+
+ANTENNA_SENSOR = """\
+        <sensor name="door" type="rfid">
+          <update_rate>15</update_rate>
+          <plugin name="door" filename="libgazeboRfidAntennaPlugin.so">
+            <frequency>865.7e6</frequency>
+            <noisephi>0.1</noisephi>
+            <noiserssi>0.008</noiserssi>
+            <range>7</range>
+            <communication_gain>1</communication_gain>
+            <optional_distribution>none</optional_distribution>
+          </plugin>
+        </sensor>
+        <sensor name="parcel" type="rfidtag">
+          <pose>1 1 1 0 0 0</pose>
+          <plugin name="parcel" filename="libgazeboRfidTagPlugin.so"/>
+        </sensor>
+"""
+WORLD_WITH_SENSORS = WORLD.replace("      </link>", ANTENNA_SENSOR + "      </link>")
+
+READS = """\
+stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm
+0.0,r,a,one,865700000,1.0,-50
+0.1,r,a,one,865700000,1.1,-50
+0.2,r,a,one,865700000,1.2,-50
+"""
+POSES = """\
+stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw
+0.0,a,0.0,0,1,0,0,0,1
+0.1,a,0.1,0,1,0,0,0,1
+0.2,a,0.2,0,1,0,0,0,1
+"""
+HEIGHTS = "tag,height_m\none,1.0\n"
+
+TETRAHEDRON_STL = """\
+solid s
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+facet normal 0 1 0
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 0 1
+endloop
+endfacet
+endsolid s
+"""
+
+
+# --- What a complaint must be ---------------------------------------------------------------------
+
+def stranger(context):
+    """An output folder with files of an earlier run and of somebody else."""
+    out = context.folder / "out"
+    if not out.exists():
+        context.write("out/report.html", "old page")
+        context.write("out/reads.csv", "old reads")
+        context.write("out/truth/tags.csv", "old truth")
+        context.write("out/notes.txt", "somebody's notes")
+    return out
+
+
+def expect_complaint(context, name, arguments, says, line=None, file=None):
+    """Runs the program and checks that it complains as it should, and touches nothing."""
+    before = files_in(context.folder)
+    result = context.run(*arguments, timeout=60)
+    if context.show:
+        print(f"{name:45} {result.err.strip()}")
+    whole = result.err.strip()
+    check(result.code == 2, f"{name}: exit code {result.code}, expected 2 ({whole[-300:]!r})")
+    lines = result.err.splitlines()
+    check(len(lines) == 1 and result.err.endswith("\n"),
+          f"{name}: {len(lines)} lines on stderr, expected one: {result.err[:600]!r}")
+    check(whole.startswith("tagfield: "), f"{name}: does not begin with 'tagfield: ': {whole!r}")
+    check(not whole.startswith(("tagfield: warning", "tagfield: internal")), f"{name}: {whole!r}")
+    check(result.out == "", f"{name}: prints on stdout: {result.out[:200]!r}")
+    check(result.seconds < MOST_SECONDS, f"{name}: took {result.seconds:.1f} s")
+    check(len(whole) < 500, f"{name}: a line of {len(whole)} characters: {whole[:500]!r}")
+    for word in ("Traceback", "terminate", "what():", "std::", "Eigen"):
+        check(word not in whole, f"{name}: speaks of {word}: {whole!r}")
+    for part in [says] if isinstance(says, str) else says:
+        check(part.lower() in whole.lower(), f"{name}: does not say {part!r}: {whole!r}")
+    if file:
+        place = f"{file}:{line}: " if line else str(file)
+        check(place in whole, f"{name}: does not name {place!r}: {whole!r}")
+    after = files_in(context.folder)
+    check(after == before, f"{name}: left or changed {sorted(set(after) ^ set(before)) or 'a file'}")
+
+
+def line_of(text, part):
+    """1-based line in which a part of the text begins."""
+    return text[:text.index(part)].count("\n") + 1
+
+
+def expect_bad_scenario(context, name, text, says, line=None, settings=()):
+    path = context.write("bad.yaml", text)
+    expect_complaint(context, name, ["run", path, "--out", stranger(context), *settings], says,
+                     line, path)
+
+
+def replaced(text, old, new):
+    """`text` with one occurrence replaced; the table's own mistakes must not pass for a fault."""
+    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in the base input"
+    return text.replace(old, new)
+
+
+def expect_bad_change(context, old, new, says, line_part=None):
+    """The base scenario with `old` replaced by `new`; complains about the line of `line_part`."""
+    text = replaced(SCENARIO, old, new)
+    line = line_of(text, line_part or new.strip(" -\n"))
+    expect_bad_scenario(context, new.strip().replace("\n", "⏎"), text, says, line)
+
+
+# --- Scenarios ------------------------------------------------------------------------------------
+
+@case
+def the_base_inputs_are_good(context):
+    """Otherwise each case below could pass for a wrong reason."""
+    path = context.write("base.yaml", SCENARIO)
+    context.run_well("run", path, "--out", context.folder / "out")
+    world = context.write("hall.sdf", WORLD_WITH_SENSORS)
+    context.run_well("check", world)
+    context.write("reads.csv", READS)
+    context.write("poses.csv", POSES)
+    context.write("heights.csv", HEIGHTS)
+    context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--tag-heights",
+                     "heights.csv", "--out", "localized")
+
+
+@case
+def malformed_yaml(context):
+    expect_complaint(context, "missing", ["run", "absent.yaml", "--out", stranger(context)],
+                     "no such file", file="absent.yaml")
+    expect_complaint(context, "a folder", ["run", context.folder, "--out", stranger(context)],
+                     "is a folder", file=context.folder)
+    for name, text, says, line in (
+            ("tabs", "name: base\nworld:\n\tpath: x\n", "yaml", 3),
+            ("unclosed bracket", "name: base\ntags: [1, 2\n", "yaml", None),
+            ("unclosed quote", 'name: "base\n', "yaml", None),
+            ("two documents' colon", "name: a: b\n", "yaml", 1),
+            ("bad indentation", "name: base\n  seed: 1\n", "yaml", None),
+            ("list", "- a\n- b\n", "must be a mapping", None),
+            ("scalar", "hello\n", "must be a mapping", None),
+            ("empty", "", "must be a mapping", None),
+            ("comment only", "# nothing\n", "must be a mapping", None),
+            ("binary", bytes(range(256)) * 4, "", None),
+            ("binary zeros", bytes(1000), "", None),
+            ("a deep nest", "a: " + "[" * 5000 + "]" * 5000 + "\n", "", None),
+            ("an alias of nothing", "name: *nobody\n", "yaml", 1),
+            ("a number as a key's map", "seed: {a: 1}\n", "whole number", 1)):
+        expect_bad_scenario(context, name, text, says, line)
+
+
+@case
+def unknown_keys(context):
+    for old, new, nearest in (
+            ("description:", "descripton:", "description"),
+            ("time_step_s:", "timestep_s:", "time_step_s"),
+            ("robots:", "robot:", "robots"),
+            ("wheel_radius_m:", "wheel_radius:", "wheel_radius_m"),
+            ("waypoints:", "way_points:", "waypoints"),
+            ("range_m:", "rang_m:", "range_m"),
+            ("communication_gain:", "comunication_gain:", "communication_gain"),
+            ("travel_m: 0.5, speed", "travel_m: 0.5, sped_m_s: 1, speed", "speed_m_s"),
+            ("optional_distribution_params:", "optional_distribution_parms:",
+             "optional_distribution_params"),
+            ("appears_s: 0", "appear_s: 0", "appears_s"),
+            ("disappears_s:", "dissapears_s:", "disappears_s"),
+            ("yaw_sigma_deg:", "yaw_sigma_rad:", "yaw_sigma_deg"),
+            ("stride_m:", "strides_m:", "stride_m")):
+        key = new.split(":")[-2].split(" ")[-1] if "," in new else new.split(":")[0]
+        expect_bad_change(context, old, new, ["unknown key", key, nearest], new)
+    expect_bad_change(context, "seed: 1", "seed: 1\nseed: 2", "twice", "seed: 2")
+    expect_bad_change(context, "track_m: 0.4", "track_m: 0.4\n    track_m: 0.5", "twice",
+                      "track_m: 0.5")
+    expect_bad_change(context, "seed: 1", "seed: 1\nworld: {path: w.sdf, model_path: x}",
+                      ["unknown key", "model_paths"], "world:")
+
+
+POSITIVE = "must be greater than 0"
+NOT_NEGATIVE = "must be 0 or more"
+ANY = None
+NUMBERS = (  # the line of the base scenario that holds it: which numbers it takes
+    ("time_step_s: 0.01", POSITIVE), ("duration_s: 1", POSITIVE), ("real_time: 0", NOT_NEGATIVE),
+    ("wheel_radius_m: 0.1", POSITIVE), ("track_m: 0.4", POSITIVE),
+    ("    speed_m_s: 0.5", POSITIVE), ("most_turn_rad_s: 1.0", POSITIVE),
+    ("look_ahead_m: 0.3", POSITIVE), ("rate_hz: 15", POSITIVE), ("frequency_hz: 865.7e6", POSITIVE),
+    ("phase_offset_rad: 0", ANY), ("phase_noise_rad: 0.1", NOT_NEGATIVE),
+    ("rssi_noise: 0.01", NOT_NEGATIVE), ("range_m: 7", POSITIVE), ("range_sigma: 0.05",
+                                                                   NOT_NEGATIVE),
+    ("communication_gain: 3", POSITIVE), ("{travel_m: 0.5", POSITIVE), ("speed_m_s: 0.1", POSITIVE),
+    (" appears_s: 0", NOT_NEGATIVE), ("disappears_s: 0.9", POSITIVE),
+    ("  sigma_m: 0.01", NOT_NEGATIVE), ("yaw_sigma_deg: 0.5", NOT_NEGATIVE),
+    ("time_constant_s: 5", POSITIVE), ("wheel_noise: 0.01", NOT_NEGATIVE),
+    ("stride_m: 0.3", POSITIVE), ("max_expected_error_m: 0.15", POSITIVE),
+    ("max_rms_m: 0.08", POSITIVE), ("tag_height_m: 1", ANY))
+
+
+@case
+def numbers_out_of_their_range(context):
+    for line, allowed in NUMBERS:
+        key = line.split(":")[0]
+        wrong = {".nan": "finite", ".inf": "finite", "-.inf": "finite", "seven": "expected a number",
+                 "[1]": "must be a number", "1e999": "", '""': "number", "1_000": "number",
+                 "0x": "number"}
+        if allowed:
+            wrong["-1"] = allowed
+        if allowed == POSITIVE:
+            wrong["0"] = wrong["-0.0"] = allowed
+        for value, says in wrong.items():
+            expect_bad_change(context, line, f"{key}: {value}", [key.strip(" {"), says])
+
+
+@case
+def numbers_beyond_reason(context):
+    """Finite and positive, yet not to be simulated: refused at once, not after a year."""
+    for line, value in (("time_step_s: 0.01", "1e-300"), ("time_step_s: 0.01", "1e300"),
+                        ("duration_s: 1", "1e300"), ("rate_hz: 15", "1e300"),
+                        ("frequency_hz: 865.7e6", "1e-320"), (" appears_s: 0", "1e300"),
+                        ("disappears_s: 0.9", "1e300")):
+        key = line.split(":")[0]
+        expect_bad_change(context, line, f"{key}: {value}", key.strip())
+    expect_bad_change(context, "[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[1e300, 2, 0, 1]]", "trajectory")
+
+
+@case
+def lists_and_words_of_the_wrong_kind(context):
+    for old, new, says in (
+            ("start: [0, 0, 0]", "start: [0, 0]", "must have 3 numbers, has 2"),
+            ("start: [0, 0, 0]", "start: 0", "must be a list"),
+            ("start: [0, 0, 0]", "start: [0, 0, .nan]", "finite"),
+            ("    start: [0, 0, 0]\n", "", "has no 'start'"),
+            ("waypoints: [[1, 0], [1, 1]]", "waypoints: [[1, 0], [1, 1, 1]]", "2 numbers, has 3"),
+            ("waypoints: [[1, 0], [1, 1]]", "waypoints: [1, 0]", "must be a list"),
+            ("waypoints: [[1, 0], [1, 1]]", "waypoints: [[1, .inf]]", "finite"),
+            ("waypoints: [[1, 0], [1, 1]]", "waypoints: [[1, one]]", "expected a number"),
+            ("pose: [0, 0, 1]", "pose: [0, 0, 1, 0]", "roll, pitch, yaw"),
+            ("pose: [0, 0, 1]", "pose: [0, 0, .nan]", "finite"),
+            ("    pose: [0, 0, 1]\n", "", "has no 'pose'"),
+            ("position: [1, 2, 1]", "position: [1, 2]", "must have 3 numbers"),
+            ("position: [1, 2, 1]", "position: [1, 2, .nan]", "finite"),
+            ("    position: [1, 2, 1]\n", "", "has no 'position'"),
+            ("position: [1, 2, 1]", "position: [1, 2, 1]\n    trajectory: [[0, 1, 1, 1]]",
+             ["position", "trajectory"]),
+            ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[]", "at least one row"),
+            ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[0, 2, 0]]", "must have 4 numbers"),
+            ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[1, 2, 0, 1], [0, 3, 0, 1]]", "stamp"),
+            ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[0, 2, 0, 1], [0, 3, 0, 1]]", "stamp"),
+            ("refine: true", "refine: perhaps", "must be true or false"),
+            ("method: hyperbola", "method: parabola", ["not known", "hyperbola"]),
+            ("source: noisy", "source: noizy", ["not known", "noisy"]),
+            ("model: paper", "model: papier", ["not known", "paper"]),
+            ("tag_height_m: 1", "tag_heights: knwon", ["not known", "known"]),
+            ("seed: 1", "seed: -1", "whole number"),
+            ("seed: 1", "seed: 1.5", "whole number"),
+            ("seed: 1", "seed: 99999999999999999999999", "whole number"),
+            ("name: base", "name: [a]", "must be a text"),
+            ("name: base", 'name: ""', "must be a text"),
+            ("id: near", "id: [near]", "must be a text"),
+            ("disappears_s: 0.9", "disappears_s: 0.9\n    appears_s: 0.9", "later than appears_s"),
+            ("lift: {travel_m: 0.5, speed_m_s: 0.1}", "lift: 0.5", "must be a mapping"),
+            ("lift: {travel_m: 0.5, speed_m_s: 0.1}", "lift: {speed_m_s: 1}", "has no 'travel_m'")):
+        path = replaced(SCENARIO, old, new)
+        expect_bad_scenario(context, new.strip() or f"without {old.strip()}", path, says)
+        # The complaint must name the line, or the one where what lacks something begins.
+        complaint = context.run("check", context.folder / "bad.yaml").err
+        check("bad.yaml:" in complaint, f"{new or old!r}: names no line: {complaint!r}")
+    expect_bad_scenario(context, "robots is a mapping", "robots: {name: a}\n", "must be a list", 1)
+    expect_bad_scenario(context, "antennas of numbers", "antennas: [1]\n", "must be a mapping", 1)
+
+
+@case
+def distributions(context):
+    given = ("optional_distribution: normal_distribution\n"
+             "    optional_distribution_params: [0, 0.1]")
+    for name, parameters, says in (
+            ("normal", "[0, 0.1]", ["normal", "not known"]),
+            ("norml_distribution", "[0, 0.1]", "normal_distribution"),
+            ("normal_distribution", "[0]", ["normal_distribution", "2"]),
+            ("normal_distribution", "[0, 1, 2]", ["normal_distribution", "2"]),
+            ("normal_distribution", "[0, -1]", "normal_distribution"),
+            ("normal_distribution", "[.nan, 1]", "finite"),
+            ("normal_distribution", "zero", "must be a list"),
+            ("uniform_real_distribution", "[0.1]", "2"),
+            ("uniform_real_distribution", "[1, 0]", "uniform_real_distribution"),
+            ("exponential_distribution", "[1, 2]", ["exponential_distribution", "1"]),
+            ("exponential_distribution", "[0]", "exponential_distribution"),
+            ("gamma_distribution", "[1]", "2"),
+            ("gamma_distribution", "[0, 1]", "gamma_distribution"),
+            ("weibull_distribution", "[]", "2"),
+            ("weibull_distribution", "[1, -1]", "weibull_distribution"),
+            ("lognormal_distribution", "[1, 2, 3]", "2"),
+            ("lognormal_distribution", "[1, -2]", "lognormal_distribution"),
+            ("chi_squared_distribution", "[1, 2]", "1"),
+            ("chi_squared_distribution", "[-1]", "chi_squared_distribution"),
+            ("cauchy_distribution", "[1]", "2"),
+            ("cauchy_distribution", "[0, 0]", "cauchy_distribution"),
+            ("none", "[1]", "none")):
+        text = replaced(SCENARIO, given, f"optional_distribution: {name}\n"
+                        f"    optional_distribution_params: {parameters}")
+        line = line_of(text, "optional_distribution:")
+        path = context.write("bad.yaml", text)
+        expect_complaint(context, f"{name} {parameters}",
+                         ["run", path, "--out", stranger(context)], says, file=path)
+        complaint = context.run("check", path).err
+        check(f"bad.yaml:{line}:" in complaint or f"bad.yaml:{line + 1}:" in complaint,
+              f"{name} {parameters}: names another line: {complaint!r}")
+    without = replaced(SCENARIO, given, "optional_distribution: normal_distribution")
+    expect_bad_scenario(context, "no parameters", without, ["normal_distribution", "2"],
+                        line_of(without, "optional_distribution:"))
+
+
+@case
+def names_that_clash_or_lead_nowhere(context):
+    expect_bad_change(context, "- id: far", "- id: near # second", "near", "- id: near # second")
+    expect_bad_change(context, "- name: gate", "- name: mast # second", "mast",
+                      "- name: mast # second")
+    expect_bad_change(context, "on: cart", "on: crat", ["robot", "crat"], "- name: mast")
+    expect_bad_change(context, "- id: near", "- id: near\n    on: nobody", ["robot", "nobody"],
+                      "- id: near")
+    two_robots = replaced(SCENARIO, "antennas:", "  - {name: cart, start: [1, 1, 1]}\nantennas:")
+    expect_bad_scenario(context, "two robots of one name", two_robots, ["two robots", "cart"])
+    no_waypoints = replaced(replaced(SCENARIO, "    waypoints: [[1, 0], [1, 1]]\n", ""),
+                            "duration_s: 1\n", "")
+    expect_bad_scenario(context, "neither duration nor waypoints", no_waypoints, "duration_s")
+    start = SCENARIO.index("antennas:\n")
+    tags = SCENARIO.index("tags:\n")
+    pose = SCENARIO.index("pose:\n  source")
+    expect_bad_scenario(context, "no antennas", SCENARIO[:start] + SCENARIO[tags:], "no antennas")
+    expect_bad_scenario(context, "no tags", SCENARIO[:tags] + SCENARIO[pose:], "no tags")
+
+
+@case
+def tag_tables(context):
+    table = "tag,x_m,y_m,z_m\na,1,2,3\nb,2,2,3\n"
+    text = replaced(SCENARIO, "pose:\n  source", "tag_table: tags.csv\npose:\n  source")
+    for name, change, says, line in (
+            ("missing", None, "no such file", None),
+            ("no column", table.replace("z_m", "z"), "z_m", 1),
+            ("text", table.replace("b,2", "b,two"), "expected a finite number", 3),
+            ("nan", table.replace("b,2", "b,nan"), "expected a finite number", 3),
+            ("no name", table.replace("b,2", ",2"), "tag is empty", 3),
+            ("extra field", table.replace("b,2", "b,2,2"), "fields", 3),
+            ("twice", table.replace("b,2", "a,2"), "a", 3),
+            ("twice with the scenario", table.replace("b,2", "near,2"), "near", 3),
+            ("empty", "", "is empty", None)):
+        path = context.write("bad.yaml", text)
+        if change is not None:
+            context.write("tags.csv", change)
+        expect_complaint(context, f"tag_table {name}", ["run", path, "--out", stranger(context)],
+                         says, line, context.folder / "tags.csv")
+
+
+# --- --set and other arguments --------------------------------------------------------------------
+
+@case
+def settings_on_the_command_line(context):
+    path = context.write("good.yaml", SCENARIO)
+    for setting, says in (
+            ("seed", "key.path=value"), ("=1", "key.path=value"), ("", "key.path=value"),
+            ("sede=1", ["--set", "unknown key", "seed"]), ("seed=x", ["--set", "whole number"]),
+            ("antennas.nobody.range_m=1", ["--set", "nobody"]),
+            ("antennas.7.range_m=1", ["--set", "7"]),
+            ("antennas.mast.rang_m=1", ["--set", "range_m"]),
+            ("antennas.mast.range_m=-1", ["--set", POSITIVE]),
+            ("antennas.mast.range_m=.nan", ["--set", "finite"]),
+            ("antennas.mast.frequency_hz=0", ["--set", POSITIVE]),
+            ("antennas.mast.range_m=", ["--set", "range_m"]),
+            ("antennas.mast.range_m.x=1", ["--set", "range_m"]),
+            ("pose..sigma_m=1", ["--set", "between the dots"]),
+            (".seed=1", ["--set", "between the dots"]),
+            ("pose.sigma_m=[1", ["--set", "YAML"]),
+            ("pose.source=perfect", ["--set", "not known"]),
+            ("robots.cart.start=[0,0]", ["--set", "3 numbers"]),
+            ("tags.near.id=far", "far"),
+            ("world.path=absent.sdf", ["absent.sdf", "no such file"])):
+        for command in (["run", path, "--out", stranger(context)], ["check", path]):
+            expect_complaint(context, f"{command[0]} --set {setting}",
+                             [*command, "--set", setting], says)
+
+
+@case
+def arguments(context):
+    path = context.write("good.yaml", SCENARIO)
+    context.write("reads.csv", READS)
+    context.write("poses.csv", POSES)
+    run = ["run", path, "--out", stranger(context)]
+    localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
+    for command, says in (
+            ([], ""), (["ran"], "ran"), (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
+            (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),
+            ([*run, "--seeds", "0"], "seeds"), ([*run, "--seeds", "-1"], "seeds"),
+            ([*run, "--seeds", "many"], "seeds"), ([*run, "--seeds", "1.5"], "seeds"),
+            ([*run, "--seeds"], "seeds"), ([*run, "--seed", "-1"], "seed"),
+            ([*run, "--seed", "x"], "seed"),
+            ([*run, "--threads", "0"], "threads"), ([*run, "--threads", "-2"], "threads"),
+            ([*run, "--threads", "two"], "threads"), ([*run, "--threads", "1000000"], "threads"),
+            ([*run, "--frob"], "--frob"), ([*run, "another.yaml"], "another.yaml"),
+            ([*localize, "--method", "parabola"], "method"),
+            ([*localize, "--tag-height", "tall"], "tag-height"),
+            ([*localize, "--tag-height", "nan"], "height"),
+            ([*localize, "--tag-height", "inf"], "height"),
+            ([*localize, "--stride", "0"], "stride"), ([*localize, "--stride", "-1"], "stride"),
+            ([*localize, "--stride", "nan"], "stride"), ([*localize, "--stride", "inf"], "stride"),
+            ([*localize, "--threads", "0"], "threads"),
+            (["check", context.write("notes.txt", "x")], ".yaml"),
+            (["check", context.folder], "expected")):
+        expect_complaint(context, " ".join(map(str, command)), command, says)
+
+
+# --- Worlds ---------------------------------------------------------------------------------------
+
+def expect_bad_world(context, name, text, says, line=None, file="hall.sdf"):
+    """By `check` and by `run`, which must say the same."""
+    if text is not None:
+        context.write("hall.sdf", text)
+    scenario = replaced(SCENARIO, "robots:", "world: {path: hall.sdf}\nrobots:")
+    context.write("in_hall.yaml", scenario)
+    for command in (["check", "hall.sdf"], ["run", "in_hall.yaml", "--out", stranger(context)]):
+        expect_complaint(context, f"{command[0]}: {name}", command, says, line, file)
+
+
+def with_mesh(uri):
+    return MODEL.replace("GEOMETRY", f"<mesh><uri>{uri}</uri></mesh>")
+
+
+@case
+def malformed_worlds(context):
+    expect_bad_world(context, "missing world", None, "no such file")
+    model_only = WORLD.replace('  <world name="hall">\n', "").replace("  </world>\n", "")
+    for name, text, says, line in (
+            ("not XML", "once upon a time\n", "", None),
+            ("empty", "", "", None),
+            ("binary", bytes(range(256)), "", None),
+            ("unclosed element", WORLD.replace("</model>", ""), "", None),
+            ("cut off", WORLD[:200], "", None),
+            ("another root", "<html><body/></html>\n", "sdf", None),
+            ("no world", model_only, "world", None),
+            ("no version", WORLD.replace(' version="1.6"', ""), "version", None),
+            ("a version of the future", WORLD.replace("1.6", "99.0"), "version", None),
+            ("text in a pose", WORLD.replace("<static>", "<pose>a b c 0 0 0</pose><static>"),
+             "pose", 5),
+            ("nan in a pose", WORLD.replace("<static>", "<pose>nan 0 0 0 0 0</pose><static>"),
+             "pose", 5),
+            ("a pose in an unknown frame",
+             WORLD.replace("<static>",
+                           '<pose relative_to="nowhere">0 0 0 0 0 0</pose><static>'), "nowhere", 5),
+            ("a box of negative size", WORLD.replace("1 1 1</size>", "1 -1 1</size>"), "size", 7),
+            ("a box of NaN size", WORLD.replace("1 1 1</size>", "1 nan 1</size>"), "size", 7),
+            ("a cylinder without radius", MODEL.replace(
+                "GEOMETRY", "<cylinder><radius>0</radius><length>1</length></cylinder>"),
+             "radius", 7),
+            ("a sphere of negative radius",
+             MODEL.replace("GEOMETRY", "<sphere><radius>-1</radius></sphere>"), "radius", 7)):
+        expect_bad_world(context, name, text, says, line)
+
+
+@case
+def missing_models_and_meshes(context):
+    include = WORLD.replace("    <model", "    <include><uri>model://nobody</uri></include>\n"
+                            "    <model", 1)
+    expect_bad_world(context, "missing model", include, "nobody", 4)
+    empty_folder = WORLD.replace("    <model", "    <include><uri>model://hollow</uri></include>\n"
+                                 "    <model", 1)
+    (context.folder / "models/hollow").mkdir(parents=True)
+    expect_bad_world(context, "a model folder without model.sdf", empty_folder, "hollow", 4)
+    for name, uri in (("missing mesh", "absent.stl"), ("missing model's mesh", "model://no/a.dae"),
+                      ("missing mesh by file://", "file:///absent/absent.dae"),
+                      ("missing absolute mesh", "/absent/absent.obj")):
+        expect_bad_world(context, name, with_mesh(uri), [uri.rsplit("/", maxsplit=1)[-1]], 7)
+
+
+@case
+def broken_meshes(context):
+    dae = '<?xml version="1.0"?>\n<COLLADA version="1.4.1"><library_geometries><geometry id="g">'
+    good_stl = context.write("good.stl", TETRAHEDRON_STL)
+    context.write("hall.sdf", with_mesh("good.stl"))
+    context.run_well("check", "hall.sdf")
+    good_stl.unlink()
+    for name, content in (
+            ("cut.dae", dae), ("text.dae", "not a mesh\n"), ("empty.dae", ""),
+            ("empty.stl", ""), ("text.stl", "not a mesh\n"), ("hollow.stl", "solid s\nendsolid s\n"),
+            ("short.stl", bytes(80) + (1000).to_bytes(4, "little") + bytes(50)),
+            ("nan.stl", TETRAHEDRON_STL.replace("vertex 1 0 0", "vertex nan 0 0")),
+            ("text.obj", "not a mesh\n"), ("empty.obj", ""), ("hollow.obj", "v 0 0 0\nv 1 0 0\n"),
+            ("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+            ("unknown.xyz", "1 2 3\n")):
+        context.write(name, content)
+        expect_bad_world(context, name, with_mesh(name), name, file=name)
+        complaint = context.run("check", "hall.sdf").err
+        check("hall.sdf:7" in complaint, f"{name}: does not name the world's line: {complaint!r}")
+
+
+@case
+def bad_sensors_in_a_world(context):
+    for old, new, says in (
+            ("<frequency>865.7e6", "<frequency>-1", "frequency"),
+            ("<frequency>865.7e6", "<frequency>0", "frequency"),
+            ("<frequency>865.7e6", "<frequency>nan", "frequency"),
+            ("<frequency>865.7e6", "<frequency>fast", "expected a number"),
+            ("<noisephi>0.1", "<noisephi>-0.1", "phase_noise"),
+            ("<noiserssi>0.008", "<noiserssi>-1", "rssi_noise"),
+            ("<range>7", "<range>0", "range"), ("<range>7", "<range>-7", "range"),
+            ("<communication_gain>1", "<communication_gain>0", "gain"),
+            ("<update_rate>15", "<update_rate>-15", "rate"),
+            ("<update_rate>15", "<update_rate>0", "rate"),
+            (">none<", ">sometimes<", "sometimes"),
+            (">none<", ">normal_distribution<", "normal_distribution")):
+        text = replaced(WORLD_WITH_SENSORS, old, new)
+        expect_bad_world(context, new, text, says)
+        complaint = context.run("check", "hall.sdf").err
+        check("hall.sdf:" in complaint, f"{new}: names no line: {complaint!r}")
+
+
+@case
+def worlds_without_antennas_or_tags(context):
+    context.write("hall.sdf", WORLD)
+    path = context.write("empty_hall.yaml", "world: {path: hall.sdf}\nduration_s: 1\n")
+    expect_complaint(context, "world without antennas", ["run", path, "--out", stranger(context)],
+                     ["no antennas", "world"], file=path)
+    path = context.write("no_tags.yaml", "world: {path: hall.sdf}\nduration_s: 1\n"
+                         "antennas: [{name: a, pose: [0, 0, 1]}]\n")
+    expect_complaint(context, "world without tags", ["run", path, "--out", stranger(context)],
+                     ["no tags", "world"], file=path)
+    context.write("no_world.yaml", "world: {path: }\nduration_s: 1\n")
+    expect_complaint(context, "no path of the world", ["run", "no_world.yaml"], "--set world.path",
+                     1, "no_world.yaml")
+
+
+@case
+def two_tags_of_one_name_in_world_and_scenario(context):
+    context.write("hall.sdf", WORLD_WITH_SENSORS)
+    text = ("world: {path: hall.sdf}\nduration_s: 1\ntags:\n"
+            "  - {id: parcel, position: [0, 0, 0]}\n")
+    path = context.write("clash.yaml", text)
+    expect_complaint(context, "a tag of the world's name", ["run", path, "--out",
+                                                           stranger(context)], ["parcel", "hall.sdf"])
+    path = context.write("clash.yaml", "world: {path: hall.sdf}\nduration_s: 1\nantennas:\n"
+                         "  - {name: door, pose: [0, 0, 0]}\n")
+    expect_complaint(context, "an antenna of the world's name",
+                     ["run", path, "--out", stranger(context)], "door")
+
+
+# --- Reads, poses and heights ---------------------------------------------------------------------
+
+@case
+def malformed_reads_poses_and_heights(context):
+    good = {"reads.csv": READS, "poses.csv": POSES, "heights.csv": HEIGHTS}
+    table = (
+        ("reads.csv", "tag,freq", "tg,freq", "tag", 1),
+        ("reads.csv", "phase_rad", "phase", "phase_rad", 1),
+        ("reads.csv", "0.1,r,a,one,", "0.1,r,a,one,7,", "fields", 3),
+        ("reads.csv", "1.1,-50", "1.1", "fields", 3),
+        ("reads.csv", "1.1,", "one,", "expected a finite number", 3),
+        ("reads.csv", "1.1,", "nan,", "expected a finite number", 3),
+        ("reads.csv", "1.1,", "inf,", "expected a finite number", 3),
+        ("reads.csv", "1.1,", ",", "phase_rad", 3),
+        ("reads.csv", "1.1,", "1.1rad,", "expected a finite number", 3),
+        ("reads.csv", "1.1,", '"1.1,', "", None),
+        ("reads.csv", "0.1,r", "soon,r", "stamp_s", 3),
+        ("reads.csv", "0.1,r", "nan,r", "stamp_s", 3),
+        ("reads.csv", "0.1,r", "1e300,r", "stamp_s", 3),
+        ("reads.csv", "0.1,r,a,one", "0.1,r,,one", "antenna is empty", 3),
+        ("reads.csv", "0.1,r,a,one", "0.1,r,a,", "tag is empty", 3),
+        ("reads.csv", "0.1,r,a,one,865700000", "0.1,r,a,one,-1", "frequency_hz", 3),
+        ("reads.csv", "0.1,r,a,one,865700000", "0.1,r,a,one,0", "frequency_hz", 3),
+        ("reads.csv", "0.1,r,a,one,865700000,1.1,-50", "0.1,r,a,one,865700000,1.1,loud",
+         "rssi_dbm", 3),
+        ("poses.csv", "x_m", "x", "x_m", 1),
+        ("poses.csv", "0.1,a,0.1", "0.1,a,far", "x_m", 3),
+        ("poses.csv", "0.1,a,0.1", "0.1,a,nan", "x_m", 3),
+        ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0,0", "length", 3),
+        ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0,5", "length", 3),
+        ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0", "fields", 3),
+        ("poses.csv", "0.1,a,0.1", "0.1,,0.1", "antenna is empty", 3),
+        ("heights.csv", "height_m", "height", "height_m", 1),
+        ("heights.csv", "1.0", "high", "height_m", 2),
+        ("heights.csv", "1.0", "nan", "height_m", 2),
+        ("heights.csv", "one,1.0\n", "one,1.0\none,2.0\n", "twice", 3),
+        ("heights.csv", "one,1.0", "one", "fields", 2),
+        ("heights.csv", "one,1.0", ",1.0", "tag is empty", 2))
+    command = ["localize", "reads.csv", "--poses", "poses.csv", "--tag-heights", "heights.csv",
+               "--out", stranger(context)]
+    for name, old, new, says, line in table:
+        for other, text in good.items():
+            context.write(other, text)
+        context.write(name, replaced(good[name], old, new))
+        expect_complaint(context, f"{name} with {new!r}", command, says, line, name)
+    for name in good:
+        for other, text in good.items():
+            context.write(other, text)
+        for content, says in (("", "is empty"), (b"\x00\x01\x02" * 50, "text"), ("\n\n\n", "empty")):
+            context.write(name, content)
+            expect_complaint(context, f"{name} of {content[:3]!r}", command, says, file=name)
+        (context.folder / name).unlink()
+        expect_complaint(context, f"{name} missing", command, "no such file", file=name)
+        (context.folder / name).mkdir()
+        expect_complaint(context, f"{name} is a folder", command, "is a folder", file=name)
+        (context.folder / name).rmdir()
+
+
+# --- Where to write, and what to draw again -------------------------------------------------------
+
+@case
+def output_folders_that_cannot_be_written(context):
+    path = context.write("good.yaml", SCENARIO)
+    context.write("reads.csv", READS)
+    context.write("poses.csv", POSES)
+    context.write("file", "a file")
+    for out in ("file", "file/below", "/proc/tagfield", "/dev/null/x"):
+        expect_complaint(context, f"run --out {out}", ["run", path, "--out", out], out, file=out)
+        expect_complaint(context, f"localize --out {out}",
+                         ["localize", "reads.csv", "--poses", "poses.csv", "--out", out], out,
+                         file=out)
+
+
+@case
+def a_read_only_output_folder(context):
+    if os.geteuid() == 0:
+        raise Skip("root may write everywhere")
+    path = context.write("good.yaml", SCENARIO)
+    out = context.folder / "locked"
+    out.mkdir(mode=0o555)
+    try:
+        expect_complaint(context, "read-only", ["run", path, "--out", out], "written", file=out)
+    finally:
+        out.chmod(0o755)
+
+
+@case
+def a_bad_input_makes_no_folder_full(context):
+    """Where the output folder was not there before, nothing is in it afterwards."""
+    bad = context.write("bad.yaml", replaced(SCENARIO, "range_m: 7", "range_m: -7"))
+    context.write("poses.csv", POSES)
+    context.write("reads.csv", READS.replace("1.1,", "x,"))
+    for command in (["run", bad], ["localize", "reads.csv", "--poses", "poses.csv"]):
+        result = context.run(*command, "--out", "new/out")
+        check_equal(result.code, 2, "exit code")
+        check(not files_in(context.folder / "new/out"), f"{command[0]} left files in the new folder")
+        context.run(*command)
+        check(not (context.folder / "runs").exists(), f"{command[0]} left runs/ behind")
+
+
+@case
+def reports_on_broken_folders(context):
+    path = context.write("good.yaml", SCENARIO)
+    context.run_well("run", path, "--set", "world.path=" + str(context.write("hall.sdf", WORLD)),
+                     "--out", "whole")
+    expect_complaint(context, "no folder", ["report", "absent"], "absent")
+    (context.folder / "hollow").mkdir()
+    expect_complaint(context, "empty folder", ["report", "hollow"], "summary.json")
+    expect_complaint(context, "a file", ["report", path], "good.yaml")
+    summary = (context.folder / "whole/summary.json").read_text(encoding="utf-8")
+    poses = (context.folder / "whole/antenna_poses.csv").read_text(encoding="utf-8")
+    for name, content, says in (
+            ("summary.json", None, "no such file"), ("summary.json", "", ""),
+            ("summary.json", summary[:-20], ""), ("summary.json", "[]", ""),
+            ("summary.json", "{}", ""), ("summary.json", summary.replace('"tags"', '"tag"'), "tags"),
+            ("summary.json", summary.replace('"complete": true', '"complete": 7'), "complete"),
+            ("summary.json", summary.replace('"id": "near"', '"id": 7'), "id"),
+            ("summary.json", summary.replace('"verdict": "', '"verdict": "x'), "verdict"),
+            ("summary.json", bytes(range(256)), ""),
+            ("reads.csv", None, "no such file"), ("reads.csv", "", "is empty"),
+            ("reads.csv", READS.replace("1.1,", "x,"), "phase_rad"),
+            ("antenna_poses.csv", None, "no such file"),
+            ("antenna_poses.csv", poses.replace("x_m", "x"), "x_m"),
+            ("antenna_poses.csv", poses.replace(",mast,", ",,", 1), "antenna"),
+            ("truth/tags.csv", "nothing\n1\n", "stamp_s"),
+            ("truth/robot_poses.csv", "nothing\n1\n", "stamp_s"),
+            ("top_view.json", "", ""), ("top_view.json", "{}", ""),
+            ("top_view.json", '[{"name": "a"}]', ""),
+            ("top_view.json", '[{"name": "a", "z_min": 0, "z_max": 1, "rings": [[[0, "x"]]]}]', "")):
+        folder = context.folder / "broken"
+        shutil.copytree(context.folder / "whole", folder)
+        (folder / name).unlink()
+        if isinstance(content, bytes):
+            (folder / name).write_bytes(content)
+        elif content is not None:
+            (folder / name).write_text(content, encoding="utf-8")
+        what = "missing" if content is None else repr(content[:20])
+        expect_complaint(context, f"report, {name} {what}", ["report", "broken"], says, file=name)
+        shutil.rmtree(folder)
+
+
+# --- Odd but usable -------------------------------------------------------------------------------
+
+def warnings_of(result):
+    for line in result.err.splitlines():
+        check(line.startswith("tagfield: warning: "), f"no warning: {line!r}")
+    return result.err
+
+
+@case
+def odd_worlds_get_warnings(context):
+    world = context.aws_world()
+    result = context.run_well("check", world)
+    check_in("inertia", warnings_of(result), "the warnings of the AWS world")
+    check_in(world.name, result.err, "the warnings of the AWS world")
+    check_in("collisions: 25", result.out, "check's words on the AWS world")
+
+
+@case
+def reads_without_poses_get_a_warning(context):
+    context.write("reads.csv", READS.replace("0.1,r,a,", "0.1,r,other,"))
+    context.write("poses.csv", POSES)
+    result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out")
+    check_in("'other': 1 of 1 reads have no pose", warnings_of(result), "the warnings")
+    summary = read_json(context.folder / "out/summary.json")
+    check(any("'other'" in warning for warning in summary["warnings"]), "summary has no warning")
+    page = (context.folder / "out/report.html").read_text(encoding="utf-8")
+    check_in("have no pose at their stamp", page, "the page")
+
+
+def expect_nothing_located(context, reads, poses, tags, warning):
+    context.write("reads.csv", reads)
+    context.write("poses.csv", poses)
+    result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out")
+    check_in(warning, warnings_of(result), "the warnings")
+    rows = read_csv(context.folder / "out/estimates.csv")
+    check_equal([(row["tag"], row["verdict"]) for row in rows],
+                [(tag, "not_located") for tag in tags], "estimates")
+    check(all(row["reason"] for row in rows), f"a tag without a reason: {rows}")
+    check_equal(read_json(context.folder / "out/summary.json")["located"], 0, "located")
+    check((context.folder / "out/report.html").stat().st_size > 1000, "no page")
+    return result
+
+
+@case
+def hopeless_input_cannot_be_localized(context):
+    header = READS.splitlines()[0] + "\n"
+    expect_nothing_located(context, header, POSES, [], "cannot localize")
+    pose_header = POSES.splitlines()[0] + "\n"
+    result = expect_nothing_located(context, READS, pose_header, ["one"], "no pose")
+    check_in("cannot localize", result.out, "the table")
+    result = expect_nothing_located(context, READS, POSES, ["one"], "")
+    check_in("cannot localize", result.out, "the table")
+    expect_nothing_located(context, header, pose_header, [], "cannot localize")
+
+
+@case
+def a_tag_never_read_cannot_be_localized(context):
+    path = context.write("far.yaml", replaced(SCENARIO, "[1, 2, 1]", "[100, 2, 1]"))
+    result = context.run_well("run", path, "--out", "out")
+    check_in("cannot localize: never read", result.out, "the table")
+    check_equal([tag["verdict"] for tag in read_json(context.folder / "out/summary.json")["tags"]
+                 if tag["id"] == "near"], ["not_located"], "verdict")
+
+
+if __name__ == "__main__":
+    main()

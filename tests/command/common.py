@@ -1,0 +1,225 @@
+"""What the tests of the command share: arguments, running the program, checks, reading its files.
+
+A test file holds functions marked @case and ends with main(). Each case gets a Context; a check()
+that fails is noted and the case goes on. Exit code 0 where all pass, 1 where one fails, 77
+(skipped) where there was nothing to run.
+"""
+
+import argparse
+import csv
+import dataclasses
+import inspect
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+
+SKIPPED = 77
+SHARED_DATA = pathlib.Path("../shared/data")
+AWS_WORLD = SHARED_DATA / "aws-small-warehouse/worlds/no_roof_small_warehouse.world"
+SPEED_OF_LIGHT = 299792458.0
+
+
+class Skip(Exception):
+    """Raised by a case that can't run here; its text says what is missing."""
+
+
+@dataclasses.dataclass
+class Result:
+    """What a run of the program gave back."""
+
+    code: int
+    out: str
+    err: str
+    seconds: float
+
+
+@dataclasses.dataclass
+class Context:
+    """What a case works with: the program, the source tree, the build tree, a folder of its own."""
+
+    tagfield: pathlib.Path
+    source: pathlib.Path
+    build: pathlib.Path
+    folder: pathlib.Path
+    show: bool = False
+
+    def run(self, *arguments, **options):
+        """Runs the program in the case's folder, with GAZEBO_MODEL_PATH and its kin unset."""
+        return run([self.tagfield, *arguments], cwd=self.folder, **options)
+
+    def run_well(self, *arguments, **options):
+        """As run(), and checks that the exit code is 0."""
+        result = self.run(*arguments, **options)
+        check(result.code == 0,
+              f"{words(arguments)}: exit code {result.code}, {result.err.strip()!r}")
+        return result
+
+    def simulate(self, scenario, *arguments, name="out"):
+        """Runs a scenario, shipped (by its name) or a path, and gives back its folder."""
+        path = self.shipped(scenario) if isinstance(scenario, str) else scenario
+        folder = self.folder / name
+        self.run_well("run", path, "--out", folder, *arguments)
+        return folder
+
+    def shipped(self, name):
+        return self.source / "scenarios" / f"{name}.yaml"
+
+    def aws_world(self):
+        """The AWS world beside the checkout; skips the case where it is not there."""
+        world = self.source / AWS_WORLD
+        if not world.exists():
+            raise Skip(f"the AWS warehouse is not there ({world})")
+        return world
+
+    def write(self, name, text):
+        """A file in the case's folder."""
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(text, bytes):
+            path.write_bytes(text)
+        else:
+            path.write_text(text, encoding="utf-8")
+        return path
+
+
+def words(arguments):
+    return " ".join(str(argument) for argument in arguments)
+
+
+def clean_environment():
+    """The caller's environment without what would change where models are found."""
+    drop = {"SDF_PATH", "GAZEBO_MODEL_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GZ_SIM_RESOURCE_PATH"}
+    return {name: value for name, value in os.environ.items() if name not in drop}
+
+
+def run(command, *, cwd=None, timeout=300):
+    """Runs a command with nothing on its input; output that is no UTF-8 becomes U+FFFD."""
+    begin = time.monotonic()
+    done = subprocess.run([str(word) for word in command], cwd=cwd, timeout=timeout,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, env=clean_environment(), check=False)
+    return Result(done.returncode, done.stdout.decode("utf-8", "replace"),
+                  done.stderr.decode("utf-8", "replace"), time.monotonic() - begin)
+
+
+_cases = []
+_failures = []
+
+
+def case(function):
+    """Marks a function as a test case."""
+    _cases.append(function)
+    return function
+
+
+def check(holds, message):
+    """Notes a failure of the running case, with the line that asked."""
+    if not holds:
+        caller = inspect.stack()[1]
+        while caller.filename == __file__:
+            caller = inspect.stack()[inspect.stack().index(caller) + 1]
+        _failures.append(f"{pathlib.Path(caller.filename).name}:{caller.lineno}: {message}")
+    return bool(holds)
+
+
+def check_equal(actual, expected, what):
+    return check(actual == expected, f"{what} is {actual!r}, expected {expected!r}")
+
+
+def check_near(actual, expected, tolerance, what):
+    return check(actual is not None and abs(actual - expected) <= tolerance,
+                 f"{what} is {actual}, expected {expected} ± {tolerance}")
+
+
+def check_between(actual, low, high, what):
+    return check(actual is not None and low <= actual <= high,
+                 f"{what} is {actual}, expected {low} to {high}")
+
+
+def check_in(part, whole, what):
+    return check(part in whole, f"{what} lacks {part!r}: {whole[:400]!r}")
+
+
+def read_csv(path):
+    """The rows of a CSV file as dictionaries of texts."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file, strict=True))
+
+
+def read_json(path):
+    """A JSON file; NaN and Infinity, which are no JSON, raise ValueError."""
+    def refuse(word):
+        raise ValueError(f"{path} holds {word}")
+    return json.loads(pathlib.Path(path).read_text(encoding="utf-8"), parse_constant=refuse)
+
+
+def files_in(folder):
+    """Every file under a folder with its bytes, by relative path; folders end in '/'."""
+    found = {}
+    for path in sorted(pathlib.Path(folder).rglob("*")):
+        name = str(path.relative_to(folder))
+        found[name + "/" if path.is_dir() else name] = None if path.is_dir() else path.read_bytes()
+    return found
+
+
+def position(row):
+    """x_m, y_m, z_m of a CSV row."""
+    return tuple(float(row[key]) for key in ("x_m", "y_m", "z_m"))
+
+
+def percentile(values, share):
+    """Linear between the ranks around it."""
+    ranked = sorted(values)
+    rank = share * (len(ranked) - 1)
+    low = math.floor(rank)
+    high = math.ceil(rank)
+    return ranked[low] + (ranked[high] - ranked[low]) * (rank - low)
+
+
+def arguments_of_test():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tagfield", type=pathlib.Path, required=True, help="the program")
+    parser.add_argument("--source", type=pathlib.Path, required=True, help="the source tree")
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="the build tree")
+    parser.add_argument("--show", action="store_true", help="print what the program says")
+    parser.add_argument("cases", nargs="*", help="only cases with one of these in their name")
+    return parser.parse_args()
+
+
+def run_case(function, arguments):
+    """Its outcome as a word, and prints why where it is no pass."""
+    _failures.clear()
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:
+        context = Context(arguments.tagfield.resolve(), arguments.source.resolve(),
+                          arguments.build.resolve(), pathlib.Path(folder), arguments.show)
+        try:
+            function(context)
+        except Skip as skip:
+            print(f"SKIPPED {function.__name__}: {skip}")
+            return "skipped"
+        except Exception:  # pylint: disable=broad-except
+            _failures.append(traceback.format_exc())
+    outcome = "FAILED" if _failures else "passed"
+    print(f"{outcome} {function.__name__} ({time.monotonic() - begin:.1f} s)", flush=True)
+    for failure in _failures:
+        print(f"    {failure}")
+    return outcome
+
+
+def main():
+    arguments = arguments_of_test()
+    chosen = [function for function in _cases
+              if not arguments.cases or any(word in function.__name__ for word in arguments.cases)]
+    outcomes = [run_case(function, arguments) for function in chosen]
+    counts = {word: outcomes.count(word) for word in ("passed", "FAILED", "skipped")}
+    print(f"{counts['passed']} passed, {counts['FAILED']} failed, {counts['skipped']} skipped")
+    if counts["FAILED"] or not outcomes:
+        sys.exit(1)
+    sys.exit(0 if counts["passed"] else SKIPPED)
