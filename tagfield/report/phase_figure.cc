@@ -16,6 +16,8 @@ namespace {
 constexpr double kMaxPoseGap = 0.5;  ///< [s] As localization does by default.
 constexpr double kTop = 58.0;
 constexpr std::size_t kMostRules = 40;
+constexpr std::size_t kFewReads =
+    8;  ///< Shorter segments, as at the edge of the range, only clutter.
 
 /// A sample as drawn.
 struct PhasePoint {
@@ -177,15 +179,28 @@ void draw_segments(Svg& svg, const std::vector<Segment>& segments, bool truth_kn
   if (truth_known) draw_residuals(svg, axes.x, segments);
 }
 
-std::string caption_of(const std::vector<Segment>& segments, const std::string& tag,
-                       const std::string& antenna, bool truth_known) {
+/// Takes out the segments of few reads, unless there are no others; returns how many.
+std::size_t leave_out_short(std::vector<Segment>& segments) {
+  const auto is_short = [](const Segment& segment) { return segment.size() < kFewReads; };
+  if (std::all_of(segments.begin(), segments.end(), is_short)) return 0;
+  const std::size_t all = segments.size();
+  segments.erase(std::remove_if(segments.begin(), segments.end(), is_short), segments.end());
+  return all - segments.size();
+}
+
+std::string caption_of(const std::vector<Segment>& segments, std::size_t left_out,
+                       const std::string& tag, const std::string& antenna, bool truth_known) {
   std::string text = fmt::format(
       "Change of the distance between {} and {}, by the phase without its jumps of 2π (eq. 9). It"
-      " is the tag with the most reads there: {}.",
-      antenna, tag, grouped(size_of(segments)));
+      " is the tag with the most reads there.",
+      antenna, tag);
   if (segments.size() > 1) {
     text += fmt::format(" The phase could be followed in {} segments, each counted from 0 on.",
                         segments.size());
+  }
+  if (left_out > 0) {
+    text += fmt::format(" {} of fewer than {} reads, as at the edge of the range, {} not drawn.",
+                        counted(left_out, "more segment"), kFewReads, left_out == 1 ? "is" : "are");
   }
   if (truth_known)
     text +=
@@ -206,7 +221,8 @@ Figure phase_figure(const RunFiles& run) {
     figure.missing = track == nullptr ? "no antenna moves." : "the moving antenna read no tag.";
     return figure;
   }
-  const std::vector<Segment> segments = drawn_segments(run, *track, tag);
+  std::vector<Segment> segments = drawn_segments(run, *track, tag);
+  const std::size_t left_out = leave_out_short(segments);
   if (segments.empty()) {
     figure.missing = "no read of the moving antenna falls where its pose is known.";
     return figure;
@@ -214,8 +230,8 @@ Figure phase_figure(const RunFiles& run) {
   const bool truth_known = segments.front().front().true_m.has_value();
   figure.title += " of " + shortened(tag, 24);
   draw_segments(figure.svg, segments, truth_known);
-  figure.caption =
-      caption_of(segments, shortened(tag, 32), shortened(track->antenna, 32), truth_known);
+  figure.caption = caption_of(segments, left_out, shortened(tag, 32), shortened(track->antenna, 32),
+                              truth_known);
   return figure;
 }
 
