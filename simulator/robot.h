@@ -10,6 +10,7 @@
 #include "simulator/path_follower.h"
 #include "simulator/pose_error.h"
 #include "simulator/unicycle.h"
+#include "tagfield/base/error.h"
 #include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {
@@ -20,6 +21,7 @@ struct RobotSpec {
   DriveGeometry drive;
   DrivingStyle style;
   std::vector<Eigen::Vector2d> waypoints;  ///< [m, world]; none for a robot that stands.
+  Location location;                       ///< Where it was written, for messages.
 };
 
 /// One robot during one time step after another. Frame R is its base on the floor, x forward.

@@ -38,6 +38,17 @@ std::string resolve_path(const YamlValue& value) {
   return (fs::path(value.file()).parent_path() / given).lexically_normal().string();
 }
 
+/// Seconds that the simulation's clock can hold.
+double seconds_of(const YamlValue& value, NumberRange range) {
+  const double seconds = value.number(range);
+  try {
+    duration_from_seconds(seconds);
+  } catch (const Error& error) {
+    value.fail(error.what());
+  }
+  return seconds;
+}
+
 Eigen::Vector3d position_of(const YamlValue& value) {
   const std::vector<double> n = value.numbers(3, 3);
   return {n[0], n[1], n[2]};
@@ -71,6 +82,7 @@ Eigen::Vector2d waypoint_of(const YamlValue& value) {
 
 RobotSpec robot_of(YamlMap map) {
   RobotSpec robot;
+  robot.location = map.self().location();
   robot.name = map.at("name").text();
   const std::vector<double> start = map.at("start").numbers(3, 3);
   robot.start = {start[0], start[1], start[2]};
@@ -115,6 +127,7 @@ OptionalDistribution distribution_of(YamlMap& map) {
                                              ? map.at("optional_distribution_params").numbers(0)
                                              : std::vector<double>{};
   if (!map.has("optional_distribution")) return {};
+  if (parameters.empty()) map.complain_of_slip("optional_distribution_params");
   const YamlValue name = map.at("optional_distribution");
   try {
     return make_distribution(name.text(), parameters);
@@ -161,7 +174,8 @@ Trajectory trajectory_of(const YamlValue& value) {
   Trajectory trajectory;
   for (const YamlValue& row : value.list()) {
     const std::vector<double> n = row.numbers(4, 4);
-    trajectory.push_back({time_from_seconds(n[0]), from_translation({n[1], n[2], n[3]})});
+    const double seconds = seconds_of(row.list().front(), NumberRange::kAny);
+    trajectory.push_back({time_from_seconds(seconds), from_translation({n[1], n[2], n[3]})});
   }
   if (trajectory.empty()) value.fail("must have at least one row [t, x, y, z]");
   try {
@@ -183,9 +197,11 @@ TagSpec tag_of(YamlMap map) {
   } else {
     tag.motion = {{Time{}, from_translation(position_of(map.at("position")))}};
   }
-  tag.appears = time_from_seconds(map.number("appears_s", 0.0, kNotNegative));
+  if (map.has("appears_s")) {
+    tag.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
+  }
   if (map.has("disappears_s")) {
-    tag.disappears = time_from_seconds(map.at("disappears_s").number(kPositive));
+    tag.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
     if (*tag.disappears <= tag.appears) {
       map.at("disappears_s").fail("must be later than appears_s");
     }
@@ -228,14 +244,20 @@ void read_bodies(YamlMap& map, Scenario& scenario) {
   }
 }
 
+double time_step_of(const YamlValue& value) {
+  const double seconds = seconds_of(value, kPositive);
+  if (duration_from_seconds(seconds) <= Duration::zero()) value.fail("must be 1e-9 s or more");
+  return seconds;
+}
+
 Scenario scenario_of(YamlMap map) {
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");
   if (map.has("model")) choice(map.at("model"), {"paper"});
   if (map.has("seed")) scenario.seed = map.at("seed").whole_number();
-  scenario.time_step_s = map.number("time_step_s", scenario.time_step_s, kPositive);
-  if (map.has("duration_s")) scenario.duration_s = map.at("duration_s").number(kPositive);
+  if (map.has("time_step_s")) scenario.time_step_s = time_step_of(map.at("time_step_s"));
+  if (map.has("duration_s")) scenario.duration_s = seconds_of(map.at("duration_s"), kPositive);
   scenario.real_time = map.number("real_time", scenario.real_time, kNotNegative);
   if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")));
   if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
@@ -245,6 +267,14 @@ Scenario scenario_of(YamlMap map) {
   read_bodies(map, scenario);
   map.finish();
   return scenario;
+}
+
+void require_end(const Scenario& scenario, const std::string& path) {
+  const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                                  [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
+  if (!scenario.duration_s && !drives) {
+    fail({path, 0}, "has no 'duration_s', which must be given where no robot has waypoints");
+  }
 }
 
 }  // namespace
@@ -281,6 +311,7 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
     fail({path, 0}, "no antennas: neither the scenario nor its world has one");
   }
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
+  require_end(scenario, path);
   return loaded;
 }
 

@@ -57,7 +57,7 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
   for (const RobotSpec& robot : scenario.robots) {
     if (robot_named(robot.name) != nullptr) {
-      throw Error(fmt::format("two robots are called '{}'", robot.name));
+      fail(robot.location, fmt::format("a second robot is called '{}'", robot.name));
     }
     robots_.emplace_back(robot, scenario.pose, seed_);
     way_to_go_m_ += planned_length(robot);
@@ -230,7 +230,7 @@ void Simulation::handle_events(Time until) {
 double Simulation::seconds_into_step(Time stamp) const { return to_seconds(stamp - step_begin_); }
 
 Eigen::Vector3d Simulation::tag_position(const TagSpec& tag, Time stamp) const {
-  const Eigen::Vector3d p_PT = held_pose_at(tag.motion, stamp).translation;
+  Eigen::Vector3d p_PT = held_pose_at(tag.motion, stamp).translation;
   if (tag.on.empty()) return p_PT;
   return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * p_PT;
 }
@@ -262,7 +262,7 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
 RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
                                          Recording& recording) {
   const std::string& name = antenna.parameters.name;
-  const RigidTransform X_PA = mount_at(antenna, stamp);
+  RigidTransform X_PA = mount_at(antenna, stamp);
   if (is_fixed(antenna)) {
     if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) == recorded_fixed_.end()) {
       recorded_fixed_.push_back(name);
@@ -273,7 +273,7 @@ RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
   }
   const Robot* robot = antenna.on.empty() ? nullptr : robot_named(antenna.on);
   const double seconds = seconds_into_step(stamp);
-  const RigidTransform X_WA = robot == nullptr ? X_PA : robot->true_pose(seconds) * X_PA;
+  RigidTransform X_WA = robot == nullptr ? X_PA : robot->true_pose(seconds) * X_PA;
   const RigidTransform believed = robot == nullptr ? X_PA : robot->believed_pose(seconds) * X_PA;
   recording.believed_poses.push_back({stamp, name, believed});
   recording.truth.antenna_poses.push_back({stamp, name, X_WA});

@@ -17,7 +17,6 @@ constexpr const char* kDescription =
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kDescription, "tagfield");
-  app.require_subcommand(1);
   app.set_version_flag("--version", std::string("tagfield ") + TAGFIELD_VERSION);
   app.footer("'tagfield COMMAND --help' tells more. Exit code 2 means that an input is wrong.");
   tagfield::Action chosen;
@@ -31,6 +30,12 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "tagfield: {} (see tagfield --help)\n", error.what());
+    return tagfield::kExitBadInput;
+  }
+  if (!chosen) {
+    fmt::print(stderr,
+               "tagfield: no command: expected run, localize, report or check"
+               " (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

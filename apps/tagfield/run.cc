@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <memory>
 
@@ -29,6 +30,15 @@ struct RunArguments {
   int threads = default_threads();
   bool page = true;
 };
+
+/// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
+std::string fault_of_seed(const std::string& word) {
+  std::uint64_t seed = 0;
+  const char* end = word.data() + word.size();
+  const auto [after, error] = std::from_chars(word.data(), end, seed);
+  if (error == std::errc{} && after == end) return "";
+  return fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", word);
+}
 
 /// A scenario's name as a folder's: whatever a shell would stumble over becomes '_'.
 std::string folder_name(const std::string& name) {
@@ -127,7 +137,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "run", "Simulate a scenario, locate its tags, compare with the truth, draw the page");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
-  command->add_option("--seed", arguments->seed, "Seed instead of the scenario's");
+  command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
+      ->check(fault_of_seed);
   command->add_option("--seeds", arguments->seeds, "Run so many seeds, from --seed on")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME)");

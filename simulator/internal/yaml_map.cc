@@ -12,12 +12,16 @@
 namespace tagfield {
 namespace {
 
+constexpr double kMost = 1e15;  // Of any number; the report takes no greater ones either.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
 constexpr const char* kFromCommandLine = "!set";
 
 void require_in_range(const YamlValue& value, double number, NumberRange range) {
   if (!std::isfinite(number)) value.fail(fmt::format("must be finite, is {}", number));
+  if (std::abs(number) > kMost) {
+    value.fail(fmt::format("must be within ±{:g}, is {:g}", kMost, number));
+  }
   if (range == NumberRange::kPositive && !(number > 0.0)) {
     value.fail(fmt::format("must be greater than 0, is {}", number));
   }
@@ -164,13 +168,16 @@ YamlMap::YamlMap(YamlValue value) : self_(std::move(value)) {
 }
 
 bool YamlMap::has(const std::string& key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (!is_known(key)) known_.push_back(key);
   const YAML::Node value = self_.node()[key];
   return value.IsDefined() && !value.IsNull();
 }
 
 YamlValue YamlMap::at(const std::string& key) {
-  if (!has(key)) self_.fail(fmt::format("has no '{}'", key));
+  if (!has(key)) {
+    complain_of_slip(key);
+    self_.fail(fmt::format("has no '{}'", key));
+  }
   const std::string path = self_.path().empty() ? key : self_.path() + "." + key;
   return {self_.node()[key], self_.file(), path};
 }
@@ -191,16 +198,34 @@ std::vector<YamlValue> YamlMap::list(const std::string& key) {
   return has(key) ? at(key).list() : std::vector<YamlValue>{};
 }
 
-void YamlMap::finish() const {
+bool YamlMap::is_known(const std::string& key) const {
+  return std::find(known_.begin(), known_.end(), key) != known_.end();
+}
+
+void YamlMap::fail_on_unknown(const YAML::Node& key, const YAML::Node& value,
+                              const std::vector<std::string>& known) const {
+  const bool from_file = value.Tag() != kFromCommandLine;
+  const std::string word = key.as<std::string>("");
+  const Location location = YamlValue(from_file ? key : value, self_.file(), word).location();
+  const std::string where = self_.path().empty() ? "" : fmt::format(" in {}", self_.path());
+  tagfield::fail(location,
+                 fmt::format("unknown key '{}'{}{}", word, where, suggestion(word, known)));
+}
+
+void YamlMap::complain_of_slip(const std::string& missing) const {
   for (const auto& entry : self_.node()) {
     const std::string key = entry.first.as<std::string>("");
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    const bool from_file = entry.second.Tag() != kFromCommandLine;
-    const YAML::Node& place = from_file ? entry.first : entry.second;
-    const Location location = YamlValue(place, self_.file(), key).location();
-    const std::string where = self_.path().empty() ? "" : fmt::format(" in {}", self_.path());
-    tagfield::fail(location,
-                   fmt::format("unknown key '{}'{}{}", key, where, suggestion(key, known_)));
+    if (!is_known(key) && !nearest_word(key, {missing}).empty()) {
+      fail_on_unknown(entry.first, entry.second, {missing});
+    }
+  }
+}
+
+void YamlMap::finish() const {
+  for (const auto& entry : self_.node()) {
+    if (!is_known(entry.first.as<std::string>(""))) {
+      fail_on_unknown(entry.first, entry.second, known_);
+    }
   }
 }
 
@@ -216,9 +241,9 @@ YAML::Node read_yaml(const std::string& path) {
   }
 }
 
-void set_in_yaml(YAML::Node root, std::string_view key_path, const std::string& value) {
+void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value) {
   const std::vector<std::string> words = split_at_dots(key_path);
-  YAML::Node parent = std::move(root);
+  YAML::Node parent = root;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i].empty()) leads_nowhere(key_path, "expected words between the dots");
     const bool last = i + 1 == words.size();

@@ -21,8 +21,8 @@ enum class NumberRange { kAny, kNotNegative, kPositive };
 /// A value somewhere in a YAML file: where it stands and what its path is ("antennas[0].pose").
 class YamlValue {
  public:
-  YamlValue(YAML::Node node, std::string file, std::string path)
-      : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {}
+  YamlValue(const YAML::Node& node, std::string file, std::string path)
+      : node_(node), file_(std::move(file)), path_(std::move(path)) {}
 
   /// Throws Error "FILE:LINE: PATH MESSAGE".
   [[noreturn]] void fail(const std::string& message) const;
@@ -31,7 +31,7 @@ class YamlValue {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// Finite number within `range`.
+  /// Finite number within `range` and ±1e15.
   [[nodiscard]] double number(NumberRange range = NumberRange::kAny) const;
   [[nodiscard]] std::uint64_t whole_number() const;
   [[nodiscard]] bool boolean() const;
@@ -64,10 +64,16 @@ class YamlMap {
   bool boolean(const std::string& key, bool otherwise);
   std::vector<YamlValue> list(const std::string& key);
 
+  /// Throws Error if a key that was not asked for yet looks like a slip of `missing`.
+  void complain_of_slip(const std::string& missing) const;
   /// Throws Error naming the first key that was never asked for and the nearest one that was.
   void finish() const;
 
  private:
+  [[nodiscard]] bool is_known(const std::string& key) const;
+  [[noreturn]] void fail_on_unknown(const YAML::Node& key, const YAML::Node& value,
+                                    const std::vector<std::string>& known) const;
+
   YamlValue self_;
   std::vector<std::string> known_;
 };
@@ -78,6 +84,6 @@ YAML::Node read_yaml(const std::string& path);
 /// Puts `value` (YAML text) under `key_path` ("pose.sigma_m", "antennas.0.range_m", or with a
 /// list's element by its name or id: "antennas.mobile.range_m"). Throws Error where that leads
 /// nowhere.
-void set_in_yaml(YAML::Node root, std::string_view key_path, const std::string& value);
+void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value);
 
 }  // namespace tagfield

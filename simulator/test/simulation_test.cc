@@ -112,7 +112,9 @@ TEST(Simulation, ARobotCarriesAntennaAndTag) {
   }
   // Load and antenna keep their distance √(0.5² + 0.5²).
   for (const TrueDistance& distance : recording.truth.distances) {
-    if (distance.tag == "load") EXPECT_NEAR(distance.distance_m, std::sqrt(0.5), 1e-9);
+    if (distance.tag == "load") {
+      EXPECT_NEAR(distance.distance_m, std::sqrt(0.5), 1e-9);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 namespace tagfield {
 namespace {
 
+constexpr double kLeastRate = 1e-9;  // An update in 32 years: stamps must not overflow.
 constexpr double kMostRate = 1e6;
 
 std::uint64_t stamp_key(Time stamp) {
@@ -19,8 +20,8 @@ std::uint64_t stamp_key(Time stamp) {
 
 void check(const AntennaParameters& antenna) {
   check(antenna.model);
-  if (!(antenna.rate_hz > 0.0 && antenna.rate_hz <= kMostRate)) {
-    throw Error(fmt::format("rate_hz must be greater than 0 and at most {}, is {}", kMostRate,
+  if (!(antenna.rate_hz >= kLeastRate && antenna.rate_hz <= kMostRate)) {
+    throw Error(fmt::format("rate_hz must be from {:g} to {:g}, is {:g}", kLeastRate, kMostRate,
                             antenna.rate_hz));
   }
   if (!(antenna.range_m > 0.0 && std::isfinite(antenna.range_m))) {

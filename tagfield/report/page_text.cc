@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/report/text.h"
 
@@ -112,10 +113,11 @@ std::string key_numbers(const Summary& summary) {
   html += big("Path", fmt::format("{:.1f} m", summary.path_length_m));
   if (summary.simulated_s > 0.0) html += big("Simulated", spoken_duration(summary.simulated_s));
   if (summary.real_time_factor > 0.0) {
-    html += big("Real-time factor",
-                summary.real_time_factor < 10.0
-                    ? fmt::format("{:.1f}×", summary.real_time_factor)
-                    : grouped(static_cast<std::size_t>(summary.real_time_factor + 0.5)) + "×");
+    html +=
+        big("Real-time factor",
+            summary.real_time_factor < 10.0
+                ? fmt::format("{:.1f}×", summary.real_time_factor)
+                : grouped(static_cast<std::size_t>(std::lround(summary.real_time_factor))) + "×");
   }
   return html + "</dl>\n";
 }

@@ -122,7 +122,7 @@ std::size_t length_of(std::string_view text) {
 }
 
 std::string shortened(std::string_view text, std::size_t most) {
-  const std::string clean = clean_text(text);
+  std::string clean = clean_text(text);
   const std::size_t length = length_of(clean);
   if (length <= most) return clean;
   const std::size_t head = (most - 1) / 2;

@@ -75,6 +75,7 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   }
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(least) - 1e-9)), 0, 9);
   std::vector<std::string> labels;
+  labels.reserve(ticks.size());
   for (const double tick : ticks) labels.push_back(label_of(tick, decimals));
   return labels;
 }

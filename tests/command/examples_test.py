@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""The examples do what they say, from the build tree and against the installed package."""
+
+import concurrent.futures
+import math
+import os
+import re
+import shlex
+import shutil
+
+from common import (Skip, case, check, check_between, check_equal, check_in, check_near, main,
+                    position, read_csv, read_json, run)
+
+ROOMS = ("base", "poses", "world", "sdf", "link", "channel", "reader", "stream", "localization",
+         "report", "simulator")
+
+
+def documented_commands(path):
+    """The tagfield commands that stand indented in a text or in a file's comments."""
+    text = re.sub(r"\\\n\s*#?\s*", " ", path.read_text(encoding="utf-8"))
+    found = re.findall(r"^#?\s+build/release/bin/tagfield (.*)$", text, re.MULTILINE)
+    return [shlex.split(line, comments=True) for line in found]
+
+
+def run_documented(context, arguments, out):
+    """From the source tree, as a reader would, but with results in a folder of the test's."""
+    words = [word for i, word in enumerate(arguments)
+             if word != "--out" and (i == 0 or arguments[i - 1] != "--out")]
+    if words[0] in ("run", "localize"):
+        words += ["--out", out]
+    result = run([context.tagfield, *words], cwd=context.source)
+    check_equal(result.code, 0, f"exit code of {words}")
+    for line in result.err.splitlines():
+        check(line.startswith("tagfield: warning: "), f"{words} says {line!r}")
+    return result
+
+
+@case
+def one_link(context):
+    program = context.build / "bin/example_one_link"
+    if not program.exists():
+        raise Skip(f"{program} is not built")
+    result = run([program])
+    check_equal(result.code, 0, "exit code")
+    check_in("tag1 at 3.00 m: phase ", result.out, "example_one_link")
+    phase, rssi = map(float, re.search(r"phase ([\d.]+) rad, RSSI (-?\d+) dBm", result.out).groups())
+    wavelength = 299792458.0 / 865.7e6
+    check_between(math.remainder(phase - 4 * math.pi * 3.0 / wavelength, 2 * math.pi), -0.5, 0.5,
+                  "phase less 4πD/λ")
+    amplitude = 3.0 * wavelength / (4 * math.pi * 3.0)
+    # Noise of 0.01 on an amplitude of 0.0275: five of its standard deviations.
+    check_between(rssi, -120.0, 40 * math.log10(amplitude + 0.05), "RSSI")
+
+
+@case
+def own_world(context):
+    example = context.source / "examples/02_own_world"
+    commands = documented_commands(example / "workshop.yaml")
+    check_equal([command[0] for command in commands], ["check", "run"], "commands of the example")
+    out = context.folder / "out"
+    told = [run_documented(context, command, out).out for command in commands]
+    for word in ("drill", "gate_antenna", "pallet", "cupboard"):
+        check_in(word, told[0], "check")
+    tags = {tag["id"]: tag for tag in read_json(out / "summary.json")["tags"]}
+    check_equal(set(tags), {"drill", "toolbox"}, "tags")
+    check_equal(tags["drill"]["truth_m"], [0.3, 2.74, 1.3], "place of the drill")
+    for name, tag in tags.items():
+        check_equal(tag["verdict"], "located", f"verdict of {name}")
+        check_between(tag["error_m"], 0.0, 0.05, f"error of {name}")
+    check_equal({row["antenna"] for row in read_csv(out / "reads.csv")},
+                {"gate_antenna", "cart_antenna"}, "antennas")
+
+
+@case
+def own_csv(context):
+    readme = context.source / "examples/03_own_csv/README.md"
+    text = readme.read_text(encoding="utf-8").replace("−", "-")
+    places = [tuple(map(float, pair)) for pair in
+              re.findall(r"\((-?\d+\.\d+), (-?\d+\.\d+)\)", text)]
+    check_equal(len(places), 2, "places of tags in the README")
+    commands = documented_commands(readme)
+    check_equal(len(commands), 1, "commands in the README")
+    out = context.folder / "out"
+    run_documented(context, commands[0], out)
+    found = [position(row) for row in read_csv(out / "estimates.csv")
+             if row["verdict"] == "located"]
+    check_equal(len(found), 2, "tags located")
+    for place in places:
+        nearest = min(found, key=lambda p, place=place: math.dist(p[:2], place))
+        check_near(math.dist(nearest[:2], place), 0.0, 0.03, f"distance of an estimate to {place}")
+        check_near(nearest[2], 0.8, 1e-6, "height")
+
+
+# --- The installed package ------------------------------------------------------------------------
+
+def install(context):
+    missing = [room for room in ROOMS
+               if not list(context.build.rglob(f"libtagfield_{room}.a"))]
+    if missing:
+        raise Skip(f"not all libraries are built: {', '.join(missing)}")
+    prefix = context.folder / "installed"
+    result = run(["cmake", "--install", context.build, "--prefix", prefix])
+    check_equal(result.code, 0, f"exit code of cmake --install ({result.err[-400:]!r})")
+    return prefix
+
+
+def check_own_program(context, prefix):
+    example = context.source / "examples/04_own_program"
+    build = context.folder / "own"
+    generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+    for command in (["cmake", *generator, "-S", example, "-B", build,
+                     f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"],
+                    ["cmake", "--build", build]):
+        result = run(command, timeout=600)
+        if not check(result.code == 0, f"{command[1]}: {(result.out + result.err)[-1500:]}"):
+            return
+    result = run([build / "own_program"], cwd=context.folder)
+    check_equal((result.code, result.err), (0, ""), "exit code and stderr of own_program")
+    found = {name: (float(x), float(y)) for name, x, y in
+             re.findall(r"^(\w+): (-?[\d.]+) (-?[\d.]+) m$", result.out, re.MULTILINE)}
+    # Where own_program.cc puts them.
+    for name, place in {"first": (2.0, 2.5), "second": (1.0, -2.0)}.items():
+        check(name in found and math.dist(found[name], place) < 0.05,
+              f"{name} is at {found.get(name)}, expected {place}: {result.out!r}")
+
+
+def check_installed_command(context, prefix):
+    scenario = prefix / "share/tagfield/scenarios/paper_warehouse.yaml"
+    result = run([prefix / "bin/tagfield", "run", scenario, "--out", "out"], cwd=context.folder)
+    check_equal((result.code, result.err), (0, ""), "exit code and stderr of the installed command")
+    check_equal(read_json(context.folder / "out/summary.json")["located"], 10, "located")
+
+
+@case
+def the_installed_package(context):
+    """The command, its scenario and world, and a program of one's own against the libraries."""
+    prefix = install(context)
+    check_installed_command(context, prefix)
+    check_own_program(context, prefix)
+    for path in prefix.rglob("*"):
+        name = str(path.relative_to(prefix))
+        check("/test/" not in name and "/internal/" not in name, f"{name} is installed")
+        if path.suffix == ".cmake":
+            text = path.read_text(encoding="utf-8")
+            check(str(context.source) not in text and str(context.build) not in text,
+                  f"{name} names the source or the build tree")
+
+
+def compile_alone(header, include, folder):
+    """What the compiler says of a program of one line, or "" where it is well."""
+    program = folder / (header.replace("/", "_") + ".cc")
+    program.write_text(f'#include "{header}"\n', encoding="utf-8")
+    result = run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-I",
+                  include, "-isystem", "/usr/include/eigen3", program])
+    return result.err[:600] if result.code else ""
+
+
+@case
+def installed_headers_stand_alone(context):
+    prefix = install(context)
+    include = prefix / "include"
+    headers = sorted(str(path.relative_to(include)) for path in include.rglob("*.h"))
+    check(len(headers) > 40, f"only {len(headers)} headers are installed")
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        said = pool.map(lambda header: compile_alone(header, include, context.folder), headers)
+        for header, complaint in zip(headers, said):
+            check(not complaint, f"{header} does not stand alone: {complaint}")
+
+
+if __name__ == "__main__":
+    main()

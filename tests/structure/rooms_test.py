@@ -1,0 +1,251 @@
+#!/usr/bin/python3
+"""The order of the house: which room may include which, and what stays out of the core.
+
+    rooms_test.py SOURCE_DIR
+
+Checks every .h and .cc of the source tree, then that it would notice: each rule is broken once in a
+small tree of its own, where that complaint must come and no other file be blamed.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+# docs/architecture.md: a room includes only itself and rooms above it.
+ROOMS = ["base", "poses", "world", "sdf", "link", "channel", "reader", "stream", "localization",
+         "report"]
+# What a room must not include although it stands above.
+FORBIDDEN = {"localization": {"world", "sdf", "report"}}
+FOLDERS = ["tagfield", "simulator", "navigation", "adapters", "apps", "benchmarks", "examples"]
+ALIENS = ("ros/", "rclcpp/", "rosbag/", "tf2", "gazebo/", "gz/", "ignition/", "mrpt/", "mpi.h")
+# sdformat hands over its poses in this.
+MATH = "ignition/math/"
+# Nothing in the core prints or looks at a clock; the simulator keeps pace with the wall clock, and
+# the apps print.
+QUIET = {
+    r"\bstd::c(out|err|log)\b": "prints",
+    r"(?<![\w.])(f|v|vf)?printf\s*\(|\b(fmt|std)::print(ln)?\b|\bputs\s*\(": "prints",
+    r"\b(system|steady|high_resolution)_clock\b|\bgettimeofday\b|\bclock_gettime\b":
+        "looks at a clock",
+    r"\bstd::(random_device|mt19937|default_random_engine)\b|(?<![\w.:])s?rand\s*\(":
+        "draws random numbers by itself",
+    r"<sys/socket\.h>|<netinet/": "opens sockets",
+}
+# sdformat prints to std::cerr whatever it is told; read_root.cc takes the stream away for a while.
+QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints")}
+TRUTH_READERS = ("tagfield/report/", "simulator/", "apps/")
+# Paths of the machine on which this was made.
+WORKPLACE = re.compile(r"/work/|/home/\w+|/farm/|/root/")
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]', re.MULTILINE)
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+
+
+def without_comments(text):
+    return COMMENT.sub(lambda match: "\n" * match.group().count("\n"), text)
+
+
+def room_of(path):
+    """The room of a core file, or the top folder of another."""
+    parts = path.split("/")
+    return parts[1] if parts[0] == "tagfield" and len(parts) > 2 else parts[0]
+
+
+def is_test(path):
+    return "test" in path.split("/")[:-1] or path.startswith("tests/")
+
+
+def line_at(text, offset):
+    return text[:offset].count("\n") + 1
+
+
+def order_fault(path, header):
+    """What is wrong about `path` including the project's own `header`, or None."""
+    if not path.startswith("tagfield/"):
+        if header.startswith("tagfield/") or path.split("/")[0] == header.split("/")[0]:
+            return None
+        if header.startswith("simulator/") and not path.startswith("simulator/"):
+            return None
+        return f"{path.split('/')[0]}/ must not include it"
+    if not header.startswith("tagfield/"):
+        return "the core must not include it"
+    room, other = room_of(path), room_of(header)
+    if other not in ROOMS:
+        return f"{other} is no room of docs/architecture.md"
+    if other == room:
+        return None
+    if ROOMS.index(other) > ROOMS.index(room):
+        return f"{other}/ is below {room}/"
+    if other in FORBIDDEN.get(room, ()):
+        return f"{room}/ must not know {other}/"
+    return None
+
+
+def include_faults(path, text):
+    for match in INCLUDE.finditer(text):
+        quote, header = match.groups()
+        place = f"{path}:{line_at(text, match.start())}: includes {header}"
+        own = header.split("/")[0] in FOLDERS and quote == '"'
+        fault = order_fault(path, header) if own else None
+        if fault:
+            yield f"{place}: {fault}"
+        if own and "/internal/" in header and room_of(header) != room_of(path):
+            yield f"{place}: internal to another room"
+        if own and "/test/" in header and not is_test(path):
+            yield f"{place}: a test's helper"
+        if header.startswith("sdf/") and not path.startswith("tagfield/sdf/"):
+            yield f"{place}: only sdf/ includes sdformat"
+        math = header.startswith(MATH) and path.startswith("tagfield/sdf/")
+        if (header.startswith(ALIENS) and not math and
+                not path.startswith(("adapters/", "navigation/"))):
+            yield f"{place}: no ROS, Gazebo, MRPT or MPI here"
+        if (header.endswith("/truth.h") and not path.startswith(TRUTH_READERS) and
+                not is_test(path)):
+            yield f"{place}: only report/ and who runs a simulation may see the truth"
+
+
+def word_faults(path, text):
+    bare = without_comments(text)
+    if path.startswith("tagfield/") and not is_test(path):
+        for pattern, what in QUIET.items():
+            match = re.search(pattern, bare)
+            if match and (path, what) not in QUIET_EXCEPT:
+                yield f"{path}:{line_at(bare, match.start())}: the core {what}: {match.group()}"
+    match = WORKPLACE.search(text)
+    if match:
+        yield f"{path}:{line_at(text, match.start())}: names a workplace's path: {match.group()}"
+
+
+def header_faults(path, text):
+    if not path.endswith(".h"):
+        return
+    if "#pragma once" not in text:
+        yield f"{path}:1: has no #pragma once"
+    if not re.match(r"/// @file\n/// \S", text):
+        yield f"{path}:1: does not begin with '/// @file' and what it is"
+    match = re.search(r"^using namespace", text, re.MULTILINE)
+    if match:
+        yield f"{path}:{line_at(text, match.start())}: using namespace in a header"
+
+
+def sources(root):
+    """Every .h and .cc that belongs to the project, by path from its top."""
+    for folder in [*FOLDERS, "tests"]:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".h", ".cc") and path.is_file():
+                yield str(path.relative_to(root)), path.read_text(encoding="utf-8")
+
+
+def faults(root):
+    found = []
+    rooms = sorted(path.name for path in (root / "tagfield").iterdir() if path.is_dir())
+    for room in rooms:
+        if room not in ROOMS:
+            found.append(f"tagfield/{room}: is no room of docs/architecture.md")
+    for path, text in sources(root):
+        for rule in (include_faults, word_faults, header_faults):
+            found.extend(rule(path, text))
+    return found
+
+
+def other_text_faults(root):
+    """Workplace paths in what is no C++."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, text=True,
+                            check=False)
+    names = [name for name in listed.stdout.split("\0") if name]
+    for name in names:
+        path = root / name
+        if path.suffix in (".h", ".cc") or not path.is_file() or name.startswith("tests/structure/"):
+            continue
+        try:
+            text = path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue
+        match = WORKPLACE.search(text)
+        if match:
+            yield f"{name}:{line_at(text, match.start())}: names a workplace's path: {match.group()}"
+
+
+# --- Does it notice? ------------------------------------------------------------------------------
+
+GOOD = {
+    "tagfield/base/error.h": "/// @file\n/// Errors.\n#pragma once\n",
+    "tagfield/world/scene.h": '/// @file\n/// A scene.\n#pragma once\n'
+                              '#include "tagfield/base/error.h"\n',
+    "tagfield/stream/csv.cc": '#include "tagfield/base/error.h"\n// std::cout is not used here\n'
+                              "void f(char* b) { snprintf(b, 1, \"\"); }\n",
+    "tagfield/report/truth.h": "/// @file\n/// The truth.\n#pragma once\n",
+    "tagfield/report/test/truth_test.cc": '#include "tagfield/report/truth.h"\n'
+                                          "void g() { std::cout << 1; }\n",
+    "simulator/run.cc": '#include "tagfield/report/truth.h"\n#include <chrono>\n'
+                        "auto now = std::chrono::steady_clock::now();\n",
+    "apps/tagfield/main.cc": '#include "simulator/run.h"\nint main() { printf("x"); }\n',
+}
+PLANTED = (  # a file, its content, what must be said of it
+    ("tagfield/base/a.cc", '#include "tagfield/world/scene.h"\n', "world/ is below base/"),
+    ("tagfield/channel/a.cc", '#include "tagfield/reader/antenna.h"\n', "reader/ is below channel/"),
+    ("tagfield/report/a.cc", '#include "simulator/run.h"\n', "the core must not include it"),
+    ("tagfield/stream/a.cc", '#include "apps/tagfield/table.h"\n', "the core must not include it"),
+    ("simulator/a.cc", '#include "apps/tagfield/table.h"\n', "simulator/ must not include it"),
+    ("tagfield/localization/a.cc", '#include "tagfield/world/scene.h"\n',
+     "localization/ must not know world/"),
+    ("tagfield/localization/a.cc", '#include "tagfield/report/truth.h"\n',
+     "report/ is below localization/"),
+    ("tagfield/world/a.cc", "#include <sdf/Root.hh>\n", "only sdf/ includes sdformat"),
+    ("benchmarks/a.cc", '#include "tagfield/report/truth.h"\n', "may see the truth"),
+    ("simulator/a.cc", '#include "tagfield/sdf/internal/poses.h"\n', "internal to another room"),
+    ("tagfield/report/a.cc", '#include "tagfield/base/test/statistics.h"\n', "a test's helper"),
+    ("simulator/a.cc", "#include <ros/ros.h>\n", "no ROS"),
+    ("tagfield/world/a.h", "/// @file\n/// It.\n#pragma once\nusing namespace std;\n",
+     "using namespace"),
+    ("tagfield/world/a.h", "/// @file\n/// It.\n", "#pragma once"),
+    ("tagfield/world/a.h", "#pragma once\n", "/// @file"),
+    ("tagfield/world/a.cc", "void f() { std::cout << 1; }\n", "prints"),
+    ("tagfield/world/a.cc", 'void f() { std::printf("x"); }\n', "prints"),
+    ("tagfield/world/a.cc", 'void f() { fmt::print("x"); }\n', "prints"),
+    ("tagfield/world/a.cc", "auto t = std::chrono::system_clock::now();\n", "looks at a clock"),
+    ("tagfield/world/a.cc", "std::random_device device;\n", "random numbers"),
+    ("tagfield/world/a.cc", 'const char* p = "/home/" "x";  // /home/somebody\n', "workplace"),
+    ("tagfield/kitchen/a.cc", "\n", "kitchen: is no room"),
+)
+
+
+def write_tree(root, files):
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def blind_spots():
+    """What this test would overlook."""
+    with tempfile.TemporaryDirectory(prefix="rooms_test-") as folder:
+        root = pathlib.Path(folder) / "good"
+        write_tree(root, GOOD)
+        for fault in faults(root):
+            yield f"complains of a good tree: {fault}"
+        for number, (name, text, says) in enumerate(PLANTED):
+            root = pathlib.Path(folder) / str(number)
+            write_tree(root, {**GOOD, name: text})
+            found = faults(root)
+            elsewhere = [fault for fault in found if not fault.startswith(name.rsplit("/", 1)[0])]
+            if elsewhere or not any(says in fault for fault in found):
+                yield f"{name} with {text!r} gives {found}, expected one with {says!r}"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    count = sum(1 for _ in sources(root))
+    found = [*faults(root), *other_text_faults(root), *blind_spots()]
+    if count < 50:
+        found.append(f"only {count} files were found under {root}: looked in the wrong place?")
+    for fault in found:
+        print(fault)
+    print(f"{count} files and {len(PLANTED)} planted faults, {len(found)} failures")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
