@@ -26,8 +26,10 @@ void add_tag_grid(Scenario& scenario, std::int64_t tags, double spacing_m) {
   const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(tags))));
   const double middle = 0.5 * static_cast<double>(side - 1);
   for (std::int64_t i = 0; i < tags; ++i) {
-    add_tag(scenario, (static_cast<double>(i % side) - middle) * spacing_m,
-            (static_cast<double>(i / side) - middle) * spacing_m);
+    const std::int64_t row = i / side;
+    const std::int64_t column = i % side;
+    add_tag(scenario, (static_cast<double>(column) - middle) * spacing_m,
+            (static_cast<double>(row) - middle) * spacing_m);
   }
 }
 

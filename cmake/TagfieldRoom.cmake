@@ -28,7 +28,7 @@ function(tagfield_test name)
   target_link_libraries(${name} PRIVATE ${TEST_LINKS} GTest::gtest_main rapidcheck)
   target_compile_definitions(${name} PRIVATE TAGFIELD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   tagfield_warnings(${name})
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300)
 endfunction()
 

@@ -52,13 +52,15 @@ std::vector<TagEstimate> in_scenario_order(const Scenario& scenario,
   return ordered;
 }
 
-std::vector<TagOutcome> outcomes_of(const Scenario& scenario, std::uint64_t seed,
+std::vector<TagOutcome> outcomes_of(const Scenario& scenario, const SeedRun& run,
                                     const std::vector<TagEstimate>& estimates) {
   std::vector<TagOutcome> outcomes;
+  std::map<std::string, std::size_t> counts = count_by_tag(run.recording.reads);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const TagSpec& tag = scenario.tags[i];
     TagOutcome outcome;
-    outcome.seed = seed;
+    outcome.seed = run.seed;
+    outcome.reads = counts[tag.id];
     outcome.estimate = estimates[i];
     outcome.moved = moves(tag);
     if (!outcome.moved) outcome.truth_m = tag.motion.front().X_WB.translation;
@@ -150,11 +152,11 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
   const Recording& recording = run.recording;
   run.estimates = in_scenario_order(
       scenario, locate_tags(recording.reads, recording.believed_poses, options, diagnostics));
-  run.outcomes = outcomes_of(scenario, run.seed, run.estimates);
+  run.outcomes = outcomes_of(scenario, run, run.estimates);
   if (scenario.pose.source == PoseSource::kTrue) return;
   const std::vector<TagEstimate> with_truth = in_scenario_order(
       scenario, locate_tags(recording.reads, recording.truth.antenna_poses, options, diagnostics));
-  run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run.seed, with_truth));
+  run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run, with_truth));
 }
 
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,

@@ -246,7 +246,9 @@ void read_bodies(YamlMap& map, Scenario& scenario) {
 
 double time_step_of(const YamlValue& value) {
   const double seconds = seconds_of(value, kPositive);
-  if (duration_from_seconds(seconds) <= Duration::zero()) value.fail("must be 1e-9 s or more");
+  if (!(seconds >= 1e-6 && seconds <= 1.0)) {
+    value.fail(fmt::format("must be from 1e-6 to 1 s, is {}", seconds));
+  }
   return seconds;
 }
 
@@ -281,7 +283,7 @@ void require_end(const Scenario& scenario, const std::string& path) {
 
 Override parse_override(const std::string& argument) {
   const std::size_t equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
     fail({"--set " + argument, 0}, "expected key.path=value");
   }
   return {argument.substr(0, equals), argument.substr(equals + 1)};

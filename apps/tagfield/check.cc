@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -123,7 +124,11 @@ void print_text(const std::string& file, const Json& json) {
   fmt::print("world: {}\n", json["world"].get<std::string>().empty()
                                 ? "none (empty space)"
                                 : json["world"].get<std::string>());
-  fmt::print("models: {}\n", json["models"].size());
+  const auto nested = static_cast<std::size_t>(std::count_if(
+      json["models"].begin(), json["models"].end(),
+      [](const Json& name) { return name.get<std::string>().find("::") != std::string::npos; }));
+  fmt::print("models: {}{}\n", json["models"].size() - nested,
+             nested > 0 ? fmt::format(", and {} nested in them", nested) : "");
   print_collisions(json);
   fmt::print("materials: {}\n", json["materials"].size());
   for (const Json& material : json["materials"]) {

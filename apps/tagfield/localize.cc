@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "apps/tagfield/command_line.h"
@@ -49,12 +50,26 @@ Summary summary_of(const LocalizeArguments& arguments, const std::vector<TagRead
   summary.path_length_m = longest_path(poses);
   summary.reads = reads.size();
   summary.warnings = diagnostics.warnings();
+  const std::map<std::string, std::size_t> counts = count_by_tag(reads);
   for (const TagEstimate& estimate : estimates) {
     TagOutcome outcome;
     outcome.estimate = estimate;
+    outcome.reads = counts.at(estimate.tag);
     summary.tags.push_back(std::move(outcome));
   }
   return summary;
+}
+
+/// What an earlier run may have left in the folder: its truth and world are not those of other
+/// reads.
+std::vector<std::filesystem::path> stale_files(const LocalizeArguments& arguments) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> stale = {"report.html", "figures"};
+  const fs::path of_reads = fs::weakly_canonical(arguments.reads).parent_path();
+  if (of_reads != fs::weakly_canonical(arguments.out)) {
+    stale.insert(stale.end(), {"truth", "top_view.json", "tag_heights.csv"});
+  }
+  return stale;
 }
 
 int localize_files(const LocalizeArguments& arguments) {
@@ -74,7 +89,7 @@ int localize_files(const LocalizeArguments& arguments) {
   folder.add("antenna_poses.csv", poses_to_csv(poses));
   folder.add("estimates.csv", estimates_to_csv(estimates));
   folder.add("summary.json", to_json(summary));
-  folder.commit({"report.html", "figures"});
+  folder.commit(stale_files(arguments));
   write_report(arguments.out);
   fmt::print("{}page: {}/report.html\n", table_of(summary), arguments.out);
   return kExitOk;

@@ -26,12 +26,11 @@ std::size_t name_width(const Summary& summary) {
 std::string row_of(const TagOutcome& tag, std::size_t width) {
   const TagEstimate& estimate = tag.estimate;
   if (estimate.verdict == Verdict::kNotLocated) {
-    return fmt::format("{:<{}}  {} ({} reads)\n", estimate.tag, width, estimate.reason,
-                       estimate.reads);
+    return fmt::format("{:<{}}  {} ({} reads)\n", estimate.tag, width, estimate.reason, tag.reads);
   }
   if (estimate.verdict == Verdict::kAmbiguous) {
     std::string text = fmt::format("{:<{}}  ambiguous ({} reads): {}\n", estimate.tag, width,
-                                   estimate.reads, estimate.reason);
+                                   tag.reads, estimate.reason);
     for (const Candidate& candidate : estimate.candidates) {
       text += fmt::format("{:<{}}  {}  candidate\n", "", width, place(candidate.p_WT));
     }
@@ -43,7 +42,7 @@ std::string row_of(const TagOutcome& tag, std::size_t width) {
       error ? fmt::format("{:9.1f}", millimetres(*error)) : fmt::format("{:>9}", "-");
   return fmt::format("{:<{}}  {} {} {:8.1f} {:11.1f} {:7}\n", estimate.tag, width, place(best.p_WT),
                      error_text, millimetres(best.rms_m), millimetres(best.expected_error_m),
-                     estimate.reads);
+                     tag.reads);
 }
 
 std::string rows_of_one_seed(const Summary& summary) {

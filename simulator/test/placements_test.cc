@@ -69,7 +69,7 @@ TEST(AddPlacements, RefusesBadValuesByLine) {
   EXPECT_NE(complaint_about(parameter("frequency", "fast")).find("hall.world:20: <frequency>"),
             std::string::npos);
   EXPECT_NE(complaint_about(parameter("range", "-1")).find("range_m must be"), std::string::npos);
-  EXPECT_NE(complaint_about(parameter("noisephi", "nan")).find("phase_noise_rad"),
+  EXPECT_NE(complaint_about(parameter("noisephi", "nan")).find("<noisephi> is 'nan'"),
             std::string::npos);
   EXPECT_NE(complaint_about(parameter("optional_distribution", "normal")).find("did you mean"),
             std::string::npos);

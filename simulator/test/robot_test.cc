@@ -45,7 +45,7 @@ TEST(Robot, BelievesOdometryWithoutNoiseExactly) {
 TEST(Robot, OdometryDriftsWithNoise) {
   PoseBelief belief;
   belief.source = PoseSource::kOdometry;
-  belief.wheel_noise = 0.02;
+  belief.wheel_noise = 0.005;
   Robot robot(l_shaped_drive(), belief, 1);
   drive_to_the_end(robot);
   const double drift =

@@ -148,6 +148,7 @@ TEST(ParseOverride, SplitsAtTheFirstEqualsSign) {
   EXPECT_EQ(parse_override("a.b=c=d"), (Override{"a.b", "c=d"}));
   EXPECT_THROW(parse_override("a.b"), Error);
   EXPECT_THROW(parse_override("=1"), Error);
+  EXPECT_THROW(parse_override("a.b="), Error);
 }
 
 }  // namespace

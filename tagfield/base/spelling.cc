@@ -24,6 +24,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  const auto begins_with_word = [&](const std::string& candidate) {
+    return word.size() >= 3 && candidate.rfind(word, 0) == 0;
+  };
+  const auto longer = std::find_if(known.begin(), known.end(), begins_with_word);
+  if (longer != known.end()) return *longer;
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 2) + 1;
   for (const std::string& candidate : known) {

@@ -79,6 +79,7 @@ std::vector<Segment> drawn_segments(const RunFiles& run, const AntennaTrack& tra
                                     const std::string& tag) {
   std::vector<Segment> drawn;
   const std::vector<PhaseSegment> segments = segments_of(track, tag);
+  drawn.reserve(segments.size());
   for (const PhaseSegment& segment : segments) {
     drawn.push_back(points_of(segment, run, track, tag, segments.front().samples.front().stamp));
   }

@@ -45,6 +45,12 @@ std::optional<ErrorStatistics> statistics(std::vector<double> errors_m) {
   return result;
 }
 
+std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads) {
+  std::map<std::string, std::size_t> counts;
+  for (const TagRead& read : reads) ++counts[read.tag];
+  return counts;
+}
+
 std::optional<ErrorStatistics> error_statistics(const Summary& summary) {
   return statistics(errors_of(summary));
 }

@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tagfield/localization/tag_estimate.h"
+#include "tagfield/reader/tag_read.h"
 #include "tagfield/report/truth.h"
 
 namespace tagfield {
@@ -17,6 +19,7 @@ namespace tagfield {
 struct TagOutcome {
   std::uint64_t seed = 0;
   TagEstimate estimate;
+  std::size_t reads = 0;  ///< All of the tag, whether localization could use them or not.
   std::optional<Eigen::Vector3d> truth_m;  ///< None where unknown, or where the tag moved.
   bool moved = false;                      ///< The tag did not rest, so it has no one true place.
 };
@@ -68,6 +71,9 @@ struct Summary {
   std::vector<std::string> warnings;
 };
 
+/// How many reads there are of each tag.
+std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads);
+
 /// Errors of all located tags, over all seeds.
 std::optional<ErrorStatistics> error_statistics(const Summary& summary);
 
@@ -80,10 +86,11 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// summary.json: scenario, description, seeds, method, pose, complete, path_length_m, reads,
 /// simulated_s, wall_s, real_time_factor, pose_error, tags: [{id, seed, verdict, reason, truth_m,
 /// moved, estimate_m, error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m,
-/// candidates_expected_error_m, reads}], error_m: {mean, median, p95, max, min, count}, over_0_3_m,
-/// located, ambiguous, not_located, warnings. What is unknown or not finite is null. `estimate_m`
-/// is null unless the tag is located; `rms_m` and `expected_error_m` are the best candidate's, and
-/// the three lists of candidates are equally long. Bytes that are not UTF-8 become U+FFFD.
+/// candidates_expected_error_m, reads, reads_used}], error_m: {mean, median, p95, max, min, count},
+/// over_0_3_m, located, ambiguous, not_located, warnings. What is unknown or not finite is null.
+/// `estimate_m` is null unless the tag is located; `rms_m` and `expected_error_m` are the best
+/// candidate's, and the three lists of candidates are equally long. Bytes that are not UTF-8 become
+/// U+FFFD.
 std::string to_json(const Summary& summary);
 
 /// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure of the

@@ -67,7 +67,8 @@ Json tag_json(const TagOutcome& outcome) {
   json["estimate_m"] = located ? point(estimate.candidates.front().p_WT) : Json(nullptr);
   json["error_m"] = number(error_of(outcome));
   put_candidates(json, estimate);
-  json["reads"] = estimate.reads;
+  json["reads"] = outcome.reads;
+  json["reads_used"] = estimate.reads;
   return json;
 }
 
@@ -143,7 +144,8 @@ TagOutcome tag_at(const JsonPlace& place) {
   outcome.estimate.verdict = verdict_at(member(place, "verdict"));
   outcome.estimate.reason = text_at(member(place, "reason"));
   outcome.estimate.candidates = candidates_at(place);
-  outcome.estimate.reads = whole_at(member(place, "reads"));
+  outcome.reads = whole_at(member(place, "reads"));
+  outcome.estimate.reads = whole_at(member(place, "reads_used"));
   const JsonPlace truth = member(place, "truth_m");
   if (!is_null(truth)) outcome.truth_m = point_at(truth);
   outcome.moved = truth_at(member(place, "moved"));

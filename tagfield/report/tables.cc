@@ -76,7 +76,7 @@ std::string single_row(const TagOutcome& outcome, bool remarks) {
   row += millimetres(error_of(outcome));
   row += millimetres(best != nullptr ? std::optional(best->rms_m) : std::nullopt);
   row += millimetres(best != nullptr ? std::optional(best->expected_error_m) : std::nullopt);
-  row += cell(grouped(estimate.reads));
+  row += cell(grouped(outcome.reads));
   if (remarks) row += words(remark_on(outcome));
   return row + "</tr>\n";
 }
@@ -119,7 +119,7 @@ std::string several_row(const TagRow& tag) {
   std::size_t reads = 0;
   for (const TagOutcome* outcome : tag.outcomes) {
     if (outcome->estimate.verdict == Verdict::kLocated) ++located;
-    reads += outcome->estimate.reads;
+    reads += outcome->reads;
   }
   const auto errors = statistics(tag.errors_m);
   std::string row = "<tr>" + name_cell(tag.tag);

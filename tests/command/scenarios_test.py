@@ -16,7 +16,7 @@ SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "pose", "complete"
                 "error_m", "over_0_3_m", "located", "ambiguous", "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",
-            "candidates_expected_error_m", "reads"}
+            "candidates_expected_error_m", "reads", "reads_used"}
 RUN_FILES = {"reads.csv", "antenna_poses.csv", "estimates.csv", "summary.json", "report.html",
              "truth/antenna_poses.csv", "truth/robot_poses.csv", "truth/tags.csv",
              "truth/distances.csv"}
@@ -169,8 +169,8 @@ def check_summary(folder):
     counts = collections.Counter(row["tag"] for row in reads)
     for tag in summary["tags"]:
         if tag["seed"] == summary["seeds"][0]:
-            # Reads that localization could not use are not counted.
-            check_between(tag["reads"], 1, counts[tag["id"]], f"reads of {tag['id']}")
+            check_equal(tag["reads"], counts[tag["id"]], f"reads of {tag['id']}")
+            check_between(tag["reads_used"], 1, tag["reads"], f"reads used of {tag['id']}")
     return summary
 
 

@@ -54,10 +54,10 @@ TEST_F(SmallWarehouse, HasFiveRacksOnEachSideFacingTheAisle) {
 }
 
 TEST_F(SmallWarehouse, WallsEncloseTheHall) {
-  EXPECT_NEAR(bounds("walls::wall_west").max().x(), -8.0, 1e-9);
-  EXPECT_NEAR(bounds("walls::wall_east").min().x(), 8.0, 1e-9);
-  EXPECT_NEAR(bounds("walls::wall_south").max().y(), -10.0, 1e-9);
-  EXPECT_NEAR(bounds("walls::wall_north").min().y(), 10.0, 1e-9);
+  EXPECT_NEAR(bounds("walls::link::wall_west").max().x(), -8.0, 1e-9);
+  EXPECT_NEAR(bounds("walls::link::wall_east").min().x(), 8.0, 1e-9);
+  EXPECT_NEAR(bounds("walls::link::wall_south").max().y(), -10.0, 1e-9);
+  EXPECT_NEAR(bounds("walls::link::wall_north").min().y(), 10.0, 1e-9);
   EXPECT_NEAR(bounds("walls::").max().z(), 4.0, 1e-9);
 }
 
