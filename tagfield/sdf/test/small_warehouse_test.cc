@@ -44,8 +44,8 @@ TEST_F(SmallWarehouse, LoadsWithoutAnyWarning) {
 TEST_F(SmallWarehouse, HasFiveRacksOnEachSideFacingTheAisle) {
   for (int i = 0; i < 5; ++i) {
     const double y = -7.2 + 3.6 * i;
-    const Eigen::AlignedBox3d west = bounds("racks_west::rack_west_" + std::to_string(i + 1));
-    const Eigen::AlignedBox3d east = bounds("racks_east::rack_east_" + std::to_string(i + 1));
+    const Eigen::AlignedBox3d west = bounds("racks::rack_west_" + std::to_string(i + 1));
+    const Eigen::AlignedBox3d east = bounds("racks::rack_east_" + std::to_string(i + 1));
     EXPECT_LT((west.min() - Eigen::Vector3d(-5.6, y - 1.3, 0.0)).norm(), 1e-9);
     EXPECT_LT((west.max() - Eigen::Vector3d(-4.6, y + 1.3, 2.4)).norm(), 1e-9);
     EXPECT_LT((east.min() - Eigen::Vector3d(4.6, y - 1.3, 0.0)).norm(), 1e-9);
