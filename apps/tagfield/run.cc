@@ -28,7 +28,7 @@ struct RunArguments {
   std::size_t seeds = 1;
   std::vector<std::string> settings;
   int threads = default_threads();
-  bool page = true;
+  bool no_page = false;
 };
 
 /// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
@@ -125,8 +125,8 @@ int run(const RunArguments& arguments) {
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
   folder.commit({"tag_heights.csv", "top_view.json", "report.html", "figures"});
-  if (arguments.page) write_report(out);
-  print_result(summary, out, arguments.page);
+  if (!arguments.no_page) write_report(out);
+  print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
 }
 
@@ -150,7 +150,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->allow_extra_args(false);
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("!--no-page", arguments->page, "Write the data only, no report.html");
+  command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
       "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");
