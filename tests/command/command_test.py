@@ -12,8 +12,8 @@ import statistics
 import subprocess
 import time
 
-from common import (SPEED_OF_LIGHT, case, check, check_between, check_equal, check_in, check_near,
-                    clean_environment, files_in, main, position, read_csv, read_json)
+from common import (SPEED_OF_LIGHT, Skip, case, check, check_between, check_equal, check_in,
+                    check_near, clean_environment, files_in, main, position, read_csv, read_json)
 
 SCENARIOS = ("paper_warehouse", "z_axis", "two_antennas", "moving_tags", "spawn")
 
@@ -106,7 +106,10 @@ class OnTerminal:
     """The program with its stderr on a terminal of its own."""
 
     def __init__(self, context, *arguments):
-        self.terminal, theirs = pty.openpty()
+        try:
+            self.terminal, theirs = pty.openpty()
+        except OSError as error:
+            raise Skip(f"there is no pseudo-terminal here ({error})") from error
         self.seen = ""
         # pylint: disable=consider-using-with
         self.process = subprocess.Popen(

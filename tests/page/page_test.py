@@ -92,12 +92,13 @@ def contrast(one, other):
     return (high + 0.05) / (low + 0.05)
 
 
-def requests_of(driver):
-    """Addresses that the page asked for since the last call."""
+def requests_of(driver, page):
+    """Addresses that the page asked for since the last call; the browser's own tabs ask too."""
     addresses = []
     for entry in driver.get_log("performance"):
         message = json.loads(entry["message"])["message"]
-        if message["method"] == "Network.requestWillBeSent":
+        if (message["method"] == "Network.requestWillBeSent" and
+                message["params"]["documentURL"] == page.as_uri()):
             addresses.append(message["params"]["request"]["url"])
     return addresses
 
@@ -136,7 +137,10 @@ def view_faults(driver, page, theme, seen):
     for entry in driver.get_log("browser"):
         if entry["level"] in ("WARNING", "SEVERE"):
             yield f"console: {entry['message']}"
-    for address in requests_of(driver):
+    addresses = requests_of(driver, page)
+    if page.as_uri() not in addresses:
+        yield "was never requested: the test looked in the wrong place"
+    for address in addresses:
         if address != page.as_uri():
             yield f"requests {address[:200]}"
     if seen["scripts"]:
