@@ -45,7 +45,7 @@ void draw_strip(Svg& svg, const Axes& axes, const TagStrength& strength, double 
 
 Axes strip_axes(const std::vector<TagStrength>& strengths) {
   const auto [low, high] = range_of(strengths);
-  Axes axes{round_scale(low, high, 6), {}};
+  Axes axes{round_scale(low, high, 4), {}};
   axes.x.from = kNameWidth;
   axes.x.to = kDrawingWidth - 26.0;
   axes.y.to = kTop;

@@ -16,12 +16,22 @@ void extend(Extent& extent, const Trajectory& trajectory) {
   for (const StampedPose& pose : trajectory) extent.extend(pose.X_WB.translation.head<2>());
 }
 
-/// What must be on the map: antennas and true tags.
+/// Where a tag that moved was; empty for others.
+const std::vector<TagPosition>& way_of(const RunFiles& run, const TagOutcome& outcome) {
+  static const std::vector<TagPosition> none;
+  const auto found = run.true_places.find(outcome.estimate.tag);
+  return outcome.moved && found != run.true_places.end() ? found->second : none;
+}
+
+/// What must be on the map: antennas, true tags and the ways of those that moved.
 Extent certain_extent(const RunFiles& run, const Outcomes& outcomes) {
   Extent extent;
   for (const AntennaTrack& track : run.tracks) extend(extent, track.best());
   for (const TagOutcome* outcome : outcomes) {
     if (outcome->truth_m) extent.extend(outcome->truth_m->head<2>());
+    for (const TagPosition& position : way_of(run, *outcome)) {
+      extent.extend(position.p_WT.head<2>());
+    }
   }
   return extent;
 }
@@ -64,6 +74,7 @@ struct Findings {
   bool moving = false;
   bool fixed = false;
   bool truth = false;
+  bool moved = false;
   bool estimates = false;
   bool pairs = false;
   std::size_t outside = 0;
@@ -86,18 +97,19 @@ void draw_antennas(Svg& svg, MapView& map, const RunFiles& run, bool labelled) {
     const Place place = on_map(map, track.best().front().X_WB.translation);
     add_rectangle(svg, place - Place(7, 6), {14, 12}, styled("ink"),
                   clean_text(track.antenna) + ", fixed antenna");
+    take_place(map, place, 8.0);
     if (labelled) draw_label(svg, map, place, shortened(track.antenna, 18));
   }
 }
 
 void draw_moved_tag(Svg& svg, const MapView& map, const RunFiles& run, const TagOutcome& outcome) {
-  const auto found = run.true_places.find(outcome.estimate.tag);
-  if (!outcome.moved || found == run.true_places.end()) return;
-  const std::size_t step = thinning(found->second.size(), kMostWaypoints);
+  const std::vector<TagPosition>& way = way_of(run, outcome);
+  const std::size_t step = thinning(way.size(), kMostWaypoints);
   std::vector<Place> places;
-  for (std::size_t i = 0; i < found->second.size(); i += step) {
-    places.push_back(on_map(map, found->second[i].p_WT));
+  for (std::size_t i = 0; i < way.size(); i += step) {
+    places.push_back(on_map(map, way[i].p_WT));
   }
+  if (places.empty()) return;
   add_polyline(svg, places, styled("true-line"));
 }
 
@@ -124,9 +136,10 @@ void draw_candidates(Svg& svg, const MapView& map, const TagEstimate& estimate) 
   }
 }
 
-/// Where the label of a tag belongs.
-std::optional<Eigen::Vector3d> label_place(const TagOutcome& outcome) {
+/// Where the label of a tag belongs: for one that moved, where it came to be.
+std::optional<Eigen::Vector3d> label_place(const RunFiles& run, const TagOutcome& outcome) {
   if (outcome.truth_m) return outcome.truth_m;
+  if (!way_of(run, outcome).empty()) return way_of(run, outcome).back().p_WT;
   if (outcome.estimate.candidates.empty()) return std::nullopt;
   return outcome.estimate.candidates.front().p_WT;
 }
@@ -147,10 +160,10 @@ void draw_tags(Svg& svg, MapView& map, const RunFiles& run, const Outcomes& outc
   end_clip(svg);
 }
 
-void draw_names(Svg& svg, MapView& map, const Outcomes& outcomes) {
+void draw_names(Svg& svg, MapView& map, const RunFiles& run, const Outcomes& outcomes) {
   if (outcomes.size() > kMostRows) return;
   for (const TagOutcome* outcome : outcomes) {
-    const auto place = label_place(*outcome);
+    const auto place = label_place(run, *outcome);
     if (place && is_shown(map, *place)) {
       draw_label(svg, map, on_map(map, *place), shortened(outcome->estimate.tag, 12));
     }
@@ -165,7 +178,8 @@ Findings findings_of(const RunFiles& run, const Outcomes& outcomes, const MapVie
   }
   for (const TagOutcome* outcome : outcomes) {
     const auto& candidates = outcome->estimate.candidates;
-    found.truth = found.truth || outcome->truth_m || outcome->moved;
+    found.truth = found.truth || outcome->truth_m;
+    found.moved = found.moved || !way_of(run, *outcome).empty();
     found.estimates = found.estimates || !candidates.empty();
     found.pairs = found.pairs || candidates.size() > 1;
     if (!candidates.empty() && !is_shown(map, candidates.front().p_WT)) ++found.outside;
@@ -179,6 +193,7 @@ std::vector<LegendEntry> legend_of(const Findings& found) {
   if (found.beliefs) entries.push_back({Symbol::kLine, "believed", "as the robot believed"});
   if (found.fixed) entries.push_back({Symbol::kSquare, "ink", "fixed antenna"});
   if (found.truth) entries.push_back({Symbol::kDiamond, "truth", "tag, true"});
+  if (found.moved) entries.push_back({Symbol::kLine, "true-line", "way of a tag"});
   if (found.estimates) entries.push_back({Symbol::kCross, "estimate", "tag, estimated"});
   return entries;
 }
@@ -225,7 +240,7 @@ Figure map_figure(const RunFiles& run) {
   draw_paths(figure.svg, map, run);
   draw_tags(figure.svg, map, run, outcomes);
   draw_antennas(figure.svg, map, run, outcomes.size() <= kMostRows);
-  draw_names(figure.svg, map, outcomes);
+  draw_names(figure.svg, map, run, outcomes);
   figure.caption = caption_of(run, outcomes, found);
   return figure;
 }

@@ -25,6 +25,10 @@ std::string outcome_sentence(const Summary& summary) {
   if (ambiguous > 0) text += fmt::format(", {} ambiguous", grouped(ambiguous));
   if (lost > 0) text += fmt::format(", {} not located", grouped(lost));
   const auto errors = error_statistics(summary);
+  const bool truth_known =
+      std::any_of(summary.tags.begin(), summary.tags.end(),
+                  [](const TagOutcome& tag) { return tag.truth_m || tag.moved; });
+  if (!errors && truth_known) return text + ". Without a tag at rest located there is no error.";
   if (!errors) return text + ". The true places are not known, so neither are the errors.";
   return text + fmt::format(". The estimates are off by {} in the mean and by {} at most.",
                             spoken_length(errors->mean), spoken_length(errors->max));
