@@ -16,6 +16,7 @@ import pathlib
 import shutil
 import sys
 import tempfile
+import time
 import xml.etree.ElementTree as ElementTree
 
 SKIPPED = 77
@@ -103,6 +104,16 @@ def requests_of(driver, page):
     return addresses
 
 
+def wait_until_whole(driver, page):
+    """On a busy machine the driver may come back while the page is still being parsed."""
+    for _ in range(600):
+        if driver.execute_script("return document.readyState === 'complete' && location.href") == \
+                page.as_uri():
+            return
+        time.sleep(0.1)
+    raise TimeoutError(f"{page} was not loaded within a minute")
+
+
 def open_page(driver, page, screen, theme):
     width, height, mobile = SCREENS[screen]
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
@@ -110,8 +121,10 @@ def open_page(driver, page, screen, theme):
         "mobile": mobile})
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
         "features": [{"name": "prefers-color-scheme", "value": theme}]})
+    driver.get("about:blank")
     driver.get_log("performance")
     driver.get(page.as_uri())
+    wait_until_whole(driver, page)
     return driver.execute_script(LOOK)
 
 
