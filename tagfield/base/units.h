@@ -17,7 +17,6 @@ inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 inline double wavelength(double frequency_hz) { return kSpeedOfLight / frequency_hz; }
 
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
-inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
 
 /// `angle` [rad] wrapped to [0, 2π). Finite for every finite input; never 2π itself.
 inline double wrap_to_two_pi(double angle) {
