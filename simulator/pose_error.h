@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "simulator/unicycle.h"
+#include "tagfield/motion/unicycle.h"
 
 namespace tagfield {
 

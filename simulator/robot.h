@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "simulator/path_follower.h"
+#include "tagfield/motion/path_follower.h"
 #include "simulator/pose_error.h"
-#include "simulator/unicycle.h"
+#include "tagfield/motion/unicycle.h"
 #include "tagfield/base/error.h"
 #include "tagfield/poses/rigid_transform.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/lift.h"
+#include "tagfield/motion/lift.h"
 #include "simulator/pose_error.h"
 #include "simulator/robot.h"
 #include "tagfield/base/error.h"

@@ -1,4 +1,4 @@
-#include "simulator/unicycle.h"
+#include "tagfield/motion/unicycle.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "simulator/lift.h"
+#include "tagfield/motion/lift.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulator/unicycle.h"
+#include "tagfield/motion/unicycle.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "simulator/unicycle.h"
+#include "tagfield/motion/unicycle.h"
 
 namespace tagfield {
 

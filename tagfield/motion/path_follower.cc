@@ -1,4 +1,4 @@
-#include "simulator/path_follower.h"
+#include "tagfield/motion/path_follower.h"
 
 #include <algorithm>
 #include <cmath>
