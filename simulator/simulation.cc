@@ -53,7 +53,7 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
       end_(end_of(scenario)),
-      index_(cell_size(scenario)) {
+      tags_(cell_size(scenario)) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
   for (const RobotSpec& robot : scenario.robots) {
     if (robot_named(robot.name) != nullptr) {
@@ -118,42 +118,35 @@ double Simulation::travelled_m() const {
   return travelled;
 }
 
-std::uint32_t Simulation::free_slot() {
-  if (free_slots_.empty()) {
-    tags_by_slot_.emplace_back();
-    return static_cast<std::uint32_t>(tags_by_slot_.size() - 1);
+std::uint32_t Simulation::place_new(const TagSpec& tag) {
+  try {
+    const std::uint32_t slot = tags_.add(tag.id, tag.motion.front().X_WB.translation);
+    if (slot >= specs_.size()) specs_.resize(slot + std::size_t{1});
+    specs_[slot] = tag;
+    return slot;
+  } catch (const Error& error) {
+    fail(tag.location, error.what());
   }
-  const std::uint32_t slot = free_slots_.back();
-  free_slots_.pop_back();
-  return slot;
 }
 
 void Simulation::add_tag(const TagSpec& tag) {
-  if (slots_.count(tag.id) != 0) {
-    fail(tag.location, fmt::format("there is a tag with the ID '{}' already", tag.id));
-  }
   require_robot(tag.on, tag.location);
   if (tag.motion.empty()) fail(tag.location, fmt::format("tag '{}' has no position", tag.id));
   require_rising_stamps(tag.motion);
-  const std::uint32_t slot = free_slot();
-  slots_.emplace(tag.id, slot);
-  tags_by_slot_[slot] = {tag, slot};
-  index_.place(slot, tag.motion.front().X_WB.translation);
+  const std::uint32_t slot = place_new(tag);
   std::vector<std::uint32_t>& list = moves(tag) ? moving_slots_ : new_slots_;
   list.insert(std::upper_bound(list.begin(), list.end(), slot), slot);
   moved_to_ = Time::min();
 }
 
 void Simulation::remove_tag(const std::string& id) {
-  const auto found = slots_.find(id);
-  if (found == slots_.end()) throw Error(fmt::format("there is no tag with the ID '{}'", id));
-  const std::uint32_t slot = found->second;
-  slots_.erase(found);
-  index_.remove(slot);
+  const std::optional<std::uint32_t> found = tags_.find(id);
+  if (!found) throw Error(fmt::format("there is no tag with the ID '{}'", id));
+  const std::uint32_t slot = *found;
+  tags_.remove(slot);
   for (std::vector<std::uint32_t>* list : {&moving_slots_, &new_slots_}) {
     list->erase(std::remove(list->begin(), list->end(), slot), list->end());
   }
-  free_slots_.push_back(slot);
 }
 
 void Simulation::add_antenna(const AntennaSpec& antenna) {
@@ -222,7 +215,7 @@ void Simulation::handle_events(Time until) {
   }
   while (!to_disappear_.empty() && to_disappear_.back().first <= until) {
     // Whoever uses this class may have removed the tag already.
-    if (slots_.count(to_disappear_.back().second) != 0) remove_tag(to_disappear_.back().second);
+    if (tags_.find(to_disappear_.back().second)) remove_tag(to_disappear_.back().second);
     to_disappear_.pop_back();
   }
 }
@@ -237,9 +230,9 @@ Eigen::Vector3d Simulation::tag_position(const TagSpec& tag, Time stamp) const {
 
 void Simulation::record_new_tags(Recording& recording) {
   for (const std::uint32_t slot : new_slots_) {
-    const TagSpec& tag = tags_by_slot_[slot].spec;
+    const TagSpec& tag = specs_[slot];
     recording.truth.tag_positions.push_back(
-        {std::max(tag.appears, Time{}), tag.id, index_.position(slot)});
+        {std::max(tag.appears, Time{}), tag.id, tags_.position(slot)});
   }
   new_slots_.clear();
 }
@@ -249,9 +242,9 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
   if (stamp == moved_to_) return;
   moved_to_ = stamp;
   for (const std::uint32_t slot : moving_slots_) {
-    const TagSpec& tag = tags_by_slot_[slot].spec;
-    index_.place(slot, tag_position(tag, stamp));
-    recording.truth.tag_positions.push_back({stamp, tag.id, index_.position(slot)});
+    const TagSpec& tag = specs_[slot];
+    tags_.move(slot, tag_position(tag, stamp));
+    recording.truth.tag_positions.push_back({stamp, tag.id, tags_.position(slot)});
   }
   const double seconds = seconds_into_step(stamp);
   for (const Robot& robot : robots_) {
@@ -283,14 +276,12 @@ RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
 void Simulation::update_antenna(const Update& update, Recording& recording) {
   const AntennaSpec& antenna = antennas_[update.antenna];
   const RigidTransform X_WA = place_antenna(antenna, update.stamp, recording);
-  const double range = perturbed_range(antenna.parameters, update.stamp, seed_);
-  index_.within(X_WA.translation, range, tags_in_range_);
-  for (const std::uint32_t slot : tags_in_range_) {
-    const std::string& id = tags_by_slot_[slot].spec.id;
-    const LinkGeometry link = link_between(X_WA.translation, index_.position(slot));
-    recording.reads.push_back(read_tag(antenna.parameters, id, link, update.stamp, seed_));
+  read_tags(antenna.parameters, X_WA.translation, update.stamp, seed_, tags_, replies_);
+  for (const TagReply& reply : replies_) {
+    const std::string& id = tags_.id(reply.slot);
+    recording.reads.push_back(to_read(antenna.parameters, id, update.stamp, reply));
     recording.truth.distances.push_back(
-        {update.stamp, antenna.parameters.name, id, link.distance_m});
+        {update.stamp, antenna.parameters.name, id, reply.distance_m});
   }
 }
 

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "simulator/robot.h"
 #include "simulator/scenario.h"
-#include "tagfield/link/tag_index.h"
+#include "tagfield/reader/tag_population.h"
 #include "tagfield/report/truth.h"
 
 namespace tagfield {
@@ -55,10 +55,6 @@ class Simulation {
   void remove_antenna(const std::string& name);
 
  private:
-  struct PlacedTag {
-    TagSpec spec;
-    std::uint32_t slot = 0;
-  };
   struct Update {
     Time stamp;
     std::size_t antenna = 0;
@@ -77,8 +73,8 @@ class Simulation {
   [[nodiscard]] const Robot* robot_named(const std::string& name) const;
   [[nodiscard]] Eigen::Vector3d tag_position(const TagSpec& tag, Time stamp) const;
   [[nodiscard]] double seconds_into_step(Time stamp) const;
+  std::uint32_t place_new(const TagSpec& tag);
   void require_robot(const std::string& name, const Location& location) const;
-  std::uint32_t free_slot();
 
   std::uint64_t seed_;
   Duration time_step_;
@@ -89,15 +85,13 @@ class Simulation {
   std::vector<Robot> robots_;
   std::vector<AntennaSpec> antennas_;
   std::vector<std::string> recorded_fixed_;  ///< Fixed antennas whose pose is recorded.
-  TagIndex index_;
-  std::vector<PlacedTag> tags_by_slot_;
-  std::vector<std::uint32_t> free_slots_;
-  std::unordered_map<std::string, std::uint32_t> slots_;
+  TagPopulation tags_;
+  std::vector<TagSpec> specs_;               ///< By slot.
   std::vector<std::uint32_t> moving_slots_;  ///< Rising.
   std::vector<std::uint32_t> new_slots_;     ///< Tags at rest whose place is not recorded yet.
   std::vector<TagSpec> to_appear_;           ///< Latest first.
   std::vector<std::pair<Time, std::string>> to_disappear_;  ///< Latest first.
-  std::vector<std::uint32_t> tags_in_range_;                ///< Kept to save allocations.
+  std::vector<TagReply> replies_;                           ///< Kept to save allocations.
   Time moved_to_ = Time::min();
 };
 

@@ -20,7 +20,9 @@ inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0)
 
 /// `angle` [rad] wrapped to [0, 2π). Finite for every finite input; never 2π itself.
 inline double wrap_to_two_pi(double angle) {
-  double wrapped = std::fmod(angle, kTwoPi);
+  // Within a turn or two, where almost all angles are, the remainder is one exact subtraction away.
+  double wrapped = angle >= 2.0 * kTwoPi || angle <= -kTwoPi ? std::fmod(angle, kTwoPi) : angle;
+  if (wrapped >= kTwoPi) wrapped -= kTwoPi;
   if (wrapped < 0.0) wrapped += kTwoPi;
   // A tiny negative angle plus 2π rounds to 2π; adding 0 makes -0 plain 0.
   return wrapped < kTwoPi ? wrapped + 0.0 : 0.0;

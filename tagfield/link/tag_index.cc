@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tagfield/base/error.h"
@@ -67,6 +68,24 @@ void TagIndex::within_all(const Eigen::Vector3d& center, double radius,
   for (const auto& [cell, column] : columns_) collect(column, center, radius, slots);
 }
 
+/// Many of all slots are sorted faster by ticking them off than by comparing them.
+void TagIndex::sort(std::vector<std::uint32_t>& slots) const {
+  constexpr std::size_t kFew = 16;
+  if (slots.size() * kFew < present_.size()) {
+    std::sort(slots.begin(), slots.end());
+    return;
+  }
+  std::vector<std::uint64_t> ticks(present_.size() / 64 + 1, 0);
+  for (const std::uint32_t slot : slots) ticks[slot / 64] |= std::uint64_t{1} << (slot % 64);
+  slots.clear();
+  for (std::size_t word = 0; word < ticks.size(); ++word) {
+    for (std::uint64_t rest = ticks[word]; rest != 0; rest &= rest - 1) {
+      slots.push_back(
+          static_cast<std::uint32_t>(64 * word + static_cast<std::size_t>(std::countr_zero(rest))));
+    }
+  }
+}
+
 void TagIndex::within(const Eigen::Vector3d& center, double radius,
                       std::vector<std::uint32_t>& slots) const {
   slots.clear();
@@ -85,7 +104,7 @@ void TagIndex::within(const Eigen::Vector3d& center, double radius,
       }
     }
   }
-  std::sort(slots.begin(), slots.end());
+  sort(slots);
 }
 
 }  // namespace tagfield

@@ -49,13 +49,18 @@ double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64
   return antenna.range_m * std::abs(1.0 + antenna.range_sigma * standard_normal(stream));
 }
 
-TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,
-                 Time stamp, std::uint64_t seed) {
-  const std::uint64_t antenna_key = stream_key(antenna.name);
-  const std::uint64_t tag_key = stream_key(tag);
+Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
+                   std::uint64_t tag_key, const LinkGeometry& link, Time stamp,
+                   std::uint64_t seed) {
   RandomStream noise(seed, Purpose::kReadNoise, antenna_key, tag_key, stamp_key(stamp));
   RandomStream optional(seed, Purpose::kOptionalNoise, antenna_key, tag_key, stamp_key(stamp));
-  const Signal signal = paper_signal(antenna.model, link, noise, optional);
+  return paper_signal(antenna.model, link, noise, optional);
+}
+
+TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,
+                 Time stamp, std::uint64_t seed) {
+  const Signal signal =
+      read_signal(antenna, stream_key(antenna.name), stream_key(tag), link, stamp, seed);
   return {stamp,
           antenna.reader,
           antenna.name,

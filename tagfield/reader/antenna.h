@@ -35,8 +35,13 @@ std::int64_t first_update_at(const AntennaParameters& antenna, Time time);
 /// for each update (section III-A of the paper). The draw is a function of seed, antenna, stamp.
 double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64_t seed);
 
-/// The read of the tag `tag` at the other end of `link`. Its noise is a function of seed, antenna,
-/// tag and stamp alone.
+/// What the receiver sees of the tag whose ID has the stream_key() `tag_key`, at the other end of
+/// `link`. The noise is a function of seed, antenna, tag and stamp alone.
+Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
+                   std::uint64_t tag_key, const LinkGeometry& link, Time stamp, std::uint64_t seed);
+
+/// The read of the tag `tag` at the other end of `link`, with the noise of
+/// read_signal().
 TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,
                  Time stamp, std::uint64_t seed);
 

@@ -1,0 +1,115 @@
+/// @file
+/// A field of tags and antennas that another simulator moves: it says in steps what changed, and
+/// what the antennas read comes out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/rigid_transform.h"
+#include "tagfield/reader/tag_population.h"
+
+namespace tagfield {
+
+/// What belongs to one antenna as long as it lives.
+struct FieldAntenna {
+  AntennaParameters parameters;
+  std::uint64_t seed = 1;
+  std::string sensor;        ///< Name of the sensor that it is.
+  std::string frame_id;      ///< Of the antenna.
+  std::string parent_frame;  ///< Of what carries it; "" where that is not told.
+};
+
+/// A tag that appears. Numbers are the other simulator's; one may be used again after its tag went.
+struct TagAdded {
+  std::uint32_t number = 0;
+  std::string id;     ///< Unique among the tags present.
+  std::string label;  ///< What the other simulator calls it.
+  Eigen::Vector3d p_WT;
+};
+
+struct TagMoved {
+  std::uint32_t number = 0;
+  Eigen::Vector3d p_WT;
+};
+
+/// An antenna to be updated.
+struct AntennaDue {
+  std::shared_ptr<const FieldAntenna> antenna;
+  RigidTransform X_WA;
+  std::optional<RigidTransform> X_PA;  ///< In its parent frame, where it has one.
+};
+
+/// What happened up to `stamp`: first tags went, then came, then moved, and then antennas update.
+struct FieldStep {
+  Time stamp;
+  std::vector<std::uint32_t> removed;
+  std::vector<TagAdded> added;
+  std::vector<TagMoved> moved;
+  std::vector<AntennaDue> due;
+  std::vector<std::string> antennas_removed;  ///< Names.
+};
+
+/// All tags present, with their labels by slot.
+struct FieldTags {
+  explicit FieldTags(double cell_m) : population(cell_m) {}
+  TagPopulation population;
+  std::vector<std::string> labels;
+};
+
+/// One antenna's update. References hold during the call only.
+struct AntennaUpdate {
+  Time stamp;
+  const FieldAntenna& antenna;
+  const RigidTransform& X_WA;
+  const std::optional<RigidTransform>& X_PA;
+  const std::vector<TagReply>& replies;
+  const FieldTags& tags;
+};
+
+/// Who wants to know what comes of it.
+class FieldListener {
+ public:
+  FieldListener() = default;
+  virtual ~FieldListener() = default;
+  FieldListener(const FieldListener&) = delete;
+  FieldListener& operator=(const FieldListener&) = delete;
+  /// Tags came or went.
+  virtual void tags_changed(Time stamp, const FieldTags& tags) = 0;
+  /// Those in `slots` moved.
+  virtual void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
+                          const FieldTags& tags) = 0;
+  virtual void antenna_updated(const AntennaUpdate& update) = 0;
+  virtual void antenna_removed(const std::string& antenna) = 0;
+};
+
+/// Takes the steps. Not thread-safe.
+class RfidField {
+ public:
+  explicit RfidField(std::vector<std::unique_ptr<FieldListener>> listeners);
+
+  /// Applies the step and tells the listeners. Positions that are not finite are left out: a tag
+  /// stays where it was, an antenna skips its update. Throws Error on a tag ID that is present
+  /// already or a number that is not.
+  void step(const FieldStep& step);
+
+  [[nodiscard]] const FieldTags& tags() const { return tags_; }
+
+ private:
+  void remove(std::uint32_t number);
+  void add(const TagAdded& tag);
+  void move(const std::vector<TagMoved>& moved);
+  void update(const AntennaDue& due, Time stamp);
+  [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const;
+
+  std::vector<std::unique_ptr<FieldListener>> listeners_;
+  FieldTags tags_;
+  std::vector<std::optional<std::uint32_t>> slots_;  ///< By number.
+  std::vector<std::uint32_t> moved_slots_;           ///< Kept to save allocations.
+  std::vector<TagReply> replies_;                    ///< Likewise.
+};
+
+}  // namespace tagfield

@@ -1,0 +1,61 @@
+#include "tagfield/reader/tag_population.h"
+
+#include <fmt/format.h>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+
+std::uint32_t TagPopulation::free_slot() {
+  if (free_slots_.empty()) return static_cast<std::uint32_t>(tags_.size());
+  return free_slots_.back();
+}
+
+std::uint32_t TagPopulation::add(const std::string& id, const Eigen::Vector3d& p_WT) {
+  if (slots_.count(id) != 0)
+    throw Error(fmt::format("there is a tag with the ID '{}' already", id));
+  const std::uint32_t slot = free_slot();
+  index_.place(slot, p_WT);
+  if (slot == tags_.size()) {
+    tags_.emplace_back();
+  } else {
+    free_slots_.pop_back();
+  }
+  tags_[slot] = {id, stream_key(id)};
+  slots_.emplace(id, slot);
+  return slot;
+}
+
+void TagPopulation::remove(std::uint32_t slot) {
+  slots_.erase(tags_[slot].id);
+  index_.remove(slot);
+  free_slots_.push_back(slot);
+}
+
+std::optional<std::uint32_t> TagPopulation::find(const std::string& id) const {
+  const auto found = slots_.find(id);
+  if (found == slots_.end()) return std::nullopt;
+  return found->second;
+}
+
+void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
+               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies) {
+  replies.clear();
+  const std::uint64_t antenna_key = stream_key(antenna.name);
+  std::vector<std::uint32_t> slots;
+  tags.index().within(p_WA, perturbed_range(antenna, stamp, seed), slots);
+  replies.reserve(slots.size());
+  for (const std::uint32_t slot : slots) {
+    const LinkGeometry link = link_between(p_WA, tags.position(slot));
+    const Signal signal = read_signal(antenna, antenna_key, tags.key(slot), link, stamp, seed);
+    replies.push_back({slot, signal.phase_rad, signal.rssi_dbm, link.distance_m});
+  }
+}
+
+TagRead to_read(const AntennaParameters& antenna, const std::string& tag, Time stamp,
+                const TagReply& reply) {
+  return {stamp,           antenna.reader, antenna.name, tag, antenna.model.frequency_hz,
+          reply.phase_rad, reply.rssi_dbm};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,75 @@
+/// @file
+/// All tags that antennas can read, and the reads of one update.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/link/tag_index.h"
+#include "tagfield/reader/antenna.h"
+#include "tagfield/reader/tag_read.h"
+
+namespace tagfield {
+
+/// Tags under slot numbers: their IDs and where they are now.
+class TagPopulation {
+ public:
+  /// `cell_m` > 0 as in TagIndex: half of the antennas' range serves well.
+  explicit TagPopulation(double cell_m) : index_(cell_m) {}
+
+  /// Adds a tag at `p_WT` [m] and gives its slot; those of removed tags are used again. Throws
+  /// Error if the ID is present already or the position not finite.
+  std::uint32_t add(const std::string& id, const Eigen::Vector3d& p_WT);
+  /// Moves the tag in `slot`. Throws Error if the position is not finite.
+  void move(std::uint32_t slot, const Eigen::Vector3d& p_WT) { index_.place(slot, p_WT); }
+  /// Takes out the tag in `slot`, which must hold one.
+  void remove(std::uint32_t slot);
+
+  /// Slot of the tag with this ID.
+  [[nodiscard]] std::optional<std::uint32_t> find(const std::string& id) const;
+  [[nodiscard]] const std::string& id(std::uint32_t slot) const { return tags_[slot].id; }
+  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
+    return index_.position(slot);
+  }
+  /// stream_key() of the ID.
+  [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return tags_[slot].key; }
+  [[nodiscard]] const TagIndex& index() const { return index_; }
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+
+ private:
+  struct Tag {
+    std::string id;
+    std::uint64_t key = 0;
+  };
+  std::uint32_t free_slot();
+
+  TagIndex index_;
+  std::vector<Tag> tags_;
+  std::vector<std::uint32_t> free_slots_;
+  std::unordered_map<std::string, std::uint32_t> slots_;
+};
+
+/// What an antenna sees of one tag in one update: a TagRead without what all have in common.
+struct TagReply {
+  std::uint32_t slot = 0;
+  double phase_rad = 0.0;   ///< In [0, 2π).
+  double rssi_dbm = 0.0;    ///< A whole number.
+  double distance_m = 0.0;  ///< The truth behind it.
+};
+
+/// The reads of the antenna's update at `stamp` with the antenna at `p_WA` [m]: of all tags within
+/// perturbed_range(), in rising order of slots, into `replies` (emptied first). Each is what
+/// read_tag() gives for that tag. None where `p_WA` is not finite.
+void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
+               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies);
+
+/// The whole record of a reply.
+TagRead to_read(const AntennaParameters& antenna, const std::string& tag, Time stamp,
+                const TagReply& reply);
+
+}  // namespace tagfield
