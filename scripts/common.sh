@@ -23,3 +23,18 @@ build() {
   cmake --build build/release --target "$@"
   exec 9>&-
 }
+
+# build_gazebo: configures if need be and builds the plugins in build/gazebo, with the compiler of
+# the system that Gazebo 11 is on (whose CMake may be too old for presets).
+build_gazebo() {
+  mkdir -p build
+  exec 8>build/.gazebo-lock
+  flock 8
+  scripts/in-gazebo cmake -G Ninja -S . -B build/gazebo -DCMAKE_BUILD_TYPE=Release \
+    -DTAGFIELD_COMMAND=OFF -DTAGFIELD_GAZEBO=ON >build/gazebo-configure.log 2>&1 || {
+    cat build/gazebo-configure.log >&2
+    exit 1
+  }
+  scripts/in-gazebo cmake --build build/gazebo
+  exec 8>&-
+}
