@@ -1,0 +1,22 @@
+/// @file
+/// What a robot's drive can do, and keeping commands within it.
+#pragma once
+
+#include "tagfield/motion/unicycle.h"
+
+namespace tagfield {
+
+/// Limits of a drive; the defaults suit a P3-AT. All are > 0.
+struct SpeedLimits {
+  double speed_m_s = 0.8;
+  double turn_rad_s = 1.5;
+  double acceleration_m_s2 = 1.0;
+  double turn_acceleration_rad_s2 = 3.0;
+};
+
+/// The velocity nearest to `wanted` that the drive, which has velocity `present`, can have
+/// `seconds` later. `wanted` is finite.
+BodyVelocity limited(const BodyVelocity& wanted, const BodyVelocity& present,
+                     const SpeedLimits& limits, double seconds);
+
+}  // namespace tagfield
