@@ -24,6 +24,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_localize_command(app, chosen);
   tagfield::add_report_command(app, chosen);
   tagfield::add_check_command(app, chosen);
+  tagfield::add_gazebo_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -34,7 +35,7 @@ int parse_and_run(int argc, char** argv) {
   }
   if (!chosen) {
     fmt::print(stderr,
-               "tagfield: no command: expected run, localize, report or check"
+               "tagfield: no command: expected run, localize, report, check or gazebo"
                " (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }

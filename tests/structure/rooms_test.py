@@ -65,6 +65,8 @@ def order_fault(path, header):
             return None
         if header.startswith("simulator/") and not path.startswith("simulator/"):
             return None
+        if header.startswith("adapters/") and path.startswith("apps/"):
+            return None
         return f"{path.split('/')[0]}/ must not include it"
     if not header.startswith("tagfield/"):
         return "the core must not include it"

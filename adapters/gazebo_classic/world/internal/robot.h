@@ -1,0 +1,14 @@
+/// @file
+/// A scenario's robot as a Gazebo model.
+#pragma once
+
+#include "adapters/gazebo_classic/world/internal/bodies.h"
+
+namespace tagfield::gazebo_world_internal {
+
+/// Adds a copy of the model in `model_file` as `robot`, with its way to drive and with the antennas
+/// and tags that are on it. Throws Error if the file can't be read or is no model of a robot.
+void add_robot(Builder& builder, const RobotSpec& robot, const std::string& model_file,
+               XMLElement* world);
+
+}  // namespace tagfield::gazebo_world_internal
