@@ -7,12 +7,10 @@
 
 namespace tagfield {
 
-/// Adds the scene's `rfid` sensors as fixed antennas and its `rfidtag` sensors as tags. Parameters
-/// have their published names, meanings and defaults: `frequency` [Hz] 865.7e6, `noisephi` [rad]
-/// 0.1, `noiserssi` 0.005, `range` [m] 5, `communication_gain` 250, `optional_distribution` none,
-/// `optional_distribution_params` (numbers between spaces), and `update_rate` [Hz] 15. What is not
-/// given is warned of, as the published plugin does. Throws Error "FILE:LINE: …" on a value that
-/// is no number or out of its range; unknown parameters are warned of.
+/// Adds the scene's `rfid` sensors as fixed antennas and its `rfidtag` sensors as tags, with the
+/// parameters that tagfield/reader/sensor_parameters.h lists. Throws Error "FILE:LINE: …" on a
+/// value that is no number or out of its range; unknown parameters, and published ones that are
+/// missing, are warned of.
 void add_placements(const Scene& scene, Scenario& scenario, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -41,6 +41,16 @@ TEST(AddPlacements, GivesParametersTheirPublishedMeaning) {
   EXPECT_TRUE(diagnostics.warnings().empty());
 }
 
+TEST(AddPlacements, GivesATagItsEpc) {
+  Scene scene;
+  scene.tags = {{"tag1", {}, {parameter("epc", "E280")}, {"hall.world", 30}}};
+  Scenario scenario;
+  Diagnostics diagnostics;
+  add_placements(scene, scenario, diagnostics);
+  EXPECT_EQ(scenario.tags.at(0).id, "E280");
+  EXPECT_TRUE(diagnostics.warnings().empty());
+}
+
 TEST(AddPlacements, WarnsOfPublishedDefaults) {
   Scene scene;
   scene.antennas = {antenna_with({})};
@@ -49,7 +59,7 @@ TEST(AddPlacements, WarnsOfPublishedDefaults) {
   add_placements(scene, scenario, diagnostics);
   EXPECT_EQ(scenario.antennas[0].parameters.range_m, 5.0);
   EXPECT_EQ(scenario.antennas[0].parameters.model.communication_gain, 250.0);
-  EXPECT_EQ(diagnostics.warnings().size(), 6U);
+  EXPECT_EQ(diagnostics.warnings().size(), 1U);
 }
 
 std::string complaint_about(const RawParameter& bad) {
@@ -68,12 +78,12 @@ std::string complaint_about(const RawParameter& bad) {
 TEST(AddPlacements, RefusesBadValuesByLine) {
   EXPECT_NE(complaint_about(parameter("frequency", "fast")).find("hall.world:20: <frequency>"),
             std::string::npos);
-  EXPECT_NE(complaint_about(parameter("range", "-1")).find("range_m must be"), std::string::npos);
+  EXPECT_NE(complaint_about(parameter("range", "-1")).find("<range> must be"), std::string::npos);
   EXPECT_NE(complaint_about(parameter("noisephi", "nan")).find("<noisephi> is 'nan'"),
             std::string::npos);
   EXPECT_NE(complaint_about(parameter("optional_distribution", "normal")).find("did you mean"),
             std::string::npos);
-  EXPECT_NE(complaint_about(parameter("update_rate", "0")).find("rate_hz"), std::string::npos);
+  EXPECT_NE(complaint_about(parameter("update_rate", "0")).find("<update_rate>"), std::string::npos);
 }
 
 }  // namespace

@@ -21,13 +21,14 @@ std::uint32_t TagPopulation::add(const std::string& id, const Eigen::Vector3d& p
   } else {
     free_slots_.pop_back();
   }
-  tags_[slot] = {id, stream_key(id)};
+  tags_[slot] = {id, stream_key(id), true};
   slots_.emplace(id, slot);
   return slot;
 }
 
 void TagPopulation::remove(std::uint32_t slot) {
   slots_.erase(tags_[slot].id);
+  tags_[slot].present = false;
   index_.remove(slot);
   free_slots_.push_back(slot);
 }

@@ -40,11 +40,19 @@ class TagPopulation {
   [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return tags_[slot].key; }
   [[nodiscard]] const TagIndex& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  /// Calls `visit(slot)` for each tag, in rising order of slots.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::uint32_t slot = 0; slot < tags_.size(); ++slot) {
+      if (tags_[slot].present) visit(slot);
+    }
+  }
 
  private:
   struct Tag {
     std::string id;
     std::uint64_t key = 0;
+    bool present = false;
   };
   std::uint32_t free_slot();
 

@@ -47,8 +47,9 @@ class SceneGatherer {
   Scene result(const std::string& name) {
     scene_.name = name;
     scene_.materials.assign(materials_.begin(), materials_.end());
-    scene_.antennas = sdf_internal::with_unique_names(antennas_);
-    scene_.tags = sdf_internal::with_unique_names(tags_);
+    scene_.antennas =
+        sdf_internal::with_unique_names(antennas_, sdf_internal::SensorKind::kAntenna);
+    scene_.tags = sdf_internal::with_unique_names(tags_, sdf_internal::SensorKind::kTag);
     return std::move(scene_);
   }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/raw_parameter.h"
 #include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {
@@ -45,13 +46,6 @@ struct Collision {
   std::string name;  ///< Scoped: "model::link::collision".
   Shape shape;       ///< In its frame C.
   RigidTransform X_WC;
-};
-
-/// A parameter of an antenna or a tag as it stood in the file; rooms further on give it meaning.
-struct RawParameter {
-  std::string key;
-  std::string value;
-  Location location;
 };
 
 /// A tag or an antenna found in the world.

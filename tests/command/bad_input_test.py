@@ -99,7 +99,7 @@ ANTENNA_SENSOR = """\
         </sensor>
         <sensor name="parcel" type="rfidtag">
           <pose>1 1 1 0 0 0</pose>
-          <plugin name="parcel" filename="libgazeboRfidTagPlugin.so"/>
+          <plugin name="parcel" filename="libgazeboRfidTagPlugin.so"><epc>parcel</epc></plugin>
         </sensor>
 """
 WORLD_WITH_SENSORS = WORLD.replace("      </link>", ANTENNA_SENSOR + "      </link>")

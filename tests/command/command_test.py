@@ -365,7 +365,7 @@ SENSOR_WORLD = """\
 """
 # A quarter turn at (1, 2) carries (0.5, 0, 1.2) to (1, 2.5, 1.2).
 SENSOR_ANTENNA = (1.0, 2.5, 1.2)
-SENSOR_TAGS = {"lower": (3.0, 2.0, 0.5), "upper": (3.0, 2.0, 1.5)}
+SENSOR_TAGS = {"shelf::lower": (3.0, 2.0, 0.5), "shelf::upper": (3.0, 2.0, 1.5)}
 SENSOR_GAIN = 3.0
 SENSOR_SECONDS = 20
 
@@ -423,7 +423,7 @@ def sensors_stand_beside_a_scenarios_own(context):
     folder = context.simulate(path, name="both")
     check_equal({(row["antenna"], row["tag"]) for row in read_csv(folder / "reads.csv")},
                 {(antenna, tag) for antenna in ("antenna", "own")
-                 for tag in ("lower", "upper", "mine")}, "pairs that were read")
+                 for tag in ("shelf::lower", "shelf::upper", "mine")}, "pairs that were read")
     located = {row["tag"]: position(row) for row in read_csv(folder / "estimates.csv")
                if row["verdict"] == "located"}
     for tag, place in {**SENSOR_TAGS, "mine": (2.0, 1.5, 1.0)}.items():

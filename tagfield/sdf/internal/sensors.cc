@@ -1,5 +1,6 @@
 #include "tagfield/sdf/internal/sensors.h"
 
+#include <array>
 #include <map>
 #include <utility>
 
@@ -42,12 +43,16 @@ std::vector<RawParameter> parameters_of(Context& context, const sdf::ElementPtr&
 
 using Scope = std::string (*)(const NamedPlacement&);
 
-const std::vector<Scope>& scopes() {
-  static const std::vector<Scope> kinds = {
-      [](const NamedPlacement& s) { return s.placement.name; },
-      [](const NamedPlacement& s) { return s.model + "::" + s.placement.name; },
-      [](const NamedPlacement& s) { return s.model + "::" + s.link + "::" + s.placement.name; }};
-  return kinds;
+std::string sensor_name(const NamedPlacement& s) { return s.placement.name; }
+std::string model_name(const NamedPlacement& s) { return s.model; }
+std::string model_and_sensor(const NamedPlacement& s) { return s.model + "::" + s.placement.name; }
+std::string whole_name(const NamedPlacement& s) {
+  return s.model + "::" + s.link + "::" + s.placement.name;
+}
+
+/// The first of these that no other sensor has is a sensor's name.
+std::array<Scope, 3> scopes(SensorKind kind) {
+  return {kind == SensorKind::kTag ? model_name : sensor_name, model_and_sensor, whole_name};
 }
 
 }  // namespace
@@ -61,15 +66,16 @@ NamedPlacement read_sensor(Context& context, const sdf::Sensor& sensor, const Ri
           link};
 }
 
-std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors) {
+std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors,
+                                         SensorKind kind) {
   std::map<std::string, int> uses;
-  for (const Scope scope : scopes()) {
+  for (const Scope scope : scopes(kind)) {
     for (const NamedPlacement& sensor : sensors) ++uses[scope(sensor)];
   }
   std::vector<Placement> placements;
   for (const NamedPlacement& sensor : sensors) {
     placements.push_back(sensor.placement);
-    for (const Scope scope : scopes()) {
+    for (const Scope scope : scopes(kind)) {
       placements.back().name = scope(sensor);
       if (uses[placements.back().name] == 1) break;
     }

@@ -24,8 +24,12 @@ struct NamedPlacement {
 NamedPlacement read_sensor(Context& context, const sdf::Sensor& sensor, const RigidTransform& X_WL,
                            const std::string& model, const std::string& link);
 
-/// The placements under names of their own: the sensor's, and where several share it
-/// "model::sensor", and where several share that "model::link::sensor".
-std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors);
+enum class SensorKind { kAntenna, kTag };
+
+/// The placements under names of their own. An antenna has its sensor's name, a tag its model's, as
+/// models are what people name when they put tags into a world; where several would share that,
+/// "model::sensor", and where several would share that too, "model::link::sensor".
+std::vector<Placement> with_unique_names(const std::vector<NamedPlacement>& sensors,
+                                         SensorKind kind);
 
 }  // namespace tagfield::sdf_internal

@@ -61,7 +61,7 @@ TEST_F(LoadWorldSensors, PublishedFormGivesAntennasTagsAndParameters) {
   // A quarter turn takes (1, 0) to (0, 1).
   EXPECT_LT((antenna.X_WS.translation - Eigen::Vector3d(3.5, -3.0, 2.0)).norm(), 1e-9);
   EXPECT_NEAR(yaw_of(antenna.X_WS.rotation), 1.5707963267948966, 1e-9);
-  EXPECT_EQ(scene.tags[0].name, "tag");
+  EXPECT_EQ(scene.tags[0].name, "tag1");  // Its model's, not the sensor's.
   EXPECT_EQ(scene.tags[0].X_WS.translation, Eigen::Vector3d(2.90, 0.57, 2.05));
   EXPECT_TRUE(scene.tags[0].parameters.empty());
 }
@@ -97,25 +97,25 @@ TEST_F(LoadWorldSensors, ParametersOfAnIncludedModelPointIntoItsFile) {
             path_of("models/post/model.sdf") + ":4");
 }
 
-TEST_F(LoadWorldSensors, NamesStayPlainWhereUnique) {
+TEST_F(LoadWorldSensors, AnAntennaHasItsSensorsNameAndSeveralTagsOfAModelHaveBoth) {
   const Scene scene = load(model("a", link("l", tag("one") + tag("two"))) +
                            model("b", link("l", "<sensor name='one' type='rfid'/>")));
-  EXPECT_EQ(names(scene.tags), (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(names(scene.tags), (std::vector<std::string>{"a::one", "a::two"}));
   EXPECT_EQ(names(scene.antennas), std::vector<std::string>{"one"});
 }
 
-TEST_F(LoadWorldSensors, SharedNamesAreScopedByTheirModel) {
+TEST_F(LoadWorldSensors, TheOnlyTagOfAModelHasItsName) {
   const Scene scene =
       load(model("a", link("l", tag("tag") + tag("other"))) + model("b", link("l", tag("tag"))) +
            model("c", link("l", "") + model("d", link("l", tag("tag")))));
   EXPECT_EQ(names(scene.tags),
-            (std::vector<std::string>{"a::tag", "other", "b::tag", "c::d::tag"}));
+            (std::vector<std::string>{"a::tag", "a::other", "b", "c::d"}));
 }
 
 TEST_F(LoadWorldSensors, NamesSharedWithinAModelAreScopedByTheirLinkToo) {
   const Scene scene = load(model("a", link("k", tag("tag")) + link("l", tag("tag"))) +
                            model("b", link("l", tag("tag"))));
-  EXPECT_EQ(names(scene.tags), (std::vector<std::string>{"a::k::tag", "a::l::tag", "b::tag"}));
+  EXPECT_EQ(names(scene.tags), (std::vector<std::string>{"a::k::tag", "a::l::tag", "b"}));
 }
 
 TEST_F(LoadWorldSensors, TagsOfNestedModelsStandInTheWorld) {

@@ -1,0 +1,52 @@
+/// @file
+/// Antennas and tags as an SDF sensor's plugin describes them: the published plugin's parameters,
+/// and those that Tagfield adds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/raw_parameter.h"
+#include "tagfield/reader/antenna.h"
+
+namespace tagfield {
+
+/// What the plugin of an `rfid` sensor says.
+///
+/// The published parameters, with their published defaults: `frequency` [Hz] 865.7e6, `noisephi`
+/// [rad] 0.1, `noiserssi` (amplitude) 0.005, `range` [m] 5, `communication_gain` 250,
+/// `optional_distribution` none, `optional_distribution_params` (numbers between spaces); and the
+/// sensor's `update_rate` [Hz] 15.
+///
+/// Tagfield's own: `model` paper (the only one so far), `antenna` (its name, unique; default: the
+/// sensor's), `reader` (the name of its reader; default: the antenna's), `phase_offset` [rad] 0,
+/// `range_sigma` (relative spread of the range) 0.05.
+///
+/// In Gazebo alone: `seed` (of all random draws) 1, `robotNamespace` (of the topics) none,
+/// `frame_id` (of the messages; default: the antenna's name), `parent_frame` (the link of the same
+/// model that the frame is told to hang from; none where it is not told).
+struct SensorAntenna {
+  AntennaParameters parameters;
+  std::uint64_t seed = 1;
+  std::string name_space;
+  std::string frame_id;
+  std::string parent_frame;
+};
+
+/// Reads an antenna's parameters; `sensor` is the sensor's name. Throws Error on a value that is no
+/// number or out of its range, naming the parameter, with the place in the file where it is known.
+/// Unknown parameters are warned of, and the published ones that are missing in one warning.
+SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParameter>& parameters,
+                           const Location& location, Diagnostics& diagnostics);
+
+/// ID from a tag's `epc`; none where it is not given. Throws Error if it is empty. Unknown
+/// parameters are warned of.
+std::optional<std::string> epc_from(const std::vector<RawParameter>& parameters,
+                                    Diagnostics& diagnostics);
+
+/// The numbers in `parameter`'s value, between white space. Throws Error if one is none.
+std::vector<double> numbers_of(const RawParameter& parameter);
+
+}  // namespace tagfield
