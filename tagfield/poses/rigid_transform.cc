@@ -4,6 +4,13 @@
 
 namespace tagfield {
 
+std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion) {
+  const double length_error = std::abs(quaternion.norm() - 1.0);
+  if (length_error <= 1e-9) return quaternion;
+  if (!(length_error <= 0.1)) return std::nullopt;
+  return quaternion.normalized();
+}
+
 RigidTransform from_translation(const Eigen::Vector3d& translation) {
   return {Eigen::Quaterniond::Identity(), translation};
 }

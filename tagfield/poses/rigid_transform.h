@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 
 namespace tagfield {
 
@@ -27,6 +28,10 @@ struct RigidTransform {
     return {inverse_rotation, -(inverse_rotation * translation)};
   }
 };
+
+/// `quaternion` as a rotation: as it is where its length is 1 within 1e-9, so that what was written
+/// out comes back the same; normalized where it is 0.9 to 1.1; none otherwise.
+std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion);
 
 /// A pure translation [m].
 RigidTransform from_translation(const Eigen::Vector3d& translation);

@@ -15,8 +15,8 @@ std::string tags_to_csv(const std::vector<TagPosition>& positions) {
   const auto out = std::back_inserter(text);
   for (const TagPosition& position : positions) {
     const Eigen::Vector3d& p = position.p_WT;
-    fmt::format_to(out, "{},{},{:.6f},{:.6f},{:.6f}\n", format_stamp(position.stamp),
-                   csv_field(position.tag), p.x(), p.y(), p.z());
+    fmt::format_to(out, "{},{},{},{},{}\n", format_stamp(position.stamp), csv_field(position.tag),
+                   p.x(), p.y(), p.z());
   }
   return text;
 }
@@ -25,8 +25,8 @@ std::string distances_to_csv(const std::vector<TrueDistance>& distances) {
   std::string text = "stamp_s,antenna,tag,distance_m\n";
   const auto out = std::back_inserter(text);
   for (const TrueDistance& distance : distances) {
-    fmt::format_to(out, "{},{},{},{:.6f}\n", format_stamp(distance.stamp),
-                   csv_field(distance.antenna), csv_field(distance.tag), distance.distance_m);
+    fmt::format_to(out, "{},{},{},{}\n", format_stamp(distance.stamp), csv_field(distance.antenna),
+                   csv_field(distance.tag), distance.distance_m);
   }
   return text;
 }
@@ -35,15 +35,11 @@ std::vector<TagPosition> read_tags_csv(const std::string& path) {
   const CsvTable table = read_csv(path);
   const std::size_t stamp = table.column("stamp_s");
   const std::size_t tag = table.column("tag");
-  const std::size_t x = table.column("x_m");
-  const std::size_t y = table.column("y_m");
-  const std::size_t z = table.column("z_m");
+  const auto xyz = table.position_columns();
   std::vector<TagPosition> positions;
   positions.reserve(table.rows.size());
   for (const CsvRow& row : table.rows) {
-    positions.push_back({table.stamp(row, stamp),
-                         table.text(row, tag),
-                         {table.number(row, x), table.number(row, y), table.number(row, z)}});
+    positions.push_back({table.stamp(row, stamp), table.text(row, tag), table.position(row, xyz)});
   }
   return positions;
 }

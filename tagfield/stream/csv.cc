@@ -94,6 +94,15 @@ double CsvTable::number(const CsvRow& row, std::size_t column) const {
   return *value;
 }
 
+std::array<std::size_t, 3> CsvTable::position_columns() const {
+  return {column("x_m"), column("y_m"), column("z_m")};
+}
+
+Eigen::Vector3d CsvTable::position(const CsvRow& row,
+                                   const std::array<std::size_t, 3>& columns) const {
+  return {number(row, columns[0]), number(row, columns[1]), number(row, columns[2])};
+}
+
 Time CsvTable::stamp(const CsvRow& row, std::size_t column) const {
   try {
     return parse_stamp(row.fields[column]);

@@ -2,6 +2,8 @@
 /// Tables as CSV files (RFC 4180, with a header line). Every complaint names file and line.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +30,11 @@ struct CsvTable {
   [[nodiscard]] bool has_column(std::string_view name) const;
   /// Finite number in a field; throws Error "FILE:LINE: …" on anything else.
   [[nodiscard]] double number(const CsvRow& row, std::size_t column) const;
+  /// Places of the columns x_m, y_m, z_m.
+  [[nodiscard]] std::array<std::size_t, 3> position_columns() const;
+  /// The three numbers of a place [m]; throws as number().
+  [[nodiscard]] Eigen::Vector3d position(const CsvRow& row,
+                                         const std::array<std::size_t, 3>& columns) const;
   /// Stamp in a field, in seconds (see parse_stamp).
   [[nodiscard]] Time stamp(const CsvRow& row, std::size_t column) const;
   /// Text in a field that must not be empty.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 
 #include "tagfield/stream/csv.h"
@@ -10,17 +9,16 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMostLengthError = 0.1;
-
 Eigen::Quaterniond quaternion_of(const CsvTable& table, const CsvRow& row,
                                  const std::array<std::size_t, 4>& columns) {
   const Eigen::Quaterniond rotation(table.number(row, columns[3]), table.number(row, columns[0]),
                                     table.number(row, columns[1]), table.number(row, columns[2]));
-  if (!(std::abs(rotation.norm() - 1.0) <= kMostLengthError)) {
+  const auto unit = as_rotation(rotation);
+  if (!unit) {
     fail({table.file, row.line},
          fmt::format("qx,qy,qz,qw has length {:.3g}, expected 1", rotation.norm()));
   }
-  return rotation.normalized();
+  return *unit;
 }
 
 }  // namespace
@@ -31,9 +29,8 @@ std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::strin
   for (const AntennaPose& pose : poses) {
     const Eigen::Vector3d& p = pose.X_WA.translation;
     const Eigen::Quaterniond& q = pose.X_WA.rotation;
-    fmt::format_to(out, "{},{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
-                   format_stamp(pose.stamp), csv_field(pose.antenna), p.x(), p.y(), p.z(), q.x(),
-                   q.y(), q.z(), q.w());
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}\n", format_stamp(pose.stamp),
+                   csv_field(pose.antenna), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
   }
   return text;
 }
@@ -42,18 +39,15 @@ std::vector<AntennaPose> read_poses_csv(const std::string& path, const std::stri
   const CsvTable table = read_csv(path);
   const std::size_t stamp = table.column("stamp_s");
   const std::size_t name = table.column(who);
-  const std::size_t x = table.column("x_m");
-  const std::size_t y = table.column("y_m");
-  const std::size_t z = table.column("z_m");
+  const auto xyz = table.position_columns();
   const std::array<std::size_t, 4> q = {table.column("qx"), table.column("qy"), table.column("qz"),
                                         table.column("qw")};
   std::vector<AntennaPose> poses;
   poses.reserve(table.rows.size());
   for (const CsvRow& row : table.rows) {
-    const Eigen::Vector3d position(table.number(row, x), table.number(row, y),
-                                   table.number(row, z));
-    poses.push_back(
-        {table.stamp(row, stamp), table.text(row, name), {quaternion_of(table, row, q), position}});
+    poses.push_back({table.stamp(row, stamp),
+                     table.text(row, name),
+                     {quaternion_of(table, row, q), table.position(row, xyz)}});
   }
   return poses;
 }

@@ -9,11 +9,13 @@
 
 namespace tagfield {
 
-/// Text of the table, a row a pose in the order given; `who` heads the column of names.
+/// Text of the table, a row a pose in the order given; `who` heads the column of names. Stamps and
+/// numbers are exact: read back, each is the same bit by bit.
 std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::string& who = "antenna");
 
-/// Reads the table. Quaternions are normalized. Throws Error "FILE:LINE: …" on a missing column,
-/// text where a number belongs, or a quaternion of length far from 1 (0.9 to 1.1 is taken).
+/// Reads the table. Quaternions that are not of unit length are normalized. Throws Error
+/// "FILE:LINE: …" on a missing column, text where a number belongs, or a quaternion of length far
+/// from 1 (0.9 to 1.1 is taken).
 std::vector<AntennaPose> read_poses_csv(const std::string& path,
                                         const std::string& who = "antenna");
 

@@ -50,6 +50,19 @@ TEST(RigidTransform, TakesPointsFromTheInnerFrameToTheOuter) {
   EXPECT_TRUE((X_AB * Eigen::Vector3d(3.0, 0.0, 1.0)).isApprox(Eigen::Vector3d(1.0, 5.0, 1.0)));
 }
 
+TEST(AsRotation, KeepsUnitQuaternionsBitByBit) {
+  const Eigen::Quaterniond almost(0.6 + 1e-12, 0.0, -0.8, 0.0);
+  ASSERT_TRUE(as_rotation(almost));
+  EXPECT_EQ(as_rotation(almost)->coeffs(), almost.coeffs());
+}
+
+TEST(AsRotation, NormalizesTheRoundedAndRefusesTheRest) {
+  EXPECT_NEAR(as_rotation({0.71, 0.0, 0.0, 0.71})->norm(), 1.0, 1e-15);
+  EXPECT_FALSE(as_rotation({0.0, 0.0, 0.0, 0.0}));
+  EXPECT_FALSE(as_rotation({1.2, 0.0, 0.0, 0.0}));
+  EXPECT_FALSE(as_rotation({std::nan(""), 0.0, 0.0, 1.0}));
+}
+
 TEST(RigidTransform, BeginsAsTheIdentity) {
   EXPECT_EQ(matrix_of(RigidTransform()), Eigen::Matrix4d::Identity());
 }

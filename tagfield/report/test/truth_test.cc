@@ -13,7 +13,7 @@ TEST(Truth, ComesBackTheSame) {
   Truth truth;
   truth.antenna_poses = {{time_from_seconds(1.5), "a", from_translation({1.0, 2.0, 3.0})}};
   truth.robot_poses = {{time_from_seconds(2.5), "r", from_planar(1.0, 2.0, 0.5)}};
-  truth.tag_positions = {{time_from_seconds(0.25), "a,\"b\"", {-1.0, 0.5, 2.0}}};
+  truth.tag_positions = {{time_from_seconds(0.25), "a,\"b\"", {-1.0, 0.1 + 0.2, 2.0 / 3.0}}};
   truth.distances = {{time_from_seconds(0.25), "a", "t", 1.25}};
   StagedFolder folder(run.path());
   stage_truth(truth, folder);
@@ -26,9 +26,9 @@ TEST(Truth, ComesBackTheSame) {
   ASSERT_EQ(after.tag_positions.size(), 1U);
   EXPECT_EQ(after.tag_positions[0].tag, "a,\"b\"");
   EXPECT_EQ(after.tag_positions[0].stamp, time_from_seconds(0.25));
-  EXPECT_TRUE(after.tag_positions[0].p_WT.isApprox(Eigen::Vector3d(-1.0, 0.5, 2.0)));
+  EXPECT_EQ(after.tag_positions[0].p_WT, truth.tag_positions[0].p_WT);
   EXPECT_EQ(run.text("truth/distances.csv"),
-            "stamp_s,antenna,tag,distance_m\n0.250000000,a,t,1.250000\n");
+            "stamp_s,antenna,tag,distance_m\n0.250000000,a,t,1.25\n");
 }
 
 TEST(ReadTruth, NamesTheFileThatIsMissing) {

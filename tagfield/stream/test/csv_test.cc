@@ -33,6 +33,13 @@ TEST(ReadCsv, ReadsHeaderAndRows) {
   EXPECT_EQ(table.rows[1].line, 3);
 }
 
+TEST(ReadCsv, GivesPlacesWhateverTheOrderOfColumns) {
+  const CsvTable table = table_of("z_m,a,x_m,y_m\n3,?,1,-2.5\n");
+  EXPECT_EQ(table.position(table.rows.at(0), table.position_columns()),
+            Eigen::Vector3d(1.0, -2.5, 3.0));
+  EXPECT_TRUE(contains(error_of([] { (void)table_of("x_m,z_m\n").position_columns(); }), "'y_m'"));
+}
+
 TEST(ReadCsv, ReadsQuotedFields) {
   const CsvTable table = table_of("a,b,c\n\"x,y\",\"two\nlines\",\"say \"\"so\"\"\"\n");
   ASSERT_EQ(table.rows.size(), 1u);
