@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/motion/lift.h"
 #include "simulator/pose_error.h"
 #include "simulator/robot.h"
 #include "tagfield/base/error.h"
 #include "tagfield/localization/hyperbola.h"
+#include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
 
@@ -24,7 +24,10 @@ struct AntennaSpec {
   std::string on;       ///< Name of a robot, or "" for the world.
   RigidTransform X_PA;  ///< With the lift at its lower end.
   Lift lift;            ///< Moves the antenna along P's z.
-  Location location;    ///< Where it was written, for messages.
+  /// Poses X_WA of an earlier run: where the antenna is, and when it updates, instead of all of the
+  /// above and of its rate. Empty for an antenna that is carried.
+  Trajectory recorded;
+  Location location;  ///< Where it was written, for messages.
 };
 
 /// A tag and how it moves.
@@ -34,6 +37,7 @@ struct TagSpec {
   /// Positions in P; one of them for a tag at rest in P. Before the first and after the last the
   /// tag stays where that is.
   Trajectory motion;
+  bool in_steps = false;  ///< Each position holds until the next; otherwise straight between them.
   Time appears;
   std::optional<Time> disappears;
   Location location;

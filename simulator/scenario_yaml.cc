@@ -7,6 +7,7 @@
 
 #include "simulator/internal/yaml_map.h"
 #include "simulator/placements.h"
+#include "simulator/recorded_motion.h"
 #include "simulator/tag_table.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
@@ -158,8 +159,14 @@ AntennaSpec antenna_of(YamlMap map) {
   parameters.range_sigma = map.number("range_sigma", parameters.range_sigma, kNotNegative);
   parameters.model = paper_model_of(map);
   antenna.on = map.text("on", "");
-  antenna.X_PA = pose_of(map.at("pose"));
+  const bool is_recorded = map.has("recorded");
+  if (!is_recorded || map.has("pose")) antenna.X_PA = pose_of(map.at("pose"));
   if (map.has("lift")) antenna.lift = lift_of(YamlMap(map.at("lift")));
+  if (is_recorded) {
+    antenna.recorded = read_recorded_antenna(resolve_path(map.at("recorded")), parameters.name);
+    antenna.on.clear();
+    antenna.lift = {};
+  }
   map.finish();
   try {
     check(parameters);
@@ -242,6 +249,9 @@ void read_bodies(YamlMap& map, Scenario& scenario) {
     const std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
     scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
   }
+  if (map.has("tag_recording")) {
+    replay_tags(resolve_path(map.at("tag_recording")), scenario.tags);
+  }
 }
 
 double time_step_of(const YamlValue& value) {
@@ -274,8 +284,10 @@ Scenario scenario_of(YamlMap map) {
 void require_end(const Scenario& scenario, const std::string& path) {
   const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
                                   [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
-  if (!scenario.duration_s && !drives) {
-    fail({path, 0}, "has no 'duration_s', which must be given where no robot has waypoints");
+  if (!scenario.duration_s && !drives && !end_of_recordings(scenario.antennas)) {
+    fail({path, 0},
+         "has no 'duration_s', which must be given where no robot has waypoints and no antenna is "
+         "recorded");
   }
 }
 

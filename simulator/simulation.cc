@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/recorded_motion.h"
+
 namespace tagfield {
 namespace {
 
@@ -21,7 +23,14 @@ double cell_size(const Scenario& scenario) {
 }
 
 bool is_fixed(const AntennaSpec& antenna) {
-  return antenna.on.empty() && !(antenna.lift.travel_m > 0.0);
+  return antenna.on.empty() && !(antenna.lift.travel_m > 0.0) && antenna.recorded.empty();
+}
+
+/// The row that holds at `stamp`; the first one before them all.
+const StampedPose& row_at(const Trajectory& rows, Time stamp) {
+  const auto after = std::upper_bound(rows.begin(), rows.end(), stamp,
+                                      [](Time t, const StampedPose& row) { return t < row.stamp; });
+  return after == rows.begin() ? *after : *std::prev(after);
 }
 
 /// X_PA at `stamp`, the lift's height included.
@@ -31,6 +40,7 @@ RigidTransform mount_at(const AntennaSpec& antenna, Time stamp) {
 
 std::optional<Time> end_of(const Scenario& scenario) {
   if (scenario.duration_s) return time_from_seconds(*scenario.duration_s);
+  if (const auto last = end_of_recordings(scenario.antennas)) return *last + Duration(1);
   const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
                                   [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
   if (!drives) throw Error("duration_s must be given where no robot has waypoints to drive");
@@ -192,15 +202,26 @@ void Simulation::step_robots() {
   for (Robot& robot : robots_) robot.step(to_seconds(time_step_));
 }
 
+std::vector<Time> Simulation::stamps_in_step(const AntennaSpec& antenna) const {
+  std::vector<Time> stamps;
+  if (!antenna.recorded.empty()) {
+    auto row = std::lower_bound(antenna.recorded.begin(), antenna.recorded.end(), step_begin_,
+                                [](const StampedPose& a, Time t) { return a.stamp < t; });
+    for (; row != antenna.recorded.end() && row->stamp < now_; ++row) stamps.push_back(row->stamp);
+    return stamps;
+  }
+  std::int64_t number = first_update_at(antenna.parameters, step_begin_);
+  for (Time stamp = update_stamp(antenna.parameters, number); stamp < now_;
+       stamp = update_stamp(antenna.parameters, ++number)) {
+    stamps.push_back(stamp);
+  }
+  return stamps;
+}
+
 std::vector<Simulation::Update> Simulation::updates_in_step() const {
   std::vector<Update> updates;
   for (std::size_t i = 0; i < antennas_.size(); ++i) {
-    const AntennaParameters& antenna = antennas_[i].parameters;
-    std::int64_t number = first_update_at(antenna, step_begin_);
-    for (Time stamp = update_stamp(antenna, number); stamp < now_;
-         stamp = update_stamp(antenna, ++number)) {
-      updates.push_back({stamp, i});
-    }
+    for (const Time stamp : stamps_in_step(antennas_[i])) updates.push_back({stamp, i});
   }
   std::stable_sort(updates.begin(), updates.end(),
                    [](const Update& a, const Update& b) { return a.stamp < b.stamp; });
@@ -223,7 +244,8 @@ void Simulation::handle_events(Time until) {
 double Simulation::seconds_into_step(Time stamp) const { return to_seconds(stamp - step_begin_); }
 
 Eigen::Vector3d Simulation::tag_position(const TagSpec& tag, Time stamp) const {
-  Eigen::Vector3d p_PT = held_pose_at(tag.motion, stamp).translation;
+  Eigen::Vector3d p_PT = tag.in_steps ? row_at(tag.motion, stamp).X_WB.translation
+                                      : held_pose_at(tag.motion, stamp).translation;
   if (tag.on.empty()) return p_PT;
   return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * p_PT;
 }
@@ -255,6 +277,12 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
 RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
                                          Recording& recording) {
   const std::string& name = antenna.parameters.name;
+  if (!antenna.recorded.empty()) {
+    const RigidTransform& X_WA = row_at(antenna.recorded, stamp).X_WB;
+    recording.believed_poses.push_back({stamp, name, X_WA});
+    recording.truth.antenna_poses.push_back({stamp, name, X_WA});
+    return X_WA;
+  }
   RigidTransform X_PA = mount_at(antenna, stamp);
   if (is_fixed(antenna)) {
     if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) == recorded_fixed_.end()) {

@@ -62,6 +62,7 @@ class Simulation {
 
   void step_robots();
   void plan_appearances(const std::vector<TagSpec>& tags);
+  [[nodiscard]] std::vector<Time> stamps_in_step(const AntennaSpec& antenna) const;
   [[nodiscard]] std::vector<Update> updates_in_step() const;
   void handle_events(Time until);
   void record_new_tags(Recording& recording);

@@ -201,7 +201,14 @@ void add_fixed_tags(Builder& builder, XMLElement* world) {
   }
 }
 
-bool can_be_added(const AntennaSpec&, Diagnostics&) { return true; }
+bool can_be_added(const AntennaSpec& antenna, Diagnostics& diagnostics) {
+  if (antenna.recorded.empty()) return true;
+  diagnostics.warn(antenna.location,
+                   fmt::format("antenna '{}' is left out: it follows a recording, and a world file "
+                               "has none for it",
+                               antenna.parameters.name));
+  return false;
+}
 
 bool can_be_added(const TagSpec& tag, Diagnostics& diagnostics) {
   if (tag.motion.size() > 1) {

@@ -285,6 +285,19 @@ TEST(GazeboWorld, WarnsOfWhatAWorldFileHasNoWordsFor) {
   EXPECT_NE(diagnostics.warnings()[1].find("tag 'comes' is there all the time"), std::string::npos);
 }
 
+TEST(GazeboWorld, LeavesRecordedAntennasOut) {
+  write_text_file(temp("poses.csv").string(),
+                  "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n0,b,1,2,3,0,0,0,1\n");
+  Diagnostics diagnostics;
+  const std::string text = world_text(
+      write_scenario("antennas: [{name: a, pose: [0, 0, 1]}, {name: b, recorded: poses.csv}]\n"
+                     "tags: [{id: t, position: [1, 2, 3]}]\n"),
+      diagnostics);
+  EXPECT_EQ(text.find("<antenna>b<"), std::string::npos);
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_NE(diagnostics.warnings()[0].find("antenna 'b' is left out"), std::string::npos);
+}
+
 std::string pace_with(std::optional<double> option, const std::string& rest) {
   GazeboWorldOptions options = with_p3at();
   options.real_time = option;
