@@ -30,9 +30,7 @@ std::vector<RecordedTag> read_recorded_tags(const std::string& path) {
   const CsvTable table = read_csv(path);
   const std::size_t stamp = table.column("stamp_s");
   const std::size_t tag = table.column("tag");
-  const std::size_t x = table.column("x_m");
-  const std::size_t y = table.column("y_m");
-  const std::size_t z = table.column("z_m");
+  const auto xyz = table.position_columns();
   std::vector<RecordedTag> tags;
   std::unordered_map<std::string, std::size_t> places;
   std::unordered_map<std::string, Time> last_stamps;
@@ -45,9 +43,7 @@ std::vector<RecordedTag> read_recorded_tags(const std::string& path) {
       fail({path, row.line}, fmt::format("stamps of tag '{}' must rise from row to row", id));
     }
     last_stamps[id] = at;
-    add_row(
-        tags[place->second],
-        {at, from_translation({table.number(row, x), table.number(row, y), table.number(row, z)})});
+    add_row(tags[place->second], {at, from_translation(table.position(row, xyz))});
   }
   return tags;
 }
