@@ -19,6 +19,7 @@ struct FieldAntenna {
   AntennaParameters parameters;
   std::uint64_t seed = 1;
   std::string sensor;        ///< Name of the sensor that it is.
+  std::string name_space;    ///< Of its topics; "" for none.
   std::string frame_id;      ///< Of the antenna.
   std::string parent_frame;  ///< Of what carries it; "" where that is not told.
 };

@@ -1,0 +1,51 @@
+#include "adapters/gazebo_classic/plugins/tag_plugin.h"
+
+#include <fmt/format.h>
+
+#include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/sensors.hh>
+
+#include "adapters/gazebo_classic/conversions.h"
+#include "adapters/gazebo_classic/plugins/shared_world.h"
+#include "adapters/gazebo_classic/sensor_context.h"
+#include "tagfield/base/error.h"
+#include "tagfield/reader/sensor_parameters.h"
+
+namespace gazebo {
+
+RfidTagPlugin::~RfidTagPlugin() {
+  if (world_) world_->remove_tags(handle_);
+}
+
+void RfidTagPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr plugin) {
+  try {
+    load(sensor, plugin);
+  } catch (const std::exception& error) {
+    gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; the tag is left out\n";
+  }
+  // A tag has nothing to update by itself.
+  sensor->SetActive(false);
+}
+
+void RfidTagPlugin::load(const sensors::SensorPtr& sensor, const sdf::ElementPtr& plugin) {
+  if (!std::dynamic_pointer_cast<sensors::RFIDTag>(sensor)) {
+    throw tagfield::Error(
+        fmt::format("sensor type is '{}', expected 'rfidtag' for a tag", sensor->Type()));
+  }
+  tagfield::Diagnostics diagnostics;
+  const std::optional<std::string> epc =
+      tagfield::epc_from(tagfield::parameters_of(*sensor, plugin), diagnostics);
+  for (const std::string& warning : diagnostics.warnings()) {
+    gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
+  }
+  const physics::LinkPtr link = tagfield::link_of(*sensor);
+  const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
+  const std::string id = epc ? *epc : tagfield::tag_id_of(*sensor, *link);
+  handle_ = world->add_tags(link, {{id, tagfield::published_name_of(*sensor, *link),
+                                    tagfield::from_gazebo(sensor->Pose()).translation}});
+  world_ = world;
+}
+
+GZ_REGISTER_SENSOR_PLUGIN(RfidTagPlugin)
+
+}  // namespace gazebo

@@ -1,0 +1,191 @@
+#include "adapters/gazebo_classic/rfid_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <gazebo/physics/physics.hh>
+#include <utility>
+
+#include "adapters/gazebo_classic/conversions.h"
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+namespace {
+
+/// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
+bool same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
+  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() &&
+         a.Rot().W() == b.Rot().W() && a.Rot().X() == b.Rot().X() && a.Rot().Y() == b.Rot().Y() &&
+         a.Rot().Z() == b.Rot().Z();
+}
+
+}  // namespace
+
+RfidWorld::RfidWorld(const gazebo::physics::WorldPtr& world,
+                     std::vector<std::unique_ptr<FieldListener>> listeners,
+                     std::function<void(Time)> on_step)
+    : world_(world),
+      on_step_(std::move(on_step)),
+      worker_(std::move(listeners)),
+      connection_(gazebo::event::Events::ConnectWorldUpdateEnd([this] { after_step(); })) {}
+
+RfidWorld::~RfidWorld() { connection_.reset(); }
+
+Time RfidWorld::now() const { return from_gazebo(world_->SimTime()); }
+
+std::uint32_t RfidWorld::free_number() {
+  if (free_numbers_.empty()) return next_number_++;
+  const std::uint32_t number = free_numbers_.back();
+  free_numbers_.pop_back();
+  return number;
+}
+
+RfidWorld::Handle RfidWorld::add_tags(const gazebo::physics::LinkPtr& link,
+                                      std::vector<TagOnLink> tags) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> taken;
+  for (const TagOnLink& tag : tags) {
+    if (!ids_.insert(tag.id).second) {
+      for (const std::string& id : taken) ids_.erase(id);
+      throw Error(fmt::format("there is a tag with the ID '{}' already", tag.id));
+    }
+    taken.push_back(tag.id);
+  }
+  TagGroup group;
+  group.handle = next_handle_++;
+  group.link = link;
+  for (std::size_t i = 0; i < tags.size(); ++i) group.numbers.push_back(free_number());
+  group.tags = std::move(tags);
+  groups_.push_back(std::move(group));
+  return groups_.back().handle;
+}
+
+void RfidWorld::remove_tags(Handle handle) {
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::lower_bound(groups_.begin(), groups_.end(), handle,
+                       [](const TagGroup& group, Handle sought) { return group.handle < sought; });
+  if (found == groups_.end() || found->handle != handle) return;
+  const TagGroup& group = *found;
+  for (const TagOnLink& tag : group.tags) ids_.erase(tag.id);
+  // Within a step the field takes tags out before it puts others in, so a number is free at once.
+  if (group.told) removed_.insert(removed_.end(), group.numbers.begin(), group.numbers.end());
+  free_numbers_.insert(free_numbers_.end(), group.numbers.begin(), group.numbers.end());
+  groups_.erase(found);
+}
+
+bool RfidWorld::has_antenna(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(antennas_.begin(), antennas_.end(), [&](const auto& entry) {
+    return entry.second.shared->parameters.name == name;
+  });
+}
+
+RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
+  const std::string name = antenna.antenna.parameters.name;
+  if (has_antenna(name)) {
+    throw Error(
+        fmt::format("there is an antenna called '{}' already; give this one another "
+                    "<antenna>",
+                    name));
+  }
+  const std::lock_guard lock(mutex_);
+  Antenna entry;
+  entry.shared = std::make_shared<const FieldAntenna>(antenna.antenna);
+  entry.on_link = std::move(antenna);
+  set_due(entry, now());
+  antennas_.emplace(next_handle_, std::move(entry));
+  return next_handle_++;
+}
+
+void RfidWorld::remove_antenna(Handle handle) {
+  const std::lock_guard lock(mutex_);
+  const auto found = antennas_.find(handle);
+  if (found == antennas_.end()) return;
+  antennas_removed_.push_back(found->second.shared->parameters.name);
+  antennas_.erase(found);
+}
+
+FieldCost RfidWorld::cost() const {
+  const std::lock_guard lock(mutex_);
+  FieldCost cost = cost_;
+  cost.reads_s = worker_.busy_s();
+  return cost;
+}
+
+void RfidWorld::set_due(Antenna& antenna, Time from) const {
+  const AntennaParameters& parameters = antenna.shared->parameters;
+  antenna.due = update_stamp(parameters, first_update_at(parameters, from));
+}
+
+bool RfidWorld::is_due(Time now) const {
+  return !antennas_removed_.empty() ||
+         std::any_of(antennas_.begin(), antennas_.end(),
+                     [&](const auto& entry) { return entry.second.due <= now; });
+}
+
+void RfidWorld::after_step() {
+  const Time time = now();
+  on_step_(time);
+  std::unique_lock lock(mutex_);
+  if (time < last_) {  // The world was reset.
+    for (auto& [handle, antenna] : antennas_) set_due(antenna, time);
+  }
+  last_ = time;
+  if (!is_due(time)) return;
+  const auto begin = std::chrono::steady_clock::now();
+  FieldStep step = gather(time);
+  cost_.updates += static_cast<std::int64_t>(step.due.size());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  cost_.physics_s += took.count();
+  lock.unlock();
+  // Not counted above: where this waits, it waits for the reads, which count themselves.
+  worker_.post(std::move(step));
+}
+
+FieldStep RfidWorld::gather(Time now) {
+  FieldStep step;
+  step.stamp = now;
+  step.removed.swap(removed_);
+  step.antennas_removed.swap(antennas_removed_);
+  gather_tags(step);
+  gather_antennas(step);
+  return step;
+}
+
+void RfidWorld::gather_tags(FieldStep& step) {
+  for (TagGroup& group : groups_) {
+    const ignition::math::Pose3d& pose = group.link->WorldPose();
+    if ((group.told && same(pose, group.X_WL)) || !pose.IsFinite()) continue;
+    group.X_WL = pose;
+    const RigidTransform X_WL = from_gazebo(pose);
+    for (std::size_t i = 0; i < group.tags.size(); ++i) {
+      const Eigen::Vector3d p_WT = X_WL * group.tags[i].p_LT;
+      if (group.told) {
+        step.moved.push_back({group.numbers[i], p_WT});
+      } else {
+        step.added.push_back({group.numbers[i], group.tags[i].id, group.tags[i].label, p_WT});
+      }
+    }
+    group.told = true;
+  }
+}
+
+void RfidWorld::gather_antennas(FieldStep& step) {
+  for (auto& [handle, antenna] : antennas_) {
+    if (antenna.due > step.stamp) continue;
+    set_due(antenna, step.stamp + Duration(1));
+    const AntennaOnLink& on_link = antenna.on_link;
+    AntennaDue due;
+    due.antenna = antenna.shared;
+    due.X_WA = from_gazebo(on_link.link->WorldPose()) * on_link.X_LA;
+    if (!antenna.shared->parent_frame.empty()) {
+      due.X_PA =
+          on_link.parent ? from_gazebo(on_link.parent->WorldPose()).inverse() * due.X_WA : due.X_WA;
+    }
+    step.due.push_back(std::move(due));
+  }
+}
+
+}  // namespace tagfield

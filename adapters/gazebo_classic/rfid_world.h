@@ -1,0 +1,117 @@
+/// @file
+/// The tags and antennas of one Gazebo world, and their updates in simulated time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <gazebo/common/Events.hh>
+#include <gazebo/physics/PhysicsTypes.hh>
+#include <ignition/math/Pose3.hh>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "adapters/gazebo_classic/field_worker.h"
+#include "tagfield/reader/rfid_field.h"
+
+namespace tagfield {
+
+/// A tag fixed to a link.
+struct TagOnLink {
+  std::string id;
+  std::string label;
+  Eigen::Vector3d p_LT;  ///< [m]
+};
+
+/// An antenna fixed to a link.
+struct AntennaOnLink {
+  FieldAntenna antenna;
+  gazebo::physics::LinkPtr link;
+  RigidTransform X_LA;
+  /// The link that is the antenna's parent frame; none for the world, if the antenna names a parent
+  /// frame.
+  gazebo::physics::LinkPtr parent;
+};
+
+/// How long updates took, for benchmarks.
+struct FieldCost {
+  std::int64_t updates = 0;  ///< Of antennas.
+  double physics_s = 0.0;    ///< Wall time that physics waited.
+  double reads_s = 0.0;      ///< Wall time of the thread that makes and publishes the reads.
+};
+
+/// One a world. At the end of each physics step it looks which antennas are due by simulated time,
+/// gathers where all tags and those antennas are, and hands that to a FieldWorker. An update is
+/// stamped with the time of its step, so reads don't depend on how fast Gazebo runs. Thread-safe:
+/// plugins load and unload on other threads than physics.
+class RfidWorld {
+ public:
+  using Handle = std::uint64_t;
+
+  /// `on_step` is called with simulated time after each physics step.
+  RfidWorld(const gazebo::physics::WorldPtr& world,
+            std::vector<std::unique_ptr<FieldListener>> listeners,
+            std::function<void(Time)> on_step);
+  ~RfidWorld();
+  RfidWorld(const RfidWorld&) = delete;
+  RfidWorld& operator=(const RfidWorld&) = delete;
+
+  /// Adds tags on one link; they are read from the next update on. Throws Error, and adds none, if
+  /// an ID is taken.
+  Handle add_tags(const gazebo::physics::LinkPtr& link, std::vector<TagOnLink> tags);
+  void remove_tags(Handle handle);
+
+  /// Throws Error if the name is taken.
+  Handle add_antenna(AntennaOnLink antenna);
+  void remove_antenna(Handle handle);
+
+  /// Whether an antenna has this name.
+  [[nodiscard]] bool has_antenna(const std::string& name) const;
+  [[nodiscard]] FieldCost cost() const;
+
+ private:
+  struct TagGroup {
+    Handle handle = 0;
+    gazebo::physics::LinkPtr link;
+    ignition::math::Pose3d X_WL;  ///< At the last update.
+    bool told = false;            ///< Whether its tags were added to the field.
+    std::vector<TagOnLink> tags;
+    std::vector<std::uint32_t> numbers;
+  };
+  struct Antenna {
+    AntennaOnLink on_link;
+    std::shared_ptr<const FieldAntenna> shared;
+    Time due;
+  };
+
+  void after_step();
+  [[nodiscard]] bool is_due(Time now) const;
+  FieldStep gather(Time now);
+  void gather_tags(FieldStep& step);
+  void gather_antennas(FieldStep& step);
+  void set_due(Antenna& antenna, Time from) const;
+  [[nodiscard]] Time now() const;
+  std::uint32_t free_number();
+
+  gazebo::physics::WorldPtr world_;
+  std::function<void(Time)> on_step_;
+  mutable std::mutex mutex_;
+  Handle next_handle_ = 1;
+  std::vector<TagGroup> groups_;  ///< In rising order of handles.
+  std::map<Handle, Antenna> antennas_;
+  std::set<std::string> ids_;
+  std::uint32_t next_number_ = 0;
+  std::vector<std::uint32_t> free_numbers_;
+  std::vector<std::uint32_t> removed_;         ///< Since the last update.
+  std::vector<std::string> antennas_removed_;  ///< Likewise.
+  Time last_ = Time::min();
+  FieldCost cost_;
+  FieldWorker worker_;
+  gazebo::event::ConnectionPtr connection_;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,152 @@
+#include "adapters/gazebo_classic/window_markers.h"
+
+#include <ignition/msgs/marker.pb.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ignition/msgs/Utility.hh>
+#include <ignition/transport/Node.hh>
+#include <map>
+#include <vector>
+
+namespace tagfield {
+namespace {
+
+constexpr Duration kInterval = std::chrono::milliseconds(500);
+constexpr const char* kService = "/marker";
+constexpr const char* kTags = "tagfield_tags";
+constexpr const char* kAntennas = "tagfield_antennas";
+constexpr int kShades = 16;          // A marker has one colour, so tags are drawn shade by shade.
+constexpr double kTagRadius = 0.06;  // [m] larger than a label, to be seen across a hall
+constexpr double kArrowLength = 0.5;
+constexpr double kArrowRadius = 0.04;
+
+using ignition::msgs::Marker;
+
+ignition::math::Vector3d to_ignition(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+void set_color(const ReadColor& color, Marker& marker) {
+  const auto fill = [&](ignition::msgs::Color* target) {
+    target->set_r(static_cast<float>(color.red));
+    target->set_g(static_cast<float>(color.green));
+    target->set_b(static_cast<float>(color.blue));
+    target->set_a(static_cast<float>(color.alpha));
+  };
+  fill(marker.mutable_material()->mutable_ambient());
+  fill(marker.mutable_material()->mutable_diffuse());
+  fill(marker.mutable_material()->mutable_emissive());
+}
+
+Marker marker_of(const char* name_space, std::uint64_t id, Marker::Type type) {
+  Marker marker;
+  marker.set_ns(name_space);
+  marker.set_id(id);
+  marker.set_action(Marker::ADD_MODIFY);
+  marker.set_type(type);
+  ignition::msgs::Set(marker.mutable_scale(), ignition::math::Vector3d::One);
+  return marker;
+}
+
+/// The eight faces of an octahedron around `center`.
+void add_octahedron(const Eigen::Vector3d& center, Marker& marker) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                               (corner & 4) != 0 ? 1.0 : -1.0);
+    std::array<int, 3> axes = {0, 1, 2};
+    // Seen from outside, each face is to turn the same way.
+    if (sign.prod() < 0.0) std::swap(axes[1], axes[2]);
+    for (const int axis : axes) {
+      Eigen::Vector3d tip = center;
+      tip[axis] += kTagRadius * sign[axis];
+      ignition::msgs::Set(marker.add_point(), to_ignition(tip));
+    }
+  }
+}
+
+/// The shade nearest to a colour; silent tags have one of their own.
+int shade_of(const ReadColor& color) {
+  if (color.red == silent_color().red && color.green == silent_color().green &&
+      color.blue == silent_color().blue) {
+    return kShades;
+  }
+  const double share = color.red > 0.0 ? 0.5 + 0.5 * color.red : 0.5 - 0.5 * color.blue;
+  return static_cast<int>(std::lround(share * (kShades - 1)));
+}
+
+ReadColor color_of_shade(int shade) {
+  if (shade == kShades) return silent_color();
+  return read_color(static_cast<double>(shade) / (kShades - 1));
+}
+
+}  // namespace
+
+struct WindowMarkers::Window {
+  ignition::transport::Node node;
+  std::set<std::pair<std::string, std::uint64_t>> shown;
+
+  [[nodiscard]] bool is_open() const {
+    std::vector<ignition::transport::ServicePublisher> windows;
+    return node.ServiceInfo(kService, windows);
+  }
+  void show(const Marker& marker) {
+    shown.emplace(marker.ns(), marker.id());
+    node.Request(kService, marker);
+  }
+  void hide(const std::pair<std::string, std::uint64_t>& which) {
+    Marker marker;
+    marker.set_ns(which.first);
+    marker.set_id(which.second);
+    marker.set_action(Marker::DELETE_MARKER);
+    node.Request(kService, marker);
+  }
+};
+
+WindowMarkers::WindowMarkers() : FieldPicture(kInterval), window_(std::make_unique<Window>()) {}
+WindowMarkers::~WindowMarkers() = default;
+
+void WindowMarkers::draw(Time stamp, const FieldTags& tags) {
+  if (!window_->is_open()) return;
+  const auto before = window_->shown;
+  window_->shown.clear();
+  std::map<int, Marker> by_shade;
+  tags.population.for_each([&](std::uint32_t slot) {
+    const int shade = shade_of(color_of(slot, stamp));
+    const auto id = static_cast<std::uint64_t>(shade) + 1;
+    const auto found = by_shade.emplace(shade, marker_of(kTags, id, Marker::TRIANGLE_LIST)).first;
+    add_octahedron(tags.population.position(slot), found->second);
+  });
+  for (auto& [shade, marker] : by_shade) {
+    set_color(color_of_shade(shade), marker);
+    window_->show(marker);
+  }
+  std::uint64_t id = 1;
+  for (const auto& [name, antenna] : antennas()) {
+    const Eigen::Quaterniond& q = antenna.X_WA.rotation;
+    const ignition::math::Quaterniond rotation(q.w(), q.x(), q.y(), q.z());
+    // A cylinder stands on z; the antenna looks along x.
+    const ignition::math::Quaterniond along_x =
+        rotation * ignition::math::Quaterniond(0.0, 0.5 * M_PI, 0.0);
+    const ignition::math::Vector3d place = to_ignition(antenna.X_WA.translation);
+    Marker arrow = marker_of(kAntennas, id++, Marker::CYLINDER);
+    const ignition::math::Vector3d middle =
+        place + rotation * ignition::math::Vector3d(0.5 * kArrowLength, 0.0, 0.0);
+    ignition::msgs::Set(arrow.mutable_pose(), ignition::math::Pose3d(middle, along_x));
+    ignition::msgs::Set(
+        arrow.mutable_scale(),
+        ignition::math::Vector3d(2.0 * kArrowRadius, 2.0 * kArrowRadius, kArrowLength));
+    set_color({0.9, 0.55, 0.0, 1.0}, arrow);
+    window_->show(arrow);
+    Marker ball = marker_of(kAntennas, id++, Marker::SPHERE);
+    ignition::msgs::Set(ball.mutable_pose(), ignition::math::Pose3d(place, rotation));
+    ignition::msgs::Set(ball.mutable_scale(),
+                        ignition::math::Vector3d::One * (2.0 * antenna.range_m));
+    set_color({0.9, 0.7, 0.2, 0.1}, ball);
+    window_->show(ball);
+  }
+  for (const auto& which : before) {
+    if (window_->shown.count(which) == 0) window_->hide(which);
+  }
+}
+
+}  // namespace tagfield
