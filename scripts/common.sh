@@ -2,13 +2,16 @@
 # where the script was started through sudo, and lets no two builds run at once.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# become_owner SCRIPT [ARGUMENT…]: files made in somebody's checkout are to be theirs, not root's.
-become_owner() {
+# is_for_owner: whether root runs the script in somebody else's checkout.
+is_for_owner() {
   local owner
   owner=$(stat --format=%U .)
-  if [[ $EUID -eq 0 && "$owner" != root && "$owner" != UNKNOWN ]]; then
-    exec runuser --user "$owner" -- "$@"
-  fi
+  [[ $EUID -eq 0 && "$owner" != root && "$owner" != UNKNOWN ]]
+}
+
+# become_owner SCRIPT [ARGUMENT…]: files made in somebody's checkout are to be theirs, not root's.
+become_owner() {
+  if is_for_owner; then exec runuser --user "$(stat --format=%U .)" -- "$@"; fi
 }
 
 # build [TARGET…]: configures if need be and builds build/release.
@@ -32,8 +35,9 @@ build_gazebo() {
   flock 8
   scripts/in-gazebo cmake -G Ninja -S . -B build/gazebo -DCMAKE_BUILD_TYPE=Release \
     -DTAGFIELD_COMMAND=OFF -DTAGFIELD_GAZEBO=ON >build/gazebo-configure.log 2>&1 || {
+    local code=$?
     cat build/gazebo-configure.log >&2
-    exit 1
+    exit "$code"
   }
   scripts/in-gazebo cmake --build build/gazebo
   exec 8>&-
