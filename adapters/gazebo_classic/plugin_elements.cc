@@ -1,0 +1,66 @@
+#include "adapters/gazebo_classic/plugin_elements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <gazebo/physics/physics.hh>
+
+namespace tagfield {
+namespace {
+
+void gather(const sdf::ElementPtr& parent, std::vector<RawParameter>& parameters) {
+  for (sdf::ElementPtr child = parent->GetFirstElement(); child; child = child->GetNextElement()) {
+    const sdf::ParamPtr value = child->GetValue();
+    parameters.push_back({child->GetName(), value ? value->GetAsString() : "", {}});
+    gather(child, parameters);
+  }
+}
+
+void lay_over(std::vector<RawParameter>& below, const std::vector<RawParameter>& above) {
+  const auto given_above = [&](const RawParameter& parameter) {
+    return std::any_of(above.begin(), above.end(),
+                       [&](const RawParameter& other) { return other.key == parameter.key; });
+  };
+  below.erase(std::remove_if(below.begin(), below.end(), given_above), below.end());
+  below.insert(below.end(), above.begin(), above.end());
+}
+
+std::vector<sdf::ElementPtr> plugins_of(gazebo::physics::Model& model,
+                                        const std::string& filename) {
+  std::vector<sdf::ElementPtr> found;
+  const sdf::ElementPtr description = model.GetSDF();
+  if (!description->HasElement("plugin")) return found;
+  for (sdf::ElementPtr plugin = description->GetElement("plugin"); plugin;
+       plugin = plugin->GetNextElement("plugin")) {
+    const auto file = plugin->Get<std::string>("filename");
+    if (file.find(filename) != std::string::npos) found.push_back(plugin);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<RawParameter> parameters_in(const sdf::ElementPtr& plugin) {
+  std::vector<RawParameter> parameters;
+  gather(plugin, parameters);
+  return parameters;
+}
+
+std::optional<std::vector<RawParameter>> plugin_parameters(gazebo::physics::Model& model,
+                                                           const sdf::ElementPtr& own,
+                                                           const std::string& filename) {
+  std::vector<sdf::ElementPtr> plugins = plugins_of(model, filename);
+  if (plugins.empty()) plugins = {own};
+  if (plugins.front() != own) return std::nullopt;
+  std::vector<RawParameter> parameters;
+  for (const sdf::ElementPtr& plugin : plugins) {
+    lay_over(parameters, parameters_in(plugin));
+  }
+  return parameters;
+}
+
+std::string place_of(gazebo::physics::Model& model, const sdf::ElementPtr& plugin) {
+  return fmt::format("model '{}', plugin '{}'", model.GetName(), plugin->Get<std::string>("name"));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,130 @@
+// libTagfieldLiftPlugin.so: drives a prismatic joint up and down, or to a height it is told.
+// Parameters: adapters/gazebo_classic/robot_parameters.h.
+#include <atomic>
+#include <gazebo/common/Console.hh>
+#include <gazebo/common/Events.hh>
+#include <gazebo/common/Plugin.hh>
+#include <gazebo/physics/physics.hh>
+#include <memory>
+#include <optional>
+
+#include "adapters/gazebo_classic/laser.h"
+#include "adapters/gazebo_classic/lift_drive.h"
+#include "adapters/gazebo_classic/plugin_elements.h"
+#include "adapters/gazebo_classic/robot_parameters.h"
+#include "adapters/gazebo_classic/skid_steer.h"
+#include "adapters/ros1/robot_publisher.h"
+#include "adapters/ros1/ros_link.h"
+
+namespace tagfield {
+namespace {
+
+constexpr const char* kFile = "libTagfieldLiftPlugin.so";
+
+Time time_of(const gazebo::common::Time& time) {
+  return Time(std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec));
+}
+
+/// What begins anew with each start of the world.
+struct Run {
+  LiftGuide guide;
+  Time start;
+  Time last;
+};
+
+/// One lift in its world.
+class LiftOfModel {
+ public:
+  LiftOfModel(const gazebo::physics::ModelPtr& model, LiftParameters parameters, std::string place)
+      : world_(model->GetWorld()),
+        parameters_(std::move(parameters)),
+        place_(std::move(place)),
+        drive_(*model, parameters_.joint, parameters_.force_n),
+        ros_(RosLink::shared()),
+        publisher_(ros_, parameters_.name_space, parameters_.topic, parameters_.joint) {
+    expect_ode(*world_);
+  }
+
+  /// To be called at the beginning of each step of the world, whose time is that of its end.
+  void begin_step(Time end) {
+    const double seconds = world_->Physics()->GetMaxStepSize();
+    if (restart_.exchange(false) || !run_ || end < run_->last) {
+      const Time now = end - duration_from_seconds(seconds);
+      run_ = Run{LiftGuide(parameters_.lift), now, now};
+    }
+    obey();
+    const double height = run_->guide.height(Time(end - run_->start));
+    drive_.go(parameters_.lower_m + height, seconds);
+  }
+
+  /// To be called at its end.
+  void end_step() {
+    if (!run_) return;
+    const Time now = time_of(world_->SimTime());
+    ros_->advance_clock(now);
+    if (is_due(run_->last, now, interval_)) {
+      publisher_.publish(now, drive_.position(), drive_.speed());
+    }
+    run_->last = now;
+  }
+
+  void restart() { restart_ = true; }
+
+ private:
+  void obey() {
+    const std::optional<double> position = publisher_.take_command();
+    if (!position || run_->guide.go_to(*position - parameters_.lower_m) || warned_) return;
+    gzwarn << place_ << ": a height that is not finite is not obeyed\n";
+    warned_ = true;
+  }
+
+  gazebo::physics::WorldPtr world_;
+  LiftParameters parameters_;
+  std::string place_;
+  LiftDrive drive_;
+  std::shared_ptr<RosLink> ros_;
+  LiftPublisher publisher_;
+  Duration interval_ = duration_from_seconds(1.0 / parameters_.joint_states_rate_hz);
+  std::optional<Run> run_;
+  std::atomic<bool> restart_{false};
+  bool warned_ = false;
+};
+
+}  // namespace
+
+/// Gazebo's end of a lift. Where a parameter is wrong it says so and does nothing.
+class LiftPlugin final : public gazebo::ModelPlugin {
+ public:
+  void Load(gazebo::physics::ModelPtr model, sdf::ElementPtr element) override {
+    const std::string place = place_of(*model, element);
+    try {
+      const std::vector<RawParameter> given = parameters_in(element);
+      Diagnostics diagnostics;
+      const LiftParameters parameters = lift_from(given, diagnostics);
+      for (const std::string& warning : diagnostics.warnings()) {
+        gzwarn << place << ": " << warning << "\n";
+      }
+      lift_ = std::make_unique<LiftOfModel>(model, parameters, place);
+      begin_ = gazebo::event::Events::ConnectWorldUpdateBegin(
+          [this](const gazebo::common::UpdateInfo& info) {
+            lift_->begin_step(time_of(info.simTime));
+          });
+      end_ = gazebo::event::Events::ConnectWorldUpdateEnd([this] { lift_->end_step(); });
+    } catch (const Error& error) {
+      gzerr << place << ": " << error.what() << "\n";
+    }
+  }
+
+  void Reset() override {
+    if (lift_) lift_->restart();
+  }
+
+ private:
+  std::unique_ptr<LiftOfModel> lift_;
+  gazebo::event::ConnectionPtr begin_;
+  gazebo::event::ConnectionPtr end_;
+};
+
+GZ_REGISTER_MODEL_PLUGIN(LiftPlugin)
+
+}  // namespace tagfield
