@@ -69,18 +69,6 @@ std::vector<TagOutcome> outcomes_of(const Scenario& scenario, const SeedRun& run
   return outcomes;
 }
 
-LocalizationOptions options_for(const Scenario& scenario, int threads) {
-  LocalizationOptions options;
-  options.hyperbola = scenario.localization.hyperbola;
-  options.heights = known_heights(scenario);
-  options.threads = threads;
-  // Between two updates an antenna's poses are as far apart as its rate says.
-  for (const AntennaSpec& antenna : scenario.antennas) {
-    options.max_pose_gap_s = std::max(options.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
-  }
-  return options;
-}
-
 std::vector<double> errors_of(const std::vector<TagOutcome>& outcomes) {
   std::vector<double> errors;
   for (const TagOutcome& outcome : outcomes) {
@@ -131,6 +119,18 @@ TagHeights known_heights(const Scenario& scenario) {
   return heights;
 }
 
+LocalizationOptions localization_options(const Scenario& scenario, int threads) {
+  LocalizationOptions options;
+  options.hyperbola = scenario.localization.hyperbola;
+  options.heights = known_heights(scenario);
+  options.threads = threads;
+  // Between two updates an antenna's poses are as far apart as its rate says.
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    options.max_pose_gap_s = std::max(options.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
+  }
+  return options;
+}
+
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
   SeedRun run;
   run.seed = seed;
@@ -148,7 +148,7 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 }
 
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
-  const LocalizationOptions options = options_for(scenario, threads);
+  const LocalizationOptions options = localization_options(scenario, threads);
   const Recording& recording = run.recording;
   run.estimates = in_scenario_order(
       scenario, locate_tags(recording.reads, recording.believed_poses, options, diagnostics));

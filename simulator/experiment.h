@@ -48,6 +48,9 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
 /// What is known of the tags' heights in this scenario, for localization.
 TagHeights known_heights(const Scenario& scenario);
 
+/// How this scenario's tags are to be located.
+LocalizationOptions localization_options(const Scenario& scenario, int threads);
+
 /// The numbers of all runs. `wall_s` is how long they took.
 Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
                   const Diagnostics& diagnostics);

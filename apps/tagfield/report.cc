@@ -2,24 +2,36 @@
 
 #include <memory>
 
+#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/localize.h"
 #include "tagfield/report/page.h"
 
 namespace tagfield {
+namespace {
+
+int report(const LocalizeArguments& arguments) {
+  if (is_bag(arguments.recording)) return localize(arguments);
+  if (!arguments.out.empty()) throw Error("report: --out goes with a bag only");
+  write_report(arguments.recording);
+  fmt::print("page: {}/report.html\n", arguments.recording);
+  return kExitOk;
+}
+
+}  // namespace
 
 void add_report_command(CLI::App& app, Action& chosen) {
-  const auto folder = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("report", "Draw report.html and figures/ again from a run's folder");
-  command->add_option("DIR", *folder, "Folder of a run")->required();
-  command->callback([folder, &chosen] {
-    chosen = [folder] {
-      write_report(*folder);
-      fmt::print("page: {}/report.html\n", *folder);
-      return kExitOk;
-    };
-  });
+  const auto arguments = std::make_shared<LocalizeArguments>();
+  CLI::App* command = app.add_subcommand(
+      "report", "Draw report.html and figures/ again from a run's folder, or from a rosbag");
+  command
+      ->add_option("DIR", arguments->recording,
+                   "Folder of a run, or a rosbag (RUN.bag), then as 'localize' without options")
+      ->required();
+  command->add_option("--out", arguments->out,
+                      "Folder for the results of a bag (default runs/NAME)");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return report(*arguments); }; });
 }
 
 }  // namespace tagfield

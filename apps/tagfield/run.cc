@@ -8,6 +8,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/table.h"
+#include "apps/tagfield/top_view_file.h"
 #include "simulator/experiment.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
@@ -16,7 +17,6 @@
 #include "tagfield/stream/poses_csv.h"
 #include "tagfield/stream/reads_csv.h"
 #include "tagfield/stream/tag_heights_csv.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 namespace {
@@ -52,21 +52,6 @@ std::string folder_name(const std::string& name) {
   return folder;
 }
 
-/// The heights between which the top view is cut: from just above the floor to a little above the
-/// highest tag or antenna.
-std::pair<double, double> band_of(const Scenario& scenario) {
-  double highest = 1.0;
-  for (const TagSpec& tag : scenario.tags) {
-    for (const StampedPose& pose : tag.motion) {
-      highest = std::max(highest, pose.X_WB.translation.z());
-    }
-  }
-  for (const AntennaSpec& antenna : scenario.antennas) {
-    highest = std::max(highest, antenna.X_PA.translation.z() + antenna.lift.travel_m);
-  }
-  return {0.1, highest + 0.5};
-}
-
 void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder& folder) {
   folder.add("reads.csv", reads_to_csv(run.recording.reads));
   folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
@@ -74,10 +59,7 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   const TagHeights heights = known_heights(loaded.scenario);
   if (!heights.of_tag.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights.of_tag));
   stage_truth(run.recording.truth, folder);
-  if (!loaded.scene.collisions.empty()) {
-    const auto [low, high] = band_of(loaded.scenario);
-    folder.add("top_view.json", top_view_to_json(top_view(loaded.scene, low, high)));
-  }
+  stage_top_view(loaded, folder);
 }
 
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,

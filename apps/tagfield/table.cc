@@ -103,6 +103,19 @@ std::string pose_line(const Summary& summary) {
   return text + '\n';
 }
 
+std::string compared_pose_line(const Summary& summary) {
+  if (!summary.compared_pose) return "";
+  const ComparedPose& other = *summary.compared_pose;
+  std::string text =
+      fmt::format("pose: {}; with {}, {:.1f} mm (rms) off it: {} located", summary.pose, other.pose,
+                  millimetres(other.position_rms_m), other.located);
+  if (other.error_m) {
+    text += fmt::format(", error mean {:.1f} mm, max {:.1f}", millimetres(other.error_m->mean),
+                        millimetres(other.error_m->max));
+  }
+  return text + '\n';
+}
+
 }  // namespace
 
 std::string table_of(const Summary& summary) {
@@ -111,7 +124,7 @@ std::string table_of(const Summary& summary) {
   text +=
       fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
                   count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
-  return text + statistics_line(summary) + pose_line(summary);
+  return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary);
 }
 
 }  // namespace tagfield

@@ -72,6 +72,7 @@ std::string spoken_pose(const std::string& pose) {
   if (pose == "true") return "the true antenna poses";
   if (pose == "noisy") return "true poses with an error added";
   if (pose == "odometry") return "wheel odometry";
+  if (pose == "tf") return "the robot’s own (tf)";
   if (pose == "given") return "as given with the reads";
   return pose;
 }
@@ -144,6 +145,18 @@ std::string pose_error_text(const Summary& summary) {
   return text + ": here the pose error makes little difference.";
 }
 
+std::string compared_pose_text(const Summary& summary) {
+  if (!summary.compared_pose) return "";
+  const ComparedPose& other = *summary.compared_pose;
+  std::string text = fmt::format(
+      "The same reads with other antenna poses, {}, {} (rms) off these: {} of {} located",
+      spoken_pose(other.pose), spoken_length(other.position_rms_m), grouped(other.located),
+      counted(summary.tags.size(), "tag"));
+  if (!other.error_m) return text + ".";
+  return text + fmt::format(", off by {} in the mean and by {} at most.",
+                            spoken_length(other.error_m->mean), spoken_length(other.error_m->max));
+}
+
 std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
   html += fact("Method", spoken_method(summary.method));
@@ -158,8 +171,9 @@ std::string run_facts(const Summary& summary) {
   html += fact(summary.seeds.size() > 1 ? "Seeds" : "Seed", spoken_seeds(summary.seeds));
   if (summary.wall_s > 0.0) html += fact("Computed in", spoken_duration(summary.wall_s));
   html += "</dl>\n";
-  const std::string pose = pose_error_text(summary);
-  if (!pose.empty()) html += "<div class=\"note pose\">" + paragraph(pose) + "</div>\n";
+  for (const std::string& pose : {pose_error_text(summary), compared_pose_text(summary)}) {
+    if (!pose.empty()) html += "<div class=\"note pose\">" + paragraph(pose) + "</div>\n";
+  }
   return html + warnings_note(summary.warnings);
 }
 

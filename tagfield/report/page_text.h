@@ -20,6 +20,9 @@ std::string key_numbers(const Summary& summary);
 /// believed the truth. Plain text.
 std::string pose_error_text(const Summary& summary);
 
+/// What the same reads give with other poses; "" where nothing was compared. Plain text.
+std::string compared_pose_text(const Summary& summary);
+
 /// Method, poses, seeds.
 std::string run_facts(const Summary& summary);
 

@@ -72,6 +72,13 @@ Trajectories take_truth(const Truth& truth, RunFiles& run) {
   return by_antenna(truth.antenna_poses);
 }
 
+/// The robot's belief where the run was judged with the true poses beside it.
+void take_compared_poses(const std::string& file, Trajectories& believed) {
+  for (auto& [antenna, trajectory] : by_antenna(read_poses_csv(file))) {
+    believed[antenna] = std::move(trajectory);
+  }
+}
+
 std::vector<Silhouette> read_top_view(const std::string& path) {
   try {
     return top_view_from_json(read_text_file(path));
@@ -89,7 +96,11 @@ RunFiles read_run_files(const std::string& folder) {
   const std::string summary_file = folder + "/summary.json";
   run.summary = summary_from_json(read_text_file(summary_file), summary_file);
   run.reads = read_reads_csv(folder + "/reads.csv");
-  const Trajectories believed = by_antenna(read_poses_csv(folder + "/antenna_poses.csv"));
+  Trajectories believed = by_antenna(read_poses_csv(folder + "/antenna_poses.csv"));
+  const std::string compared = folder + "/compared_poses.csv";
+  if (run.summary.pose == "true" && run.summary.compared_pose && fs::exists(compared)) {
+    take_compared_poses(compared, believed);
+  }
   Trajectories truth;
   if (fs::exists(folder + "/truth")) truth = take_truth(read_truth(folder), run);
   if (fs::exists(folder + "/top_view.json")) {

@@ -44,7 +44,8 @@ struct RunFiles {
 };
 
 /// Reads summary.json, reads.csv and antenna_poses.csv, and truth/ and top_view.json where they
-/// are. Throws Error if one is malformed, or one of the first three is missing.
+/// are. Where a run with the true poses was compared with the believed ones, those come from
+/// compared_poses.csv. Throws Error if one is malformed, or one of the first three is missing.
 RunFiles read_run_files(const std::string& folder);
 
 /// The moving (or resting) antenna with the most reads, or nullptr.

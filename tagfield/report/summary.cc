@@ -45,6 +45,23 @@ std::optional<ErrorStatistics> statistics(std::vector<double> errors_m) {
   return result;
 }
 
+std::optional<double> position_rms(const std::vector<AntennaPose>& a,
+                                   const std::vector<AntennaPose>& b) {
+  std::map<std::string, Trajectory> of_b;
+  for (const AntennaPose& pose : b) of_b[pose.antenna].push_back({pose.stamp, pose.X_WA});
+  double sum = 0.0;
+  double count = 0.0;
+  for (const AntennaPose& pose : a) {
+    const Trajectory& trajectory = of_b[pose.antenna];
+    const auto other = trajectory.size() > 1 ? pose_at(trajectory, pose.stamp) : std::nullopt;
+    if (!other) continue;
+    sum += (pose.X_WA.translation - other->translation).head<2>().squaredNorm();
+    count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return std::sqrt(sum / count);
+}
+
 std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads) {
   std::map<std::string, std::size_t> counts;
   for (const TagRead& read : reads) ++counts[read.tag];

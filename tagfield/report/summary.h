@@ -53,13 +53,23 @@ struct PoseErrorSummary {
   std::optional<ErrorStatistics> error_with_true_pose_m;
 };
 
+/// The same reads located with other poses, for comparison.
+struct ComparedPose {
+  std::string pose;  ///< What they are, in the words of Summary::pose.
+  /// Between these and the poses of the run [m], horizontally.
+  double position_rms_m = 0.0;
+  std::optional<ErrorStatistics> error_m;  ///< Of the tags that they locate.
+  std::size_t located = 0;
+};
+
 /// Everything that a page needs besides the files in the run's folder.
 struct Summary {
   std::string scenario;              ///< Name.
   std::string description;           ///< One line of the scenario, or "".
   std::vector<std::uint64_t> seeds;  ///< Empty where reads came from outside.
   std::string method;                ///< "hyperbola"
-  std::string pose;      ///< What the believed pose is: "true", "noisy", "odometry", "given".
+  /// What the believed pose is: "true", "noisy", "odometry", "tf" (transforms), "given".
+  std::string pose;
   bool complete = true;  ///< False where the run was interrupted.
   double path_length_m = 0.0;
   std::size_t reads = 0;     ///< Of the first seed.
@@ -67,12 +77,19 @@ struct Summary {
   double wall_s = 0.0;       ///< Simulation and localization of all seeds, files and page excepted.
   double real_time_factor = 0.0;  ///< Simulated time of all seeds over wall_s.
   std::optional<PoseErrorSummary> pose_error;
+  std::optional<ComparedPose> compared_pose;
   std::vector<TagOutcome> tags;  ///< By seed, then by ID.
   std::vector<std::string> warnings;
 };
 
 /// How many reads there are of each tag.
 std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads);
+
+/// Root mean square of the horizontal distance between poses of the same antenna at the same time
+/// [m]: of those in `a` with the interpolated ones of `b`, which must be in order of time. Antennas
+/// with a single pose in `b` stand still and don't count. None where none does.
+std::optional<double> position_rms(const std::vector<AntennaPose>& a,
+                                   const std::vector<AntennaPose>& b);
 
 /// Errors of all located tags, over all seeds.
 std::optional<ErrorStatistics> error_statistics(const Summary& summary);
@@ -84,18 +101,18 @@ std::size_t count(const Summary& summary, Verdict verdict);
 std::size_t count_over(const Summary& summary, double limit_m);
 
 /// summary.json: scenario, description, seeds, method, pose, complete, path_length_m, reads,
-/// simulated_s, wall_s, real_time_factor, pose_error, tags: [{id, seed, verdict, reason, truth_m,
-/// moved, estimate_m, error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m,
-/// candidates_expected_error_m, reads, reads_used}], error_m: {mean, median, p95, max, min, count},
-/// over_0_3_m, located, ambiguous, not_located, warnings. What is unknown or not finite is null.
-/// `estimate_m` is null unless the tag is located; `rms_m` and `expected_error_m` are the best
-/// candidate's, and the three lists of candidates are equally long. Bytes that are not UTF-8 become
-/// U+FFFD.
+/// simulated_s, wall_s, real_time_factor, pose_error, compared_pose: {pose, position_rms_m,
+/// error_m, located} or null, tags: [{id, seed, verdict, reason, truth_m, moved, estimate_m,
+/// error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m, candidates_expected_error_m,
+/// reads, reads_used}], error_m: {mean, median, p95, max, min, count}, over_0_3_m, located,
+/// ambiguous, not_located, warnings. What is unknown or not finite is null. `estimate_m` is null
+/// unless the tag is located; `rms_m` and `expected_error_m` are the best candidate's, and the
+/// three lists of candidates are equally long. Bytes that are not UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
-/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure of the
-/// run that is null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false",
-/// on one line, on text that is not such a summary.
+/// Inverse of to_json; what follows from the rest (errors, counts) is not read, a figure of the
+/// run that is null reads as 0, and compared_pose may be missing. Throws Error "FILE: tags[3].moved
+/// is null, expected true or false", on one line, on text that is not such a summary.
 Summary summary_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

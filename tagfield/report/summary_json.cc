@@ -36,6 +36,14 @@ Json pose_error_json(const std::optional<PoseErrorSummary>& error) {
           {"error_with_true_pose_m", statistics_json(error->error_with_true_pose_m)}};
 }
 
+Json compared_pose_json(const std::optional<ComparedPose>& compared) {
+  if (!compared) return nullptr;
+  return {{"pose", compared->pose},
+          {"position_rms_m", number(compared->position_rms_m)},
+          {"error_m", statistics_json(compared->error_m)},
+          {"located", compared->located}};
+}
+
 /// One property of each candidate, best first.
 template <typename Property>
 Json of_each(const std::vector<Candidate>& candidates, Property property) {
@@ -85,6 +93,7 @@ void put_run(Json& json, const Summary& summary) {
   json["wall_s"] = number(summary.wall_s);
   json["real_time_factor"] = number(summary.real_time_factor);
   json["pose_error"] = pose_error_json(summary.pose_error);
+  json["compared_pose"] = compared_pose_json(summary.compared_pose);
 }
 
 /// A figure of the run; null, that is unknown, reads as 0.
@@ -110,6 +119,19 @@ std::optional<PoseErrorSummary> pose_error_at(const JsonPlace& place) {
   result.yaw_sigma_rad = number_or_zero(member(place, "yaw_sigma_rad"));
   result.position_rms_m = number_or_zero(member(place, "position_rms_m"));
   result.error_with_true_pose_m = statistics_at(member(place, "error_with_true_pose_m"));
+  return result;
+}
+
+/// Summaries of an older version have none.
+std::optional<ComparedPose> compared_pose_at(const JsonPlace& top) {
+  if (!top.value->contains("compared_pose")) return std::nullopt;
+  const JsonPlace place = member(top, "compared_pose");
+  if (is_null(place)) return std::nullopt;
+  ComparedPose result;
+  result.pose = text_at(member(place, "pose"));
+  result.position_rms_m = number_or_zero(member(place, "position_rms_m"));
+  result.error_m = statistics_at(member(place, "error_m"));
+  result.located = whole_at(member(place, "located"));
   return result;
 }
 
@@ -171,6 +193,7 @@ void take_run(const JsonPlace& top, Summary& summary) {
   summary.wall_s = number_or_zero(member(top, "wall_s"));
   summary.real_time_factor = number_or_zero(member(top, "real_time_factor"));
   summary.pose_error = pose_error_at(member(top, "pose_error"));
+  summary.compared_pose = compared_pose_at(top);
 }
 
 }  // namespace

@@ -18,7 +18,14 @@ ROOMS = ["base", "poses", "motion", "world", "sdf", "link", "channel", "reader",
 # What a room must not include although it stands above.
 FORBIDDEN = {"localization": {"world", "sdf", "report"}}
 FOLDERS = ["tagfield", "simulator", "navigation", "adapters", "apps", "benchmarks", "examples"]
-ALIENS = ("ros/", "rclcpp/", "rosbag/", "tf2", "gazebo/", "gz/", "ignition/", "mrpt/", "mpi.h")
+ROS = ("ros/", "rclcpp/", "rosbag/", "tf2", "tf/", "tagfield_msgs/", "rfid_sensor/", "std_msgs/",
+       "geometry_msgs/", "nav_msgs/", "sensor_msgs/", "visualization_msgs/", "rosgraph_msgs/")
+GAZEBO = ("gazebo/", "gz/", "ignition/")
+ALIENS = (*ROS, *GAZEBO, "mrpt/", "mpi.h")
+ROS1 = "adapters/ros1/"
+CLASSIC = "adapters/gazebo_classic/"
+# The thin mains that join Gazebo and ROS.
+JOINTS = "adapters/gazebo_classic/plugins/"
 # sdformat hands over its poses in this.
 MATH = "ignition/math/"
 # Nothing in the core prints or looks at a clock; the simulator keeps pace with the wall clock, and
@@ -34,7 +41,7 @@ QUIET = {
 }
 # sdformat prints to std::cerr whatever it is told; read_root.cc takes the stream away for a while.
 QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints")}
-TRUTH_READERS = ("tagfield/report/", "simulator/", "apps/")
+TRUTH_READERS = ("tagfield/report/", "simulator/", "adapters/", "apps/")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -56,6 +63,16 @@ def is_test(path):
 
 def line_at(text, offset):
     return text[:offset].count("\n") + 1
+
+
+def adapter_fault(path, header):
+    """What is wrong about an adapter including `header`, its own or a stranger's, or None."""
+    if path.startswith(ROS1) and header.startswith((CLASSIC, *GAZEBO)):
+        return "adapters/ros1/ knows no Gazebo"
+    if (path.startswith(CLASSIC) and not path.startswith(JOINTS) and not is_test(path) and
+            header.startswith((ROS1, *ROS))):
+        return "of adapters/gazebo_classic/ only plugins/ knows ROS"
+    return None
 
 
 def order_fault(path, header):
@@ -87,14 +104,14 @@ def include_faults(path, text):
         quote, header = match.groups()
         place = f"{path}:{line_at(text, match.start())}: includes {header}"
         own = header.split("/")[0] in FOLDERS and quote == '"'
-        fault = order_fault(path, header) if own else None
+        fault = (order_fault(path, header) if own else None) or adapter_fault(path, header)
         if fault:
             yield f"{place}: {fault}"
         if own and "/internal/" in header and room_of(header) != room_of(path):
             yield f"{place}: internal to another room"
         if own and "/test/" in header and not is_test(path):
             yield f"{place}: a test's helper"
-        if header.startswith("sdf/") and not path.startswith("tagfield/sdf/"):
+        if header.startswith("sdf/") and not path.startswith(("tagfield/sdf/", CLASSIC)):
             yield f"{place}: only sdf/ includes sdformat"
         math = header.startswith(MATH) and path.startswith("tagfield/sdf/")
         if (header.startswith(ALIENS) and not math and
@@ -159,7 +176,14 @@ GOOD = {
                                           "void g() { std::cout << 1; }\n",
     "simulator/run.cc": '#include "tagfield/report/truth.h"\n#include <chrono>\n'
                         "auto now = std::chrono::steady_clock::now();\n",
-    "apps/tagfield/main.cc": '#include "simulator/run.h"\nint main() { printf("x"); }\n',
+    "apps/tagfield/main.cc": '#include "simulator/run.h"\n#include "adapters/ros1/bag.h"\n'
+                             'int main() { printf("x"); }\n',
+    "adapters/ros1/bag.cc": '#include <rosbag/bag.h>\n#include <tagfield_msgs/TagReads.h>\n'
+                            '#include "simulator/run.h"\n#include "tagfield/report/truth.h"\n',
+    "adapters/gazebo_classic/field.cc": '#include <gazebo/gazebo.hh>\n#include <sdf/sdf.hh>\n'
+                                        '#include "tagfield/base/error.h"\n',
+    "adapters/gazebo_classic/plugins/a.cc": '#include "adapters/ros1/link.h"\n'
+                                            '#include "adapters/gazebo_classic/field.h"\n',
 }
 PLANTED = (  # a file, its content, what must be said of it
     ("tagfield/base/a.cc", '#include "tagfield/world/scene.h"\n', "world/ is below base/"),
@@ -176,6 +200,16 @@ PLANTED = (  # a file, its content, what must be said of it
     ("simulator/a.cc", '#include "tagfield/sdf/internal/poses.h"\n', "internal to another room"),
     ("tagfield/report/a.cc", '#include "tagfield/base/test/statistics.h"\n', "a test's helper"),
     ("simulator/a.cc", "#include <ros/ros.h>\n", "no ROS"),
+    ("apps/tagfield/a.cc", "#include <rosbag/bag.h>\n", "no ROS"),
+    ("apps/tagfield/a.cc", "#include <tagfield_msgs/TagReads.h>\n", "no ROS"),
+    ("apps/tagfield/a.cc", "#include <gazebo/gazebo.hh>\n", "no ROS"),
+    ("simulator/a.cc", '#include "adapters/ros1/bag.h"\n', "simulator/ must not include it"),
+    ("tagfield/report/a.cc", '#include "adapters/ros1/bag.h"\n', "the core must not include it"),
+    ("adapters/ros1/a.cc", '#include "adapters/gazebo_classic/field.h"\n', "knows no Gazebo"),
+    ("adapters/ros1/a.cc", "#include <gazebo/gazebo.hh>\n", "knows no Gazebo"),
+    ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
+    ("adapters/gazebo_classic/world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
+    ("adapters/ros1/a.cc", '#include "apps/tagfield/table.h"\n', "adapters/ must not include it"),
     ("tagfield/world/a.h", "/// @file\n/// It.\n#pragma once\nusing namespace std;\n",
      "using namespace"),
     ("tagfield/world/a.h", "/// @file\n/// It.\n", "#pragma once"),

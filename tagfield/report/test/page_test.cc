@@ -108,6 +108,16 @@ TEST(PoseErrorText, DoesWithoutAComparison) {
             "The robot believed its antenna 14 mm (rms) off its true place.");
 }
 
+TEST(ComparedPoseText, SaysWhatOtherPosesGive) {
+  Summary summary = summary_of({});
+  EXPECT_EQ(compared_pose_text(summary), "");
+  summary.compared_pose = ComparedPose{"odometry", 0.25, statistics({0.2, 0.4}), 2};
+  EXPECT_EQ(compared_pose_text(summary),
+            "The same reads with other antenna poses, wheel odometry, 250 mm (rms) off these: 2 of"
+            " 3 tags located, off by 300 mm in the mean and by 400 mm at most.");
+  EXPECT_TRUE(holds(run_facts(summary), "wheel odometry, 250 mm"));
+}
+
 TEST(RunFacts, ListWarnings) {
   Summary summary = summary_of({});
   summary.warnings = {"a <warning>"};

@@ -28,6 +28,21 @@ TEST(ReadRunFiles, TakesReadsInAnyOrder) {
   EXPECT_DOUBLE_EQ(reads[0]->rssi_dbm, -50.0);
 }
 
+TEST(ReadRunFiles, TakesTheBeliefThatTheTruePosesWereComparedWith) {
+  FolderPlan plan;
+  const RunFolder folder(plan);
+  folder.put("compared_poses.csv",
+             "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n0,mobile,7,0,0,0,0,0,1\n"
+             "1,mobile,8,0,0,0,0,0,1\n");
+  EXPECT_NE(busiest_track(read_run_files(folder.path()), true)->believed.size(), 2U);
+  Summary summary = summary_of(plan);
+  summary.compared_pose = ComparedPose{"tf", 0.1, std::nullopt, 0};
+  folder.put("summary.json", to_json(summary));
+  const RunFiles run = read_run_files(folder.path());
+  EXPECT_EQ(busiest_track(run, true)->believed.size(), 2U);
+  EXPECT_FALSE(busiest_track(run, false)->believed.empty());
+}
+
 TEST(ReadRunFiles, DoesWithoutTruthAndTopView) {
   FolderPlan plan;
   plan.truth = false;

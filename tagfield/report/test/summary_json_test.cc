@@ -23,6 +23,7 @@ Summary full_summary() {
   summary.real_time_factor = 180.5;
   summary.warnings = {"first", "second"};
   summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.02, 0.0141, statistics({0.001, 0.004})};
+  summary.compared_pose = ComparedPose{"odometry", 0.25, statistics({0.2, 0.5}), 2};
   summary.tags[0].truth_m.reset();
   summary.tags[0].moved = true;
   TagEstimate& estimate = summary.tags[1].estimate;
@@ -59,6 +60,22 @@ TEST(SummaryJson, ComesBackTheSame) {
   EXPECT_DOUBLE_EQ(after.tags[1].estimate.candidates[1].expected_error_m, 0.2);
   EXPECT_TRUE(after.tags[0].moved);
   EXPECT_FALSE(after.tags[0].truth_m);
+}
+
+TEST(SummaryJson, ComparesPosesWhereThereAreTwo) {
+  const Summary after = summary_from_json(to_json(full_summary()), "f");
+  ASSERT_TRUE(after.compared_pose);
+  EXPECT_EQ(after.compared_pose->pose, "odometry");
+  EXPECT_EQ(after.compared_pose->position_rms_m, 0.25);
+  EXPECT_EQ(after.compared_pose->error_m->max, 0.5);
+  EXPECT_EQ(after.compared_pose->located, 2U);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(summary_of({})))["compared_pose"].is_null());
+}
+
+TEST(SummaryFromJson, TakesSummariesFromBeforePosesWereCompared) {
+  auto json = nlohmann::ordered_json::parse(to_json(full_summary()));
+  json.erase("compared_pose");
+  EXPECT_FALSE(summary_from_json(json.dump(), "f").compared_pose);
 }
 
 RC_GTEST_PROP(SummaryJson, KeepsAnyNumber, (double number, std::uint64_t seed)) {
@@ -108,6 +125,8 @@ TEST(SummaryFromJson, NamesFileAndPathOfWhatIsWrong) {
                "tags[1].candidates_m[0][2] is string, expected a number");
   expect_error(with("/tags/1/verdict", "lost"),
                "tags[1].verdict is 'lost', expected located, ambiguous or not_located");
+  expect_error(with("/compared_pose/located", -1),
+               "compared_pose.located is number, expected a whole number from 0 on");
   expect_error(with("/pose_error/sigma_m", 1e300), "pose_error.sigma_m is beyond ±1e15");
   expect_error(with("/tags/2/verdict", "located"), "tags[2] is located but has no candidates_m");
 }

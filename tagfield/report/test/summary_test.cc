@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tagfield/report/test/run_folder.h"
 
 namespace tagfield {
@@ -52,6 +54,19 @@ TEST(ErrorOf, IsUnknownUnlessLocatedWithAKnownPlace) {
   outcome.truth_m = Eigen::Vector3d::Zero();
   outcome.estimate.verdict = Verdict::kAmbiguous;
   EXPECT_FALSE(error_of(outcome));
+}
+
+TEST(PositionRms, ComparesPosesOfTheSameAntennaAtTheSameTime) {
+  const auto pose = [](double seconds, const char* antenna, double x, double z) {
+    return AntennaPose{time_from_seconds(seconds), antenna, from_translation({x, 0.0, z})};
+  };
+  const std::vector<AntennaPose> b = {pose(0.0, "a", 0.0, 0.0), pose(0.0, "fixed", 9.0, 0.0),
+                                      pose(2.0, "a", 2.0, 0.0)};
+  // Half way on the other, 0.3 m off; beyond its end; the height doesn't count.
+  EXPECT_NEAR(*position_rms({pose(1.0, "a", 1.3, 5.0), pose(3.0, "a", 7.0, 0.0)}, b), 0.3, 1e-12);
+  EXPECT_NEAR(*position_rms({pose(0.0, "a", 0.3, 0.0), pose(2.0, "a", 2.4, 0.0)}, b),
+              std::sqrt((0.09 + 0.16) / 2.0), 1e-12);
+  EXPECT_FALSE(position_rms({pose(0.0, "fixed", 0.0, 0.0), pose(0.0, "other", 0.0, 0.0)}, b));
 }
 
 TEST(Count, GoesOverAllSeeds) {

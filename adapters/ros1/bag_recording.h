@@ -1,0 +1,57 @@
+/// @file
+/// A recording out of a rosbag (ROS 1), read without a master.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/tag_read.h"
+#include "tagfield/report/truth.h"
+
+namespace tagfield {
+
+struct BagOptions {
+  /// Frames that antennas may be believed to stand in: the first that can express them.
+  std::vector<std::string> frames = {"map", "world", "odom"};
+  /// Carrier of reads that don't say theirs (rfid_sensor/TagArray) [Hz].
+  std::optional<double> frequency_hz;
+  std::function<void(double share)> on_progress;  ///< Called with 0 … 1, or empty.
+};
+
+/// Where an antenna stood, by what the robot believed or was told.
+struct PoseSet {
+  std::string source;              ///< "odometry" or "tf", or "given" with the reads.
+  std::string frame;               ///< That `poses` are in.
+  std::vector<AntennaPose> poses;  ///< By stamp; of one that never moves one row. May be empty.
+};
+
+struct BagRecording {
+  std::vector<TagRead> reads;  ///< By stamp, each once.
+  PoseSet believed;            ///< At the stamps of all updates of an antenna that have one.
+  /// Empty where the bag tells none. A tag at rest has one row, a moving one a row each change.
+  Truth truth;
+  std::string truth_frame;  ///< That the truth is in; "" where there is none.
+  double duration_s = 0.0;  ///< From the first stamp of reads, poses and truth to the last.
+};
+
+/// Whether a file is meant to be a bag: by its name (….bag, ….bag.active) or how it begins.
+bool is_bag(const std::string& path);
+
+/// Reads a bag by the types of its messages, whatever the topics' names:
+/// - tagfield_msgs/TagReads: reads. Where there is no such topic, rfid_sensor/TagArray: then the
+///   second last name of the topic (…/SENSOR/data) names the antenna, and the pose comes along;
+/// - tagfield_msgs/AntennaTruth and TagPositions: the truth, and nav_msgs/Odometry on topics that
+///   end in ground_truth/odom that of robots;
+/// - tf2_msgs/TFMessage on topics that end in tf or tf_static: what was believed, interpolated by
+///   tf2 at the header stamps of reads and updates. An antenna that tf doesn't know but that never
+///   moved has its true pose, as one that was measured by hand, if that is in the same frame.
+/// All stamps are those of headers, to the nanosecond. After a reset of time only the last part
+/// counts, with a warning. Throws Error with one line on a file that is no whole bag, has neither
+/// kind of reads, or holds messages of other versions, cut short, or with absurd numbers.
+BagRecording read_bag(const std::string& path, const BagOptions& options, Diagnostics& diagnostics);
+
+}  // namespace tagfield

@@ -1,0 +1,188 @@
+#include "adapters/ros1/bag_sweep.h"
+
+#include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "adapters/ros1/bag_messages.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kAssumedFrequency = 865.7e6;  ///< [Hz] The paper's.
+
+/// Opening, reading and the complaints of both.
+template <typename Work>
+BagContent with_bag_errors(const std::string& path, const Work& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const rosbag::BagUnindexedException&) {
+    fail({path, 0}, fmt::format("has no index, as a recording that was cut off: 'rosbag reindex "
+                                "{}' makes one",
+                                path));
+  } catch (const rosbag::BagException& error) {
+    fail({path, 0}, fmt::format("is torn, or no bag that can be read ({}); 'rosbag reindex' may "
+                                "save what is whole",
+                                error.what()));
+  } catch (const std::exception& error) {
+    fail({path, 0}, fmt::format("can't be read as a rosbag: {}", error.what()));
+  }
+}
+
+enum class Kind { kReads, kAntennaTruth, kTagPositions, kRobot, kTransforms, kArray };
+
+/// What a connection is for, by its type and, where others use that as well, its topic.
+std::optional<Kind> kind_of(const rosbag::ConnectionInfo& connection) {
+  const std::string& type = connection.datatype;
+  const std::string& topic = connection.topic;
+  if (type == "tagfield_msgs/TagReads") return Kind::kReads;
+  if (type == "tagfield_msgs/AntennaTruth") return Kind::kAntennaTruth;
+  if (type == "tagfield_msgs/TagPositions") return Kind::kTagPositions;
+  if (type == "rfid_sensor/TagArray") return Kind::kArray;
+  if (type == "nav_msgs/Odometry") {
+    const std::string end = "ground_truth/odom";
+    const bool fits = topic.size() >= end.size() &&
+                      topic.compare(topic.size() - end.size(), end.size(), end) == 0;
+    return fits ? std::optional(Kind::kRobot) : std::nullopt;
+  }
+  const std::string name = last_name(topic);
+  const bool of_tf = type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
+  if (of_tf && (name == "tf" || name == "tf_static")) return Kind::kTransforms;
+  return std::nullopt;
+}
+
+const char* md5_of(Kind kind) {
+  using ros::message_traits::md5sum;
+  switch (kind) {
+    case Kind::kReads:
+      return md5sum<tagfield_msgs::TagReads>();
+    case Kind::kAntennaTruth:
+      return md5sum<tagfield_msgs::AntennaTruth>();
+    case Kind::kTagPositions:
+      return md5sum<tagfield_msgs::TagPositions>();
+    case Kind::kRobot:
+      return md5sum<nav_msgs::Odometry>();
+    case Kind::kTransforms:
+      return md5sum<tf2_msgs::TFMessage>();
+    case Kind::kArray:
+      break;
+  }
+  return md5sum<rfid_sensor::TagArray>();
+}
+
+/// The bytes of one message.
+void read_bytes(const rosbag::MessageInstance& instance, std::vector<std::uint8_t>& bytes) {
+  bytes.resize(instance.size());
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  instance.write(stream);
+}
+
+/// Goes through a bag once.
+class Sweep {
+ public:
+  Sweep(const std::string& path, std::optional<double> frequency_hz, Diagnostics& diagnostics)
+      : path_(path), frequency_hz_(frequency_hz), diagnostics_(diagnostics), bag_(path) {}
+
+  BagContent content(const std::function<void(double)>& on_progress) {
+    choose_kinds();
+    rosbag::View view(bag_, [this](const rosbag::ConnectionInfo* connection) {
+      return kinds_.count(connection->id) > 0;
+    });
+    const double size = view.size();
+    double done = 0.0;
+    for (const rosbag::MessageInstance& instance : view) {
+      take_message(instance);
+      if (on_progress) on_progress(++done / size);
+    }
+    return std::move(content_);
+  }
+
+ private:
+  void choose_kinds() {
+    rosbag::View all(bag_);
+    const std::vector<const rosbag::ConnectionInfo*> connections = all.getConnections();
+    std::set<Kind> present;
+    for (const rosbag::ConnectionInfo* connection : connections) {
+      if (const auto kind = kind_of(*connection)) present.insert(*kind);
+    }
+    const bool has_reads = present.count(Kind::kReads) > 0;
+    if (!has_reads && present.count(Kind::kArray) == 0) {
+      fail({path_, 0},
+           "has no reads: no topic of type tagfield_msgs/TagReads or "
+           "rfid_sensor/TagArray");
+    }
+    for (const rosbag::ConnectionInfo* connection : connections) {
+      const auto kind = kind_of(*connection);
+      if (!kind || (has_reads && *kind == Kind::kArray)) continue;
+      require_version(*connection, *kind);
+      kinds_[connection->id] = *kind;
+      of_topic_[connection->topic] = *kind;
+    }
+    if (!has_reads && !frequency_hz_) {
+      diagnostics_.warn({path_, 0}, fmt::format("rfid_sensor/TagArray tells no frequency: {:g} MHz "
+                                                "is assumed (--frequency)",
+                                                kAssumedFrequency * 1e-6));
+    }
+  }
+
+  void require_version(const rosbag::ConnectionInfo& connection, Kind kind) const {
+    if (connection.md5sum == md5_of(kind)) return;
+    fail({path_, 0},
+         fmt::format("topic {} is of another version of {}: its MD5 sum is '{}', "
+                     "expected {}",
+                     connection.topic, connection.datatype, connection.md5sum, md5_of(kind)));
+  }
+
+  void take_message(const rosbag::MessageInstance& instance) {
+    const std::string& topic = instance.getTopic();
+    const MessagePlace place = {path_, topic, ++numbers_[topic]};
+    read_bytes(instance, bytes_);
+    switch (of_topic_.at(topic)) {
+      case Kind::kReads:
+        return take_as<tagfield_msgs::TagReads>(place);
+      case Kind::kAntennaTruth:
+        return take_as<tagfield_msgs::AntennaTruth>(place);
+      case Kind::kTagPositions:
+        return take_as<tagfield_msgs::TagPositions>(place);
+      case Kind::kRobot:
+        return take_as<nav_msgs::Odometry>(place);
+      case Kind::kTransforms:
+        return take_as<tf2_msgs::TFMessage>(place);
+      case Kind::kArray:
+        take(decode<rfid_sensor::TagArray>(bytes_, place), place,
+             frequency_hz_.value_or(kAssumedFrequency), content_, diagnostics_);
+    }
+  }
+
+  template <typename Message>
+  void take_as(const MessagePlace& place) {
+    take(decode<Message>(bytes_, place), place, content_, diagnostics_);
+  }
+
+  const std::string& path_;
+  std::optional<double> frequency_hz_;
+  Diagnostics& diagnostics_;
+  rosbag::Bag bag_;
+  std::map<std::uint32_t, Kind> kinds_;  ///< By connection.
+  std::map<std::string, Kind> of_topic_;
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<std::uint8_t> bytes_;
+  BagContent content_;
+};
+
+}  // namespace
+
+BagContent sweep_bag(const std::string& path, std::optional<double> frequency_hz,
+                     const std::function<void(double share)>& on_progress,
+                     Diagnostics& diagnostics) {
+  return with_bag_errors(
+      path, [&] { return Sweep(path, frequency_hz, diagnostics).content(on_progress); });
+}
+
+}  // namespace tagfield

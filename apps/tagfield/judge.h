@@ -1,0 +1,24 @@
+/// @file
+/// Estimates of a recording beside what is known of the truth.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/tag_estimate.h"
+#include "tagfield/report/summary.h"
+#include "tagfield/report/truth.h"
+
+namespace tagfield {
+
+/// The estimates with one for each tag of `order` or of the truth that was never read: first those
+/// of `order`, then the others; in natural order where `order` is empty and there is a truth.
+std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const Truth& truth,
+                                       const std::vector<std::string>& order);
+
+/// An outcome for each estimate. A tag that moved by over 5 mm has no one true place; of others
+/// the last counts, as physics lets them settle.
+std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
+                               const std::vector<TagRead>& reads, const Truth& truth);
+
+}  // namespace tagfield

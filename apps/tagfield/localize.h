@@ -1,0 +1,33 @@
+/// @file
+/// From a recording to a run's folder and its page, for `localize` and for `report` of a bag.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/tagfield/command_line.h"
+#include "tagfield/localization/locate.h"
+
+namespace tagfield {
+
+struct LocalizeArguments {
+  std::string recording;  ///< Reads as CSV, or a bag.
+  std::string poses;      ///< Of CSV reads a file; of a bag one of the words in kPoseWords, or "".
+  std::string method = "hyperbola";
+  std::string out;       ///< "" for the default.
+  std::string scenario;  ///< File, or "".
+  std::string frame;     ///< Of a bag's transforms, or "".
+  std::optional<double> frequency_hz;
+  std::string heights_file;  ///< CSV, or "".
+  std::optional<double> tag_height_m;
+  std::optional<double> stride_m;
+  int threads = default_threads();
+};
+
+/// What `--poses` may say of a bag.
+inline constexpr const char* kPoseWords = "auto, true, tf or odometry";
+
+/// Locates the tags, writes the folder, draws the page, prints the table; returns the exit code.
+int localize(const LocalizeArguments& arguments);
+
+}  // namespace tagfield

@@ -1,0 +1,237 @@
+"""`tagfield localize` and `report` of a rosbag: the same as of the tables that the bag was made from,
+and one clear line for a bag that is no good."""
+
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+# pylint: disable=wrong-import-position
+import bags
+from bags import RunBag, message_types, require_rosbag, write_bag
+from common import (case, check, check_between, check_equal, check_in, check_near, files_in, main,
+                    position, read_csv, read_json)
+
+TABLES = ["reads.csv", "truth/antenna_poses.csv", "truth/tags.csv", "truth/distances.csv"]
+
+
+def odometry_run(context, scenario="paper_warehouse", **options):
+    """A run whose robot believes its wheels, and the bag of it."""
+    require_rosbag()
+    folder = context.simulate(scenario, "--no-page", "--set", "pose.source=odometry")
+    bag = RunBag(context.source, folder)
+    return folder, write_bag(context.folder / "run.bag", bag.messages(**options))
+
+
+@case
+def a_bag_gives_what_its_tables_give(context):
+    folder, bag = odometry_run(context)
+    result = context.run_well("localize", bag, "--scenario", context.shipped("paper_warehouse"),
+                              "--out", "bag")
+    out = context.folder / "bag"
+    for name in TABLES:
+        check_equal((out / name).read_bytes(), (folder / name).read_bytes(), name)
+    context.run_well("localize", folder / "reads.csv", "--poses",
+                     folder / "truth/antenna_poses.csv", "--tag-heights",
+                     folder / "tag_heights.csv", "--out", "tables")
+    check_equal(sorted(map(tuple, map(dict.items, read_csv(out / "estimates.csv")))),
+                sorted(map(tuple, map(dict.items,
+                                      read_csv(context.folder / "tables/estimates.csv")))),
+                "the estimates")
+    summary = read_json(out / "summary.json")
+    run = read_json(folder / "summary.json")
+    check_equal(summary["pose"], "true", "pose")
+    check_equal([tag["id"] for tag in summary["tags"]], [tag["id"] for tag in run["tags"]],
+                "the order of tags")
+    check_near(summary["error_m"]["mean"], run["pose_error"]["error_with_true_pose_m"]["mean"],
+               1e-4, "the mean error with the true pose")
+    check_between(summary["error_m"]["max"], 0.0, 0.3, "the greatest error")
+    # Beside it, the same reads with the wheels' poses, as the run itself had them.
+    compared = summary["compared_pose"]
+    check_equal(compared["pose"], "odometry", "compared_pose.pose")
+    check_equal(compared["located"], run["located"], "compared_pose.located")
+    check_near(compared["position_rms_m"], run["pose_error"]["position_rms_m"], 1e-6,
+               "compared_pose.position_rms_m")
+    check_near(compared["error_m"]["mean"], run["error_m"]["mean"], 1e-4,
+               "compared_pose.error_m.mean")
+    check_near(summary["path_length_m"], run["path_length_m"], 0.1, "path_length_m")
+    check_near(summary["simulated_s"], run["simulated_s"], 0.2, "simulated_s")
+    check_in("pose: true; with odometry, ", result.out, "the table")
+    page = (out / "report.html").read_text(encoding="utf-8")
+    check_in("The same reads with other antenna poses, wheel odometry", page, "the page")
+    check_in("as the robot believed", page, "the page")
+    check((out / "top_view.json").exists(), "the scenario's world is not there")
+
+
+@case
+def poses_can_be_chosen(context):
+    folder, bag = odometry_run(context)
+    heights = ["--tag-heights", folder / "tag_heights.csv"]
+    for words, pose, other in ((["tf"], "odometry", "true"), (["odometry"], "odometry", "true"),
+                               (["true"], "true", "odometry"),
+                               (["tf", "--frame", "odom"], "odometry", "true")):
+        context.run_well("localize", bag, "--poses", *words, *heights, "--out", "out_poses")
+        summary = read_json(context.folder / "out_poses/summary.json")
+        check_equal(summary["pose"], pose, f"{words}: pose")
+        check_equal(summary["compared_pose"]["pose"], other, f"{words}: the other")
+        warned = any("they are taken to be the same" in line for line in summary["warnings"])
+        check_equal(warned, "--frame" in words, f"{words}: warned of different frames")
+    run = read_json(folder / "summary.json")
+    context.run_well("localize", bag, "--poses", "tf", *heights, "--out", "tf")
+    check_equal(read_json(context.folder / "tf/summary.json")["error_m"]["count"],
+                run["error_m"]["count"], "located with odometry")
+
+
+@case
+def truth_judges_and_does_not_help(context):
+    folder, bag = odometry_run(context, "two_antennas")
+    write_bag(context.folder / "blind.bag",
+              RunBag(context.source, folder).messages(truth=False))
+    heights = ["--tag-heights", folder / "tag_heights.csv"]
+    context.run_well("localize", bag, "--poses", "tf", *heights, "--out", "seeing")
+    context.run_well("localize", "blind.bag", *heights, "--out", "blind")
+    seeing, blind = context.folder / "seeing", context.folder / "blind"
+    check_equal({row["tag"]: row["x_m"] for row in read_csv(seeing / "estimates.csv")},
+                {row["tag"]: row["x_m"] for row in read_csv(blind / "estimates.csv")},
+                "the estimates")
+    check(not (blind / "truth").exists(), "a truth was made up")
+    summary = read_json(blind / "summary.json")
+    check_equal((summary["pose"], summary["compared_pose"], summary["error_m"]),
+                ("odometry", None, None), "pose, compared_pose, error_m")
+
+
+@case
+def report_draws_a_page_from_a_bag(context):
+    _, bag = odometry_run(context, "two_antennas")
+    result = context.run_well("report", bag)
+    check_in("page: runs/run/report.html", result.out, "what is printed")
+    context.run_well("localize", bag, "--out", "localized")
+    check_equal(files_in(context.folder / "runs/run"), files_in(context.folder / "localized"),
+                "report's folder")
+    context.run_well("report", bag, "--out", "elsewhere")
+    check((context.folder / "elsewhere/report.html").exists(), "no page in --out")
+    context.run_well("report", context.folder / "elsewhere")
+    result = context.run("report", context.folder / "elsewhere", "--out", "x")
+    check_equal(result.code, 2, "exit code of report FOLDER --out")
+
+
+@case
+def moving_tags_have_no_one_place(context):
+    folder, bag = odometry_run(context, "moving_tags")
+    context.run_well("localize", bag, "--scenario", context.shipped("moving_tags"), "--out", "bag")
+    moved = [{tag["id"]: tag["moved"] for tag in read_json(where / "summary.json")["tags"]}
+             for where in (context.folder / "bag", folder)]
+    check_equal(moved[0], moved[1], "which tags moved")
+    # A run has a row for each update, a bag's folder one for each change.
+    last = {}
+    changes = []
+    for row in read_csv(folder / "truth/tags.csv"):
+        if last.get(row["tag"]) != position(row):
+            last[row["tag"]] = position(row)
+            changes.append(row)
+    check(read_csv(context.folder / "bag/truth/tags.csv") == changes,
+          "truth/tags.csv does not hold the changes of place")
+
+
+@case
+def the_published_plugins_bag_is_read(context):
+    folder, _ = odometry_run(context)
+    types = message_types(context.source)
+    distances = {(row["stamp_s"], row["tag"]): float(row["distance_m"])
+                 for row in read_csv(folder / "truth/distances.csv")}
+    reads = {}
+    for row in read_csv(folder / "reads.csv"):
+        reads.setdefault(row["stamp_s"], []).append(row)
+    messages = []
+    for row in read_csv(folder / "truth/antenna_poses.csv"):
+        stamp = bags.time_of(row["stamp_s"])
+        tags = [types["rfid_sensor/Tag"](read["tag"], distances[(row["stamp_s"], read["tag"])],
+                                         float(read["phase_rad"]), float(read["rssi_dbm"]))
+                for read in reads.get(row["stamp_s"], [])]
+        messages.append(("/gazebo/mobile/data", stamp, types["rfid_sensor/TagArray"](
+            bags.Header(0, stamp, "world"), bags.pose_of(row), len(tags), tags)))
+    write_bag(context.folder / "published.bag", messages)
+    result = context.run_well("localize", "published.bag", "--tag-heights",
+                              folder / "tag_heights.csv", "--out", "published")
+    check_in("865.7 MHz is assumed", result.err, "the warnings")
+    run = read_json(folder / "summary.json")
+    check_equal(read_json(context.folder / "published/summary.json")["located"],
+                run["pose_error"]["error_with_true_pose_m"]["count"], "located")
+    check_equal(context.run("localize", "published.bag", "--frequency", "865.7e6", "--out",
+                            "published").err, "", "warnings where the frequency is given")
+
+
+def expect_complaint(context, arguments, *parts):
+    """Exit code 2, one line with all `parts`, and nothing left behind."""
+    before = files_in(context.folder)
+    result = context.run(*arguments, "--out", context.folder / "never")
+    check_equal(result.code, 2, f"{arguments}: exit code")
+    lines = result.err.strip().split("\n")
+    check_equal(len(lines), 1, f"{arguments}: lines of {result.err!r}")
+    for part in ("tagfield: ", *parts):
+        check_in(part, lines[0], f"{arguments}: the complaint")
+    check_equal(files_in(context.folder), before, f"{arguments}: the folder")
+
+
+@case
+def bad_bags_get_one_line(context):
+    folder, bag = odometry_run(context, "two_antennas")
+    whole = bag.read_bytes()
+    types = message_types(context.source)
+    context.write("empty.bag", b"")
+    context.write("text.bag", "stamp_s,antenna\n")
+    (context.folder / "folder.bag").mkdir()
+    for share in (0.001, 0.3, 0.9, 0.999):
+        context.write(f"torn{share}.bag", whole[:int(share * len(whole))])
+    write_bag(context.folder / "nothing.bag", [])
+    nan = types["tagfield_msgs/TagReads"](bags.Header(0, bags.genpy.Time(1, 0), "a"), "a", [
+        types["tagfield_msgs/TagRead"](bags.Header(0, bags.genpy.Time(1, 0), "a"), "t", "", "a",
+                                       865.7e6, float("nan"), -50.0)])
+    write_bag(context.folder / "nan.bag", [("/rfid/reads", bags.genpy.Time(1, 0), nan)])
+    poseless = RunBag(context.source, folder).messages(truth=False, belief=False)
+    write_bag(context.folder / "poseless.bag", poseless)
+    # A recording that was cut off: what rosbag leaves before it writes the index.
+    unindexed = bytearray(whole)
+    place = unindexed.index(b"index_pos=") + len(b"index_pos=")
+    unindexed[place:place + 8] = bytes(8)
+    context.write("unindexed.bag", bytes(unindexed))
+    for command in ("localize", "report"):
+        expect_complaint(context, [command, "none.bag"], "none.bag: no such file")
+        expect_complaint(context, [command, "empty.bag"], "empty.bag: is empty")
+        expect_complaint(context, [command, "text.bag"], "is no rosbag")
+        expect_complaint(context, [command, "folder.bag"], "is a folder")
+        expect_complaint(context, [command, "nothing.bag"], "has no reads")
+        expect_complaint(context, [command, "unindexed.bag"], "rosbag reindex")
+        expect_complaint(context, [command, "nan.bag"],
+                         "nan.bag: topic /rfid/reads, message 1: reads[0].phase is nan")
+        expect_complaint(context, [command, "poseless.bag"], "has no poses of the antennas")
+        for share in (0.001, 0.3, 0.9, 0.999):
+            expect_complaint(context, [command, f"torn{share}.bag"], f"torn{share}.bag: is torn")
+
+
+@case
+def bad_options_get_one_line(context):
+    folder, bag = odometry_run(context, "two_antennas", truth=False)
+    expect_complaint(context, ["localize", bag, "--poses", "poses.csv"], "auto, true, tf or odom")
+    expect_complaint(context, ["localize", bag, "--poses", "true"], "has no true antenna poses")
+    expect_complaint(context, ["localize", bag, "--frame", "moon"], "from 'moon'")
+    expect_complaint(context, ["localize", bag, "--frequency", "0"], "--frequency")
+    expect_complaint(context, ["localize", bag, "--scenario", "none.yaml"], "none.yaml")
+    expect_complaint(context, ["localize", folder / "reads.csv"], "--poses")
+    expect_complaint(context, ["localize", folder / "reads.csv", "--poses",
+                               folder / "antenna_poses.csv", "--frame", "map"], "--frame")
+
+
+@case
+def nothing_of_an_earlier_run_stays(context):
+    folder, bag = odometry_run(context, "two_antennas")
+    context.run_well("localize", bag, "--scenario", context.shipped("two_antennas"), "--out", "o")
+    write_bag(context.folder / "blind.bag",
+              RunBag(context.source, folder).messages(truth=False))
+    context.run_well("localize", "blind.bag", "--out", "o")
+    left = {name.split("/")[0] for name in files_in(context.folder / "o")}
+    check_equal(left, {"reads.csv", "antenna_poses.csv", "estimates.csv", "summary.json",
+                       "report.html", "figures"}, "what is in the folder")
+
+
+if __name__ == "__main__":
+    main()
