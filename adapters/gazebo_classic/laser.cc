@@ -4,6 +4,8 @@
 #include <gazebo/sensors/sensors.hh>
 #include <limits>
 
+#include "adapters/gazebo_classic/conversions.h"
+
 namespace tagfield {
 namespace {
 
@@ -39,11 +41,7 @@ Laser::Laser(gazebo::sensors::RaySensorPtr sensor)
   sensor_->SetActive(false);
 }
 
-RigidTransform Laser::X_BL() const {
-  const ignition::math::Pose3d pose = sensor_->Pose();
-  const auto& q = pose.Rot();
-  return {Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()), {pose.X(), pose.Y(), pose.Z()}};
-}
+RigidTransform Laser::X_BL() const { return from_gazebo(sensor_->Pose()); }
 
 std::optional<LaserReading> Laser::read(Time before, Time now) {
   if (!is_due(before, now, interval_)) return std::nullopt;

@@ -1,6 +1,6 @@
 # The robot and the lift.
 add_library(tagfield_gazebo_robot STATIC
-  laser.cc lift_drive.cc plugin_elements.cc robot_parameters.cc skid_steer.cc)
+  laser.cc lift_drive.cc plugin_elements.cc skid_steer.cc)
 set_target_properties(tagfield_gazebo_robot PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(tagfield_gazebo_robot SYSTEM PUBLIC ${GAZEBO_INCLUDE_DIRS})
 target_link_directories(tagfield_gazebo_robot PUBLIC ${GAZEBO_LIBRARY_DIRS})

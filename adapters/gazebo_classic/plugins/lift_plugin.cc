@@ -1,5 +1,5 @@
 // libTagfieldLiftPlugin.so: drives a prismatic joint up and down, or to a height it is told.
-// Parameters: adapters/gazebo_classic/robot_parameters.h.
+// Parameters: tagfield/motion/robot_parameters.h.
 #include <atomic>
 #include <gazebo/common/Console.hh>
 #include <gazebo/common/Events.hh>
@@ -8,22 +8,19 @@
 #include <memory>
 #include <optional>
 
+#include "adapters/gazebo_classic/conversions.h"
 #include "adapters/gazebo_classic/laser.h"
 #include "adapters/gazebo_classic/lift_drive.h"
 #include "adapters/gazebo_classic/plugin_elements.h"
-#include "adapters/gazebo_classic/robot_parameters.h"
 #include "adapters/gazebo_classic/skid_steer.h"
 #include "adapters/ros1/robot_publisher.h"
 #include "adapters/ros1/ros_link.h"
+#include "tagfield/motion/robot_parameters.h"
 
 namespace tagfield {
 namespace {
 
 constexpr const char* kFile = "libTagfieldLiftPlugin.so";
-
-Time time_of(const gazebo::common::Time& time) {
-  return Time(std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec));
-}
 
 /// What begins anew with each start of the world.
 struct Run {
@@ -60,7 +57,7 @@ class LiftOfModel {
   /// To be called at its end.
   void end_step() {
     if (!run_) return;
-    const Time now = time_of(world_->SimTime());
+    const Time now = from_gazebo(world_->SimTime());
     ros_->advance_clock(now);
     if (is_due(run_->last, now, interval_)) {
       publisher_.publish(now, drive_.position(), drive_.speed());
@@ -107,7 +104,7 @@ class LiftPlugin final : public gazebo::ModelPlugin {
       lift_ = std::make_unique<LiftOfModel>(model, parameters, place);
       begin_ = gazebo::event::Events::ConnectWorldUpdateBegin(
           [this](const gazebo::common::UpdateInfo& info) {
-            lift_->begin_step(time_of(info.simTime));
+            lift_->begin_step(from_gazebo(info.simTime));
           });
       end_ = gazebo::event::Events::ConnectWorldUpdateEnd([this] { lift_->end_step(); });
     } catch (const Error& error) {

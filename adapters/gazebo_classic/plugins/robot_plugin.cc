@@ -1,5 +1,5 @@
 // libTagfieldRobotPlugin.so: drives a skid-steered robot by cmd_vel or along waypoints, and tells
-// its odometry, laser and frames. Parameters: adapters/gazebo_classic/robot_parameters.h.
+// its odometry, laser and frames. Parameters: tagfield/motion/robot_parameters.h.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -10,12 +10,13 @@
 #include <memory>
 #include <optional>
 
+#include "adapters/gazebo_classic/conversions.h"
 #include "adapters/gazebo_classic/laser.h"
 #include "adapters/gazebo_classic/plugin_elements.h"
-#include "adapters/gazebo_classic/robot_parameters.h"
 #include "adapters/gazebo_classic/skid_steer.h"
 #include "adapters/ros1/robot_publisher.h"
 #include "adapters/ros1/ros_link.h"
+#include "tagfield/motion/robot_parameters.h"
 
 namespace tagfield {
 namespace {
@@ -24,17 +25,8 @@ constexpr const char* kFile = "libTagfieldRobotPlugin.so";
 
 Eigen::Vector3d eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
 
-RigidTransform transform(const ignition::math::Pose3d& pose) {
-  const ignition::math::Quaterniond& q = pose.Rot();
-  return {Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()), eigen(pose.Pos())};
-}
-
 PlanarPose planar(const RigidTransform& X) {
   return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
-}
-
-Time time_of(const gazebo::common::Time& time) {
-  return Time(std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec));
 }
 
 RobotNames names_of(const RobotParameters& parameters) {
@@ -85,7 +77,7 @@ class Robot {
 
   /// To be called at the end of each step of the world.
   void step() {
-    const Time now = time_of(world_->SimTime());
+    const Time now = from_gazebo(world_->SimTime());
     if (restart_.exchange(false) || !run_ || now < run_->last) start(now);
     ros_->advance_clock(now);
     run_->odometry.update(wheels_.angles());
@@ -114,7 +106,7 @@ class Robot {
   }
 
   void start(Time now) {
-    const RigidTransform X_WB = transform(base_->WorldPose());
+    const RigidTransform X_WB = from_gazebo(base_->WorldPose());
     const PlanarPose pose = planar(X_WB);
     RigidTransform X_WO = to_transform(pose);
     X_WO.translation.z() = X_WB.translation.z();
@@ -164,7 +156,7 @@ class Robot {
                                       velocity_variance(velocity, seconds)});
     run_->reported = now;
     run_->reported_travel = odometry.travel();
-    publisher_.publish(MotionReport{now, transform(base_->WorldPose()),
+    publisher_.publish(MotionReport{now, from_gazebo(base_->WorldPose()),
                                     eigen(base_->RelativeLinearVel()),
                                     eigen(base_->RelativeAngularVel())});
   }
@@ -188,7 +180,7 @@ class Robot {
         warned_ = true;
       }
     }
-    const PlanarPose pose = planar(transform(base_->WorldPose()));
+    const PlanarPose pose = planar(from_gazebo(base_->WorldPose()));
     wheels_.drive(run_->driver.next(pose, now));
     if (run_->driver.finished() != run_->finished) {
       run_->finished = run_->driver.finished();

@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/robot_parameters.h"
+#include "tagfield/motion/robot_parameters.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +13,9 @@
 namespace tagfield {
 namespace {
 
+constexpr double kLeastRate = 1e-6;  // [Hz]
+constexpr double kMostRate = 1e6;    // [Hz]
+
 /// Looks parameters up, and notes which names there are.
 class Reader {
  public:
@@ -24,6 +27,15 @@ class Reader {
 
   void number(const char* key, double& value) {
     if (const RawParameter* const given = find(key)) value = number_in(*given);
+  }
+
+  /// A rate [Hz] > 0 of which a clock of nanoseconds can keep the interval.
+  void rate(const char* key, double& value) {
+    const RawParameter* const given = find(key);
+    if (given == nullptr) return;
+    const double number = number_in(*given);
+    if (!(number >= kLeastRate && number <= kMostRate)) wrong(*given, "a rate [Hz], 1e-6 to 1e6");
+    value = number;
   }
 
   /// A number > 0.
@@ -122,7 +134,7 @@ void read_driving(Reader& reader, RobotParameters& robot) {
   reader.positive("cmd_timeout", timeout);
   robot.driver.command_timeout = duration_from_seconds(timeout);
   double steering_rate = 1.0 / to_seconds(robot.driver.steering_interval);
-  reader.positive("steering_rate", steering_rate);
+  reader.rate("steering_rate", steering_rate);
   robot.driver.steering_interval = duration_from_seconds(1.0 / steering_rate);
   reader.points("waypoint", robot.waypoints);
   reader.positive("speed", robot.style.speed_m_s);
@@ -131,7 +143,7 @@ void read_driving(Reader& reader, RobotParameters& robot) {
 }
 
 void read_odometry(Reader& reader, RobotParameters& robot) {
-  reader.positive("odometry_rate", robot.odometry_rate_hz);
+  reader.rate("odometry_rate", robot.odometry_rate_hz);
   robot.odometry.drive = robot.drive;
   robot.odometry.wheel_noise = 0.002;
   reader.positive("odometry_track", robot.odometry.drive.track_m);
@@ -175,14 +187,14 @@ LiftParameters lift_from(const std::vector<RawParameter>& parameters, Diagnostic
   reader.number("lower", lift.lower_m);
   reader.number("upper", upper);
   reader.positive("force", lift.force_n);
-  reader.positive("joint_states_rate", lift.joint_states_rate_hz);
+  reader.rate("joint_states_rate", lift.joint_states_rate_hz);
   reader.text("topic", lift.topic);
   reader.text("robotNamespace", lift.name_space);
   reader.warn_of_unknown(diagnostics);
   if (lift.joint.empty()) throw Error("<joint> is missing, expected the name of a prismatic joint");
   if (!(upper > lift.lower_m)) {
     throw Error(
-        fmt::format("<upper> is {:g}, expected a number over <lower>, {:g}", upper, lift.lower_m));
+        fmt::format("<upper> is '{:g}', expected a number over <lower>, {:g}", upper, lift.lower_m));
   }
   lift.lift.travel_m = upper - lift.lower_m;
   return lift;
