@@ -18,6 +18,9 @@ std::pair<double, double> band_of(const Scenario& scenario) {
   }
   for (const AntennaSpec& antenna : scenario.antennas) {
     highest = std::max(highest, antenna.X_PA.translation.z() + antenna.lift.travel_m);
+    for (const StampedPose& pose : antenna.recorded) {
+      highest = std::max(highest, pose.X_WB.translation.z());
+    }
   }
   return {0.1, highest + 0.5};
 }
