@@ -32,6 +32,7 @@ std::map<std::string, Places> places_of(const Truth& truth) {
 std::vector<std::string> all_tags(const std::vector<TagEstimate>& estimates, const Truth& truth,
                                   const std::vector<std::string>& order) {
   std::vector<std::string> others;
+  others.reserve(estimates.size() + truth.tag_positions.size() + order.size());
   for (const TagEstimate& estimate : estimates) others.push_back(estimate.tag);
   for (const TagPosition& position : truth.tag_positions) others.push_back(position.tag);
   if (!truth.tag_positions.empty()) std::stable_sort(others.begin(), others.end(), natural_less);
