@@ -10,7 +10,7 @@ function(tagfield_ros_messages target)
     PATHS /usr/share /opt/ros/noetic/share REQUIRED)
   find_path(TAGFIELD_GENCPP_TEMPLATES msg.h.template
     PATHS /usr/share/gencpp /opt/ros/noetic/share/gencpp REQUIRED)
-  set(include_dir ${PROJECT_BINARY_DIR}/ros_messages)
+  set(include_dir ${PROJECT_BINARY_DIR}/ros_messages/${target})
   set(headers "")
   foreach(package_dir IN LISTS ARGN)
     get_filename_component(package ${package_dir} NAME)

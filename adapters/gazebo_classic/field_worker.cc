@@ -31,9 +31,9 @@ void FieldWorker::post(FieldStep step) {
   changed_.notify_all();
 }
 
-double FieldWorker::busy_s() const {
+WorkDone FieldWorker::done() const {
   const std::lock_guard lock(mutex_);
-  return busy_s_;
+  return done_;
 }
 
 void FieldWorker::work() {
@@ -61,7 +61,8 @@ void FieldWorker::take(const FieldStep& step) {
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const std::lock_guard lock(mutex_);
-  busy_s_ += took.count();
+  done_.busy_s += took.count();
+  done_.reads = field_.reads();
 }
 
 }  // namespace tagfield

@@ -14,6 +14,12 @@
 
 namespace tagfield {
 
+/// What was done so far.
+struct WorkDone {
+  double busy_s = 0.0;  ///< Wall time.
+  std::int64_t reads = 0;
+};
+
 /// Takes a field's steps in order. Reads don't act back on physics, so they may come a little later
 /// in wall time; their stamps and values don't depend on it.
 class FieldWorker {
@@ -28,8 +34,7 @@ class FieldWorker {
   /// faster than its reads can be made is held back and loses none.
   void post(FieldStep step);
 
-  /// Wall time spent on all steps so far [s].
-  [[nodiscard]] double busy_s() const;
+  [[nodiscard]] WorkDone done() const;
 
  private:
   void work();
@@ -39,7 +44,7 @@ class FieldWorker {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<FieldStep> waiting_;
-  double busy_s_ = 0.0;
+  WorkDone done_;
   bool stop_ = false;
   std::thread thread_;
 };

@@ -110,7 +110,9 @@ void RfidWorld::remove_antenna(Handle handle) {
 FieldCost RfidWorld::cost() const {
   const std::lock_guard lock(mutex_);
   FieldCost cost = cost_;
-  cost.reads_s = worker_.busy_s();
+  const WorkDone done = worker_.done();
+  cost.reads_s = done.busy_s;
+  cost.reads = done.reads;
   return cost;
 }
 

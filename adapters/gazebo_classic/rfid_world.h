@@ -42,6 +42,7 @@ struct FieldCost {
   std::int64_t updates = 0;  ///< Of antennas.
   double physics_s = 0.0;    ///< Wall time that physics waited.
   double reads_s = 0.0;      ///< Wall time of the thread that makes and publishes the reads.
+  std::int64_t reads = 0;
 };
 
 /// One a world. At the end of each physics step it looks which antennas are due by simulated time,

@@ -74,8 +74,7 @@ std::string tag_id_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Li
   return fmt::format("{}::{}::{}", model_name, link.GetName(), sensor.Name());
 }
 
-std::string published_name_of(const gazebo::sensors::Sensor& sensor,
-                              gazebo::physics::Link& link) {
+std::string published_name_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link) {
   if (tags_on(link.GetSDF()).size() <= 1) return sensor.ParentName();
   return fmt::format("{}::{}", sensor.ParentName(), sensor.Name());
 }

@@ -27,7 +27,6 @@ std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
 std::string tag_id_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link);
 
 /// What the published plugin calls a tag: MODEL::LINK; with ::SENSOR where the link has several.
-std::string published_name_of(const gazebo::sensors::Sensor& sensor,
-                              gazebo::physics::Link& link);
+std::string published_name_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link);
 
 }  // namespace tagfield

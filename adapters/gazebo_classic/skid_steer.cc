@@ -20,14 +20,14 @@ void expect_ode(gazebo::physics::World& world) {
   if (type != "ode") throw Error(fmt::format("physics is '{}', expected ode", type));
 }
 
-WheelSide::WheelSide(gazebo::physics::Model& model, const std::vector<std::string>& joints,
-                     double torque_nm)
+WheelSide::WheelSide(gazebo::physics::Model& model, const char* key,
+                     const std::vector<std::string>& joints, double torque_nm)
     : torque_nm_(torque_nm) {
   for (const std::string& name : joints) {
     const gazebo::physics::JointPtr joint = model.GetJoint(name);
-    if (!joint) throw Error(fmt::format("there is no joint '{}' to drive", name));
+    if (!joint) throw Error(fmt::format("<{}> is '{}', which the model does not have", key, name));
     if (!joint->HasType(gazebo::physics::Base::HINGE_JOINT)) {
-      throw Error(fmt::format("joint '{}' is not revolute", name));
+      throw Error(fmt::format("<{}> is '{}', expected a revolute joint", key, name));
     }
     wheels_.push_back({joint, joint->Position(0)});
   }

@@ -14,8 +14,9 @@ namespace tagfield {
 /// The wheels of one side: they all turn at one speed, and their mean angle is the side's.
 class WheelSide {
  public:
-  /// Throws Error if a joint of these names is missing or is not revolute.
-  WheelSide(gazebo::physics::Model& model, const std::vector<std::string>& joints,
+  /// Throws Error if a joint of these names is missing or is not revolute, naming the parameter
+  /// `key` that they are from.
+  WheelSide(gazebo::physics::Model& model, const char* key, const std::vector<std::string>& joints,
             double torque_nm);
 
   /// To turn at `speed` [rad/s] from the next step on.

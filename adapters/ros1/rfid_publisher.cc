@@ -14,6 +14,11 @@
 namespace tagfield {
 namespace {
 
+/// A recorder may stand still for some seconds while a simulation runs many times as fast as real
+/// time.
+constexpr std::uint32_t kQueue = 10'000;
+constexpr Duration kLatchInterval = std::chrono::seconds(1);
+
 rfid_sensor::TagArray published_message(const AntennaUpdate& update) {
   rfid_sensor::TagArray message;
   message.header.stamp = to_ros(update.stamp);
@@ -96,13 +101,14 @@ std::string ros_name(const std::string& text) {
 /// Of one name space.
 struct RfidPublisher::Topics {
   Topics(RosLink& link, const std::string& name_space)
-      : reads(link.advertise<tagfield_msgs::TagReads>({name_space, "rfid/reads"})),
-        antennas(link.advertise<tagfield_msgs::AntennaTruth>({name_space, "rfid/truth/antennas"})),
+      : reads(link.advertise<tagfield_msgs::TagReads>({name_space, "rfid/reads", kQueue})),
+        antennas(link.advertise<tagfield_msgs::AntennaTruth>(
+            {name_space, "rfid/truth/antennas", kQueue})),
         tags(link.advertise<tagfield_msgs::TagPositions>(
-            {name_space, "rfid/truth/tags", 1000, true})),
-        tags_moved(
-            link.advertise<tagfield_msgs::TagPositions>({name_space, "rfid/truth/tags_moved"})),
-        tf(link.advertise<tf2_msgs::TFMessage>({name_space, "/tf"})) {}
+            {name_space, "rfid/truth/tags", kQueue, true})),
+        tags_moved(link.advertise<tagfield_msgs::TagPositions>(
+            {name_space, "rfid/truth/tags_moved", kQueue})),
+        tf(link.advertise<tf2_msgs::TFMessage>({name_space, "/tf", kQueue})) {}
 
   std::shared_ptr<RosPublisher<tagfield_msgs::TagReads>> reads;
   std::shared_ptr<RosPublisher<tagfield_msgs::AntennaTruth>> antennas;
@@ -114,6 +120,7 @@ struct RfidPublisher::Topics {
 /// Of one antenna.
 struct RfidPublisher::AntennaTopics {
   std::shared_ptr<RosPublisher<rfid_sensor::TagArray>> data;
+  Time latched = Time(-kLatchInterval);  ///< Stamp of the last message.
 };
 
 RfidPublisher::RfidPublisher(std::shared_ptr<RosLink> link)
@@ -132,8 +139,8 @@ RfidPublisher::AntennaTopics& RfidPublisher::topics_of(const FieldAntenna& anten
   std::unique_ptr<AntennaTopics>& topics = by_antenna_[antenna.parameters.name];
   if (!topics) {
     topics = std::make_unique<AntennaTopics>();
-    const std::string name = "~/" + ros_name(antenna.sensor) + "/data";
-    topics->data = link_->advertise<rfid_sensor::TagArray>({"", name, 1000, true});
+    topics->data = link_->advertise<rfid_sensor::TagArray>(
+        {"~/" + ros_name(antenna.sensor), "data", kQueue, true});
   }
   return *topics;
 }
@@ -163,8 +170,12 @@ void RfidPublisher::antenna_updated(const AntennaUpdate& update) {
   }
   if (topics.antennas->is_heard()) topics.antennas->publish(truth_message(update));
   if (topics.reads->is_heard()) topics.reads->publish(reads_message(update));
-  // Latched, so it is made for those to come too.
-  topics_of(antenna).data->publish(published_message(update));
+  // Latched, so it is made for those to come too, if not each time.
+  AntennaTopics& own = topics_of(antenna);
+  const bool stale = update.stamp < own.latched || update.stamp >= own.latched + kLatchInterval;
+  if (!stale && !own.data->is_heard()) return;
+  own.latched = update.stamp;
+  own.data->publish(published_message(update));
 }
 
 void RfidPublisher::antenna_removed(const std::string& antenna) { by_antenna_.erase(antenna); }

@@ -61,6 +61,7 @@ void RfidField::update(const AntennaDue& due, Time stamp) {
   const FieldAntenna& antenna = *due.antenna;
   read_tags(antenna.parameters, due.X_WA.translation, stamp, antenna.seed, tags_.population,
             replies_);
+  reads_ += static_cast<std::int64_t>(replies_.size());
   const AntennaUpdate update{stamp, antenna, due.X_WA, due.X_PA, replies_, tags_};
   for (const auto& listener : listeners_) listener->antenna_updated(update);
 }

@@ -97,7 +97,8 @@ class RfidField {
   /// already or a number that is not.
   void step(const FieldStep& step);
 
-  [[nodiscard]] const FieldTags& tags() const { return tags_; }
+  /// Made so far.
+  [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
   void remove(std::uint32_t number);
@@ -111,6 +112,7 @@ class RfidField {
   std::vector<std::optional<std::uint32_t>> slots_;  ///< By number.
   std::vector<std::uint32_t> moved_slots_;           ///< Kept to save allocations.
   std::vector<TagReply> replies_;                    ///< Likewise.
+  std::int64_t reads_ = 0;
 };
 
 }  // namespace tagfield

@@ -48,6 +48,7 @@ class Context:
     build: pathlib.Path
     folder: pathlib.Path
     show: bool = False
+    plugins: pathlib.Path = None
 
     def run(self, *arguments, **options):
         """Runs the program in the case's folder, with GAZEBO_MODEL_PATH and its kin unset."""
@@ -187,6 +188,7 @@ def arguments_of_test():
     parser.add_argument("--tagfield", type=pathlib.Path, required=True, help="the program")
     parser.add_argument("--source", type=pathlib.Path, required=True, help="the source tree")
     parser.add_argument("--build", type=pathlib.Path, required=True, help="the build tree")
+    parser.add_argument("--plugins", type=pathlib.Path, help="folder with Gazebo's plugins")
     parser.add_argument("--show", action="store_true", help="print what the program says")
     parser.add_argument("cases", nargs="*", help="only cases with one of these in their name")
     return parser.parse_args()
@@ -198,7 +200,8 @@ def run_case(function, arguments):
     begin = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:
         context = Context(arguments.tagfield.resolve(), arguments.source.resolve(),
-                          arguments.build.resolve(), pathlib.Path(folder), arguments.show)
+                          arguments.build.resolve(), pathlib.Path(folder), arguments.show,
+                          arguments.plugins and arguments.plugins.resolve())
         try:
             function(context)
         except Skip as skip:

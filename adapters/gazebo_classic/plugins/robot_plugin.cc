@@ -101,8 +101,9 @@ class Robot {
 
   SkidSteer find_wheels() {
     expect_ode(*world_);
-    return {WheelSide(*model_, parameters_.left_joints, parameters_.torque_nm),
-            WheelSide(*model_, parameters_.right_joints, parameters_.torque_nm), parameters_.drive};
+    return {WheelSide(*model_, "left_joint", parameters_.left_joints, parameters_.torque_nm),
+            WheelSide(*model_, "right_joint", parameters_.right_joints, parameters_.torque_nm),
+            parameters_.drive};
   }
 
   void start(Time now) {
