@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "adapters/ros1/bag_content.h"
+#include "adapters/ros1/bag_structure.h"
 #include "adapters/ros1/bag_sweep.h"
 #include "adapters/ros1/bag_transforms.h"
 #include "tagfield/base/units.h"
@@ -34,20 +35,6 @@ std::string first_bytes(const std::string& path) {
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   return bytes;
-}
-
-void require_bag(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail({path, 0}, "no such file");
-  if (fs::is_directory(status)) fail({path, 0}, "is a folder, expected a rosbag");
-  if (!std::ifstream(path).is_open()) fail({path, 0}, "can't be read");
-  const std::string begin = first_bytes(path);
-  if (begin.empty()) fail({path, 0}, "is empty, expected a rosbag");
-  if (begin != kMagic) {
-    fail({path, 0}, "is no rosbag of ROS 1: it does not begin with '#ROSBAG V2.0'");
-  }
 }
 
 template <typename Stamped>
@@ -184,7 +171,7 @@ bool is_bag(const std::string& path) {
 
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
-  require_bag(path);
+  require_whole_bag(path);
   const Silence silence;
   BagContent content = sweep_bag(path, options.frequency_hz, options.on_progress, diagnostics);
   BagRecording recording;

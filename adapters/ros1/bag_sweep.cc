@@ -27,7 +27,7 @@ BagContent with_bag_errors(const std::string& path, const Work& work) {
                                 "{}' makes one",
                                 path));
   } catch (const rosbag::BagException& error) {
-    fail({path, 0}, fmt::format("is torn, or no bag that can be read ({}); 'rosbag reindex' may "
+    fail({path, 0}, fmt::format("is torn or damaged ({}); 'rosbag reindex' may "
                                 "save what is whole",
                                 error.what()));
   } catch (const std::exception& error) {
