@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
 #include "adapters/gazebo_classic/world/internal/bodies.h"
 #include "adapters/gazebo_classic/world/internal/robot.h"
+#include "tagfield/base/units.h"
 #include "tagfield/sdf/resource_path.h"
 
 namespace tagfield {
@@ -137,6 +140,33 @@ void reserve_names(const Scene& scene, XMLElement* world, Builder& builder) {
   for (const Placement& tag : scene.tags) builder.sensors.reserve(tag.name);
 }
 
+/// Where Gazebo's window looks from, unless the world says so: from the south and above on all
+/// robots, antennas and tags.
+void add_view(const Scenario& scenario, XMLElement* world) {
+  if (world->FirstChildElement("gui") != nullptr) return;
+  Eigen::AlignedBox2d box;
+  for (const TagSpec& tag : scenario.tags) {
+    if (tag.on.empty()) box.extend(tag.motion.front().X_WB.translation.head<2>());
+  }
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    if (antenna.on.empty()) box.extend(antenna.X_PA.translation.head<2>());
+  }
+  for (const RobotSpec& robot : scenario.robots) {
+    box.extend(Eigen::Vector2d(robot.start.x, robot.start.y));
+    for (const Eigen::Vector2d& waypoint : robot.waypoints) box.extend(waypoint);
+  }
+  if (box.isEmpty()) return;
+  constexpr double kMargin = 2.0;
+  constexpr double kTilt = 0.9;  // of the view below the horizon [rad]
+  const double distance = box.sizes().maxCoeff() + kMargin;
+  const Eigen::Vector2d middle = box.center();
+  RigidTransform view = from_xyz_rpy({0.0, 0.0, 0.0}, {0.0, kTilt, radians(90.0)});
+  view.translation = {middle.x(), middle.y() - distance * std::cos(kTilt),
+                      distance * std::sin(kTilt)};
+  XMLElement* const camera = add_named(add(world, "gui"), "camera", "user_camera");
+  gazebo_world_internal::add_pose(camera, view);
+}
+
 void add_bodies(Builder& builder, const GazeboWorldOptions& options, XMLElement* world) {
   for (const RobotSpec& robot : builder.scenario.robots) {
     gazebo_world_internal::add_robot(builder, robot, options.robot_model, world);
@@ -162,6 +192,7 @@ std::string gazebo_world(const Scenario& scenario, const Scene& scene,
   } else if (scenario.real_time > 0.0) {
     set_pace(world, scenario.real_time);
   }
+  add_view(scenario, world);
   Builder builder{scenario, diagnostics, {}, {}};
   reserve_names(scene, world, builder);
   add_bodies(builder, options, world);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "simulator/placements.h"
 #include "simulator/scenario_yaml.h"
@@ -316,6 +318,27 @@ TEST(GazeboWorld, RunsAtThePaceAskedFor) {
   EXPECT_EQ(pace_with({}, "real_time: 2\n"), "2000");
   EXPECT_EQ(pace_with(0.0, "real_time: 2\n"), "0");
   EXPECT_EQ(pace_with(0.5, ""), "500");
+}
+
+TEST(GazeboWorld, TheWindowLooksAtWhatThereIs) {
+  Diagnostics diagnostics;
+  tinyxml2::XMLDocument document;
+  document.Parse(
+      world_text(write_scenario(with_tags("  - {id: t, position: [10, 4, 3]}\n")), diagnostics)
+          .c_str());
+  const XMLElement* const gui =
+      document.FirstChildElement("sdf")->FirstChildElement("world")->FirstChildElement("gui");
+  ASSERT_NE(gui, nullptr);
+  std::istringstream pose(child_text(gui->FirstChildElement("camera"), "pose"));
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  double roll = 0.0;
+  double pitch = 0.0;
+  pose >> x >> y >> z >> roll >> pitch;
+  EXPECT_NEAR(x, 5.0, kTiny);                         // between the antenna at 0 and the tag at 10
+  EXPECT_NEAR((2.0 - y) * std::tan(pitch), z, 1e-6);  // the middle of the view is on the floor
+  EXPECT_GT(z, 5.0);
 }
 
 constexpr const char* kWorldWithMore = R"(<?xml version="1.0"?>
