@@ -32,8 +32,6 @@ RfidWorld::RfidWorld(const gazebo::physics::WorldPtr& world,
 
 RfidWorld::~RfidWorld() { connection_.reset(); }
 
-Time RfidWorld::now() const { return from_gazebo(world_->SimTime()); }
-
 std::uint32_t RfidWorld::free_number() {
   if (free_numbers_.empty()) return next_number_++;
   const std::uint32_t number = free_numbers_.back();
@@ -41,8 +39,7 @@ std::uint32_t RfidWorld::free_number() {
   return number;
 }
 
-RfidWorld::Handle RfidWorld::add_tags(const gazebo::physics::LinkPtr& link,
-                                      std::vector<TagOnLink> tags) {
+RfidWorld::Handle RfidWorld::add_tags(const std::string& link, std::vector<TagOnLink> tags) {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> taken;
   for (const TagOnLink& tag : tags) {
@@ -54,10 +51,11 @@ RfidWorld::Handle RfidWorld::add_tags(const gazebo::physics::LinkPtr& link,
   }
   TagGroup group;
   group.handle = next_handle_++;
-  group.link = link;
+  group.link_name = link;
   for (std::size_t i = 0; i < tags.size(); ++i) group.numbers.push_back(free_number());
   group.tags = std::move(tags);
   groups_.push_back(std::move(group));
+  all_found_ = false;
   return groups_.back().handle;
 }
 
@@ -78,7 +76,7 @@ void RfidWorld::remove_tags(Handle handle) {
 bool RfidWorld::has_antenna(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   return std::any_of(antennas_.begin(), antennas_.end(), [&](const auto& entry) {
-    return entry.second.shared->parameters.name == name;
+    return entry.second.on_link.antenna.parameters.name == name;
   });
 }
 
@@ -91,11 +89,14 @@ RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
                     name));
   }
   const std::lock_guard lock(mutex_);
+  // At once, so that its topics can be subscribed to while the world is paused.
+  FieldStep step;
+  step.antennas_added = {std::make_shared<const FieldAntenna>(antenna.antenna)};
+  worker_.post(std::move(step));
   Antenna entry;
-  entry.shared = std::make_shared<const FieldAntenna>(antenna.antenna);
   entry.on_link = std::move(antenna);
-  set_due(entry, now());
   antennas_.emplace(next_handle_, std::move(entry));
+  all_found_ = false;
   return next_handle_++;
 }
 
@@ -103,7 +104,7 @@ void RfidWorld::remove_antenna(Handle handle) {
   const std::lock_guard lock(mutex_);
   const auto found = antennas_.find(handle);
   if (found == antennas_.end()) return;
-  antennas_removed_.push_back(found->second.shared->parameters.name);
+  antennas_removed_.push_back(found->second.on_link.antenna.parameters.name);
   antennas_.erase(found);
 }
 
@@ -114,6 +115,33 @@ FieldCost RfidWorld::cost() const {
   cost.reads_s = done.busy_s;
   cost.reads = done.reads;
   return cost;
+}
+
+gazebo::physics::LinkPtr RfidWorld::find_link(const std::string& name) const {
+  return boost::dynamic_pointer_cast<gazebo::physics::Link>(world_->EntityByName(name));
+}
+
+/// Looks for the links of what was added since the last step. Between two steps all models are
+/// whole; a link that is not there has gone again, and its plugin goes with it.
+void RfidWorld::find_links(Time now) {
+  if (all_found_) return;
+  all_found_ = true;
+  for (TagGroup& group : groups_) {
+    if (!group.link) group.link = find_link(group.link_name);
+    all_found_ = all_found_ && group.link;
+  }
+  for (auto& [handle, antenna] : antennas_) {
+    if (antenna.link) continue;
+    antenna.link = find_link(antenna.on_link.link);
+    all_found_ = all_found_ && antenna.link;
+    if (!antenna.link) continue;
+    FieldAntenna field = antenna.on_link.antenna;
+    // What is mounted for good has a known place.
+    if (field.parent_frame.empty() && antenna.link->IsStatic()) field.parent_frame = "world";
+    if (!antenna.on_link.parent.empty()) antenna.parent = find_link(antenna.on_link.parent);
+    antenna.shared = std::make_shared<const FieldAntenna>(field);
+    set_due(antenna, now);
+  }
 }
 
 void RfidWorld::set_due(Antenna& antenna, Time from) const {
@@ -128,11 +156,14 @@ bool RfidWorld::is_due(Time now) const {
 }
 
 void RfidWorld::after_step() {
-  const Time time = now();
+  const Time time = from_gazebo(world_->SimTime());
   on_step_(time);
   std::unique_lock lock(mutex_);
+  find_links(last_ == Time::min() ? Time{} : time);
   if (time < last_) {  // The world was reset.
-    for (auto& [handle, antenna] : antennas_) set_due(antenna, time);
+    for (auto& [handle, antenna] : antennas_) {
+      if (antenna.link) set_due(antenna, time);
+    }
   }
   last_ = time;
   if (!is_due(time)) return;
@@ -158,6 +189,7 @@ FieldStep RfidWorld::gather(Time now) {
 
 void RfidWorld::gather_tags(FieldStep& step) {
   for (TagGroup& group : groups_) {
+    if (!group.link) continue;
     const ignition::math::Pose3d& pose = group.link->WorldPose();
     if ((group.told && same(pose, group.X_WL)) || !pose.IsFinite()) continue;
     group.X_WL = pose;
@@ -178,13 +210,12 @@ void RfidWorld::gather_antennas(FieldStep& step) {
   for (auto& [handle, antenna] : antennas_) {
     if (antenna.due > step.stamp) continue;
     set_due(antenna, step.stamp + Duration(1));
-    const AntennaOnLink& on_link = antenna.on_link;
     AntennaDue due;
     due.antenna = antenna.shared;
-    due.X_WA = from_gazebo(on_link.link->WorldPose()) * on_link.X_LA;
+    due.X_WA = from_gazebo(antenna.link->WorldPose()) * antenna.on_link.X_LA;
     if (!antenna.shared->parent_frame.empty()) {
       due.X_PA =
-          on_link.parent ? from_gazebo(on_link.parent->WorldPose()).inverse() * due.X_WA : due.X_WA;
+          antenna.parent ? from_gazebo(antenna.parent->WorldPose()).inverse() * due.X_WA : due.X_WA;
     }
     step.due.push_back(std::move(due));
   }

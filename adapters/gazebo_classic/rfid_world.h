@@ -30,11 +30,11 @@ struct TagOnLink {
 /// An antenna fixed to a link.
 struct AntennaOnLink {
   FieldAntenna antenna;
-  gazebo::physics::LinkPtr link;
+  std::string link;  ///< Scoped name.
   RigidTransform X_LA;
-  /// The link that is the antenna's parent frame; none for the world, if the antenna names a parent
-  /// frame.
-  gazebo::physics::LinkPtr parent;
+  /// Scoped name of the link that is the antenna's parent frame; "" for the world, where the
+  /// antenna names a parent frame.
+  std::string parent;
 };
 
 /// How long updates took, for benchmarks.
@@ -47,8 +47,10 @@ struct FieldCost {
 
 /// One a world. At the end of each physics step it looks which antennas are due by simulated time,
 /// gathers where all tags and those antennas are, and hands that to a FieldWorker. An update is
-/// stamped with the time of its step, so reads don't depend on how fast Gazebo runs. Thread-safe:
-/// plugins load and unload on other threads than physics.
+/// stamped with the time of its step, so reads don't depend on how fast Gazebo runs.
+///
+/// Thread-safe: plugins load and unload on other threads than physics, even while physics still
+/// puts their model together. So links are given by name and looked up between two steps.
 class RfidWorld {
  public:
   using Handle = std::uint64_t;
@@ -61,9 +63,9 @@ class RfidWorld {
   RfidWorld(const RfidWorld&) = delete;
   RfidWorld& operator=(const RfidWorld&) = delete;
 
-  /// Adds tags on one link; they are read from the next update on. Throws Error, and adds none, if
-  /// an ID is taken.
-  Handle add_tags(const gazebo::physics::LinkPtr& link, std::vector<TagOnLink> tags);
+  /// Adds tags on the link of that scoped name; they are read from the next update on. Throws
+  /// Error, and adds none, if an ID is taken.
+  Handle add_tags(const std::string& link, std::vector<TagOnLink> tags);
   void remove_tags(Handle handle);
 
   /// Throws Error if the name is taken.
@@ -77,25 +79,29 @@ class RfidWorld {
  private:
   struct TagGroup {
     Handle handle = 0;
-    gazebo::physics::LinkPtr link;
-    ignition::math::Pose3d X_WL;  ///< At the last update.
-    bool told = false;            ///< Whether its tags were added to the field.
+    std::string link_name;
+    gazebo::physics::LinkPtr link;  ///< None until it is found.
+    ignition::math::Pose3d X_WL;    ///< At the last update.
+    bool told = false;              ///< Whether its tags were added to the field.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
   struct Antenna {
     AntennaOnLink on_link;
+    gazebo::physics::LinkPtr link;    ///< None until it is found.
+    gazebo::physics::LinkPtr parent;  ///< Likewise.
     std::shared_ptr<const FieldAntenna> shared;
-    Time due;
+    Time due = Time::max();
   };
 
   void after_step();
+  void find_links(Time now);
+  [[nodiscard]] gazebo::physics::LinkPtr find_link(const std::string& name) const;
   [[nodiscard]] bool is_due(Time now) const;
   FieldStep gather(Time now);
   void gather_tags(FieldStep& step);
   void gather_antennas(FieldStep& step);
   void set_due(Antenna& antenna, Time from) const;
-  [[nodiscard]] Time now() const;
   std::uint32_t free_number();
 
   gazebo::physics::WorldPtr world_;
@@ -104,6 +110,7 @@ class RfidWorld {
   Handle next_handle_ = 1;
   std::vector<TagGroup> groups_;  ///< In rising order of handles.
   std::map<Handle, Antenna> antennas_;
+  bool all_found_ = true;  ///< All links.
   std::set<std::string> ids_;
   std::uint32_t next_number_ = 0;
   std::vector<std::uint32_t> free_numbers_;

@@ -3,21 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <gazebo/physics/physics.hh>
 #include <gazebo/sensors/sensors.hh>
 
 #include "adapters/gazebo_classic/plugin_elements.h"
-#include "tagfield/base/error.h"
 
 namespace tagfield {
 namespace {
 
+/// The children called `name`.
+std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name) {
+  std::vector<sdf::ElementPtr> found;
+  if (!parent || !parent->HasElement(name)) return found;
+  for (sdf::ElementPtr child = parent->GetElement(name); child;
+       child = child->GetNextElement(name)) {
+    found.push_back(child);
+  }
+  return found;
+}
+
+/// The element `levels` above the plugin's: 1 the sensor's, 2 the link's, 3 the model's.
+sdf::ElementPtr above(sdf::ElementPtr element, int levels) {
+  while (element && levels-- > 0) element = element->GetParent();
+  return element;
+}
+
 /// Names of the tags on a link.
 std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
   std::vector<std::string> names;
-  if (!link->HasElement("sensor")) return names;
-  for (sdf::ElementPtr sensor = link->GetElement("sensor"); sensor;
-       sensor = sensor->GetNextElement("sensor")) {
+  for (const sdf::ElementPtr& sensor : children(link, "sensor")) {
     if (sensor->Get<std::string>("type") == "rfidtag") {
       names.push_back(sensor->Get<std::string>("name"));
     }
@@ -26,31 +39,38 @@ std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
 }
 
 /// Names of the tags on all links of a model, models inside it excepted.
-std::vector<std::string> tags_on_links_of(const gazebo::physics::Model& model) {
+std::vector<std::string> tags_on_links_of(const sdf::ElementPtr& model) {
   std::vector<std::string> names;
-  for (const gazebo::physics::LinkPtr& link : model.GetLinks()) {
-    const std::vector<std::string> more = tags_on(link->GetSDF());
+  for (const sdf::ElementPtr& link : children(model, "link")) {
+    const std::vector<std::string> more = tags_on(link);
     names.insert(names.end(), more.begin(), more.end());
   }
   return names;
 }
 
-}  // namespace
-
-std::string place_of(const gazebo::sensors::Sensor& sensor) {
+std::string link_name_of(const gazebo::sensors::Sensor& sensor) {
   const std::string parent = sensor.ParentName();
   const std::size_t end_of_model = parent.rfind("::");
-  const std::string model = parent.substr(0, end_of_model);
-  const std::string link = end_of_model == std::string::npos ? "" : parent.substr(end_of_model + 2);
-  return fmt::format("model '{}', link '{}', sensor '{}'", model, link, sensor.Name());
+  return end_of_model == std::string::npos ? "" : parent.substr(end_of_model + 2);
 }
 
-gazebo::physics::LinkPtr link_of(const gazebo::sensors::Sensor& sensor) {
-  const gazebo::physics::WorldPtr world = gazebo::physics::get_world(sensor.WorldName());
-  const auto link =
-      boost::dynamic_pointer_cast<gazebo::physics::Link>(world->EntityByName(sensor.ParentName()));
-  if (!link) throw Error(fmt::format("'{}' is no link to be on", sensor.ParentName()));
-  return link;
+}  // namespace
+
+std::string model_name_of(const gazebo::sensors::Sensor& sensor) {
+  const std::string parent = sensor.ParentName();
+  return parent.substr(0, parent.rfind("::"));
+}
+
+std::string place_of(const gazebo::sensors::Sensor& sensor) {
+  return fmt::format("model '{}', link '{}', sensor '{}'", model_name_of(sensor),
+                     link_name_of(sensor), sensor.Name());
+}
+
+bool has_link(const sdf::ElementPtr& plugin, const std::string& name) {
+  const std::vector<sdf::ElementPtr> links = children(above(plugin, 3), "link");
+  return std::any_of(links.begin(), links.end(), [&](const sdf::ElementPtr& link) {
+    return link->Get<std::string>("name") == name;
+  });
 }
 
 std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
@@ -63,19 +83,18 @@ std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
   return parameters;
 }
 
-std::string tag_id_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link) {
-  const gazebo::physics::ModelPtr model = link.GetModel();
-  const std::string model_name = model->GetScopedName();
-  const std::vector<std::string> tags = tags_on_links_of(*model);
-  if (tags.size() == 1) return model_name;
+std::string tag_id_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin) {
+  const std::vector<std::string> tags = tags_on_links_of(above(plugin, 3));
+  if (tags.size() <= 1) return model_name_of(sensor);
   if (std::count(tags.begin(), tags.end(), sensor.Name()) == 1) {
-    return fmt::format("{}::{}", model_name, sensor.Name());
+    return fmt::format("{}::{}", model_name_of(sensor), sensor.Name());
   }
-  return fmt::format("{}::{}::{}", model_name, link.GetName(), sensor.Name());
+  return fmt::format("{}::{}", sensor.ParentName(), sensor.Name());
 }
 
-std::string published_name_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link) {
-  if (tags_on(link.GetSDF()).size() <= 1) return sensor.ParentName();
+std::string published_name_of(const gazebo::sensors::Sensor& sensor,
+                              const sdf::ElementPtr& plugin) {
+  if (tags_on(above(plugin, 2)).size() <= 1) return sensor.ParentName();
   return fmt::format("{}::{}", sensor.ParentName(), sensor.Name());
 }
 

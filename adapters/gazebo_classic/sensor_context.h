@@ -1,5 +1,6 @@
 /// @file
-/// Where a sensor plugin stands: its link, its model, its names and parameters.
+/// Where a sensor plugin stands: its names and parameters. All from its description, as Gazebo may
+/// still be putting the model together on another thread.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
@@ -15,18 +16,21 @@ namespace tagfield {
 /// "model 'gate', link 'post', sensor 'antenna'", for messages.
 std::string place_of(const gazebo::sensors::Sensor& sensor);
 
-/// The link that the sensor is fixed to. Throws Error if there is none.
-gazebo::physics::LinkPtr link_of(const gazebo::sensors::Sensor& sensor);
-
 /// The plugin's parameters, and the sensor's <update_rate> where it has one.
 std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
                                         const sdf::ElementPtr& plugin);
 
+/// Scoped name of the sensor's model.
+std::string model_name_of(const gazebo::sensors::Sensor& sensor);
+
+/// Whether the sensor's model, as it is written, has a link of this name.
+bool has_link(const sdf::ElementPtr& plugin, const std::string& name);
+
 /// A tag's ID where it has no EPC: its model's name where it is the model's only tag, else
 /// MODEL::SENSOR, else MODEL::LINK::SENSOR where that is not unique. The same as headless.
-std::string tag_id_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link);
+std::string tag_id_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin);
 
 /// What the published plugin calls a tag: MODEL::LINK; with ::SENSOR where the link has several.
-std::string published_name_of(const gazebo::sensors::Sensor& sensor, gazebo::physics::Link& link);
+std::string published_name_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin);
 
 }  // namespace tagfield

@@ -178,6 +178,11 @@ void RfidPublisher::antenna_updated(const AntennaUpdate& update) {
   own.data->publish(published_message(update));
 }
 
+void RfidPublisher::antenna_added(const FieldAntenna& antenna) {
+  topics_in(antenna.name_space);
+  topics_of(antenna);
+}
+
 void RfidPublisher::antenna_removed(const std::string& antenna) { by_antenna_.erase(antenna); }
 
 }  // namespace tagfield

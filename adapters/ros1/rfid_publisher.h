@@ -31,6 +31,7 @@ class RfidPublisher final : public FieldListener {
   void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
                   const FieldTags& tags) override;
   void antenna_updated(const AntennaUpdate& update) override;
+  void antenna_added(const FieldAntenna& antenna) override;
   void antenna_removed(const std::string& antenna) override;
 
  private:

@@ -182,7 +182,6 @@ void RosLink::watch_master() {
     try {
       look_at_master();
     } catch (const std::exception& error) {
-      // A topic that can't be opened must not take the others along.
       ROS_ERROR("Tagfield: %s", error.what());
     }
     {
@@ -223,7 +222,14 @@ void RosLink::connect_all() {
     endpoints_.insert(endpoints_.end(), fresh.begin(), fresh.end());
   }
   for (const std::weak_ptr<RosEndpoint>& endpoint : fresh) {
-    if (const auto held = endpoint.lock()) held->connect();
+    const auto held = endpoint.lock();
+    if (!held) continue;
+    try {
+      held->connect();
+    } catch (const std::exception& error) {
+      // A topic that can't be opened must not take the others along.
+      ROS_ERROR("Tagfield: %s", error.what());
+    }
   }
 }
 

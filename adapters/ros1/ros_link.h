@@ -42,7 +42,7 @@ class RosEndpoint {
 
 struct RosTopic {
   std::string name_space;  ///< "" for the process' own.
-  std::string name;        ///< Relative, private ("~x") or absolute.
+  std::string name;        ///< Relative or absolute; private ones ("~x") by the name space.
   std::uint32_t queue = 1000;
   bool latched = false;
   /// To stay silent if this process' node publishes the topic already.

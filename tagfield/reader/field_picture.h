@@ -41,6 +41,7 @@ class FieldPicture : public FieldListener {
   void tags_changed(Time stamp, const FieldTags& tags) final;
   void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots, const FieldTags& tags) final;
   void antenna_updated(const AntennaUpdate& update) final;
+  void antenna_added(const FieldAntenna&) final {}
   void antenna_removed(const std::string& antenna) final;
 
  protected:

@@ -70,6 +70,9 @@ void RfidField::step(const FieldStep& step) {
   for (const std::string& antenna : step.antennas_removed) {
     for (const auto& listener : listeners_) listener->antenna_removed(antenna);
   }
+  for (const auto& antenna : step.antennas_added) {
+    for (const auto& listener : listeners_) listener->antenna_added(*antenna);
+  }
   for (const std::uint32_t number : step.removed) remove(number);
   for (const TagAdded& tag : step.added) add(tag);
   move(step.moved);

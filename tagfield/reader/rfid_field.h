@@ -44,7 +44,8 @@ struct AntennaDue {
   std::optional<RigidTransform> X_PA;  ///< In its parent frame, where it has one.
 };
 
-/// What happened up to `stamp`: first tags went, then came, then moved, and then antennas update.
+/// What happened up to `stamp`: first antennas and tags went, then came, then tags moved, and then
+/// antennas update.
 struct FieldStep {
   Time stamp;
   std::vector<std::uint32_t> removed;
@@ -52,6 +53,7 @@ struct FieldStep {
   std::vector<TagMoved> moved;
   std::vector<AntennaDue> due;
   std::vector<std::string> antennas_removed;  ///< Names.
+  std::vector<std::shared_ptr<const FieldAntenna>> antennas_added;
 };
 
 /// All tags present, with their labels by slot.
@@ -84,6 +86,8 @@ class FieldListener {
   virtual void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
                           const FieldTags& tags) = 0;
   virtual void antenna_updated(const AntennaUpdate& update) = 0;
+  /// An antenna is there, and will be updated.
+  virtual void antenna_added(const FieldAntenna& antenna) = 0;
   virtual void antenna_removed(const std::string& antenna) = 0;
 };
 

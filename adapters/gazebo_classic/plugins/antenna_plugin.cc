@@ -17,8 +17,7 @@ namespace {
 constexpr const char* kWorldFrame = "world";
 
 tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
-                                     const tagfield::SensorAntenna& described,
-                                     const physics::Link& link) {
+                                     const tagfield::SensorAntenna& described) {
   tagfield::FieldAntenna antenna;
   antenna.parameters = described.parameters;
   antenna.seed = described.seed;
@@ -26,32 +25,29 @@ tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
   antenna.name_space = described.name_space;
   antenna.frame_id = described.frame_id;
   antenna.parent_frame = described.parent_frame;
-  // What is mounted for good has a known place.
-  if (antenna.parent_frame.empty() && link.GetModel()->IsStatic()) {
-    antenna.parent_frame = kWorldFrame;
-  }
   return antenna;
 }
 
-/// The link that the antenna's parent frame is; none for the world.
-physics::LinkPtr parent_of(const tagfield::FieldAntenna& antenna, const physics::Link& link) {
-  if (antenna.parent_frame.empty() || antenna.parent_frame == kWorldFrame) return nullptr;
-  const physics::LinkPtr parent = link.GetModel()->GetLink(antenna.parent_frame);
-  if (!parent) {
-    throw tagfield::Error(fmt::format("<parent_frame> is '{}', expected a link of model '{}'",
-                                      antenna.parent_frame, link.GetModel()->GetName()));
+/// Scoped name of the link that the antenna's parent frame is; "" for the world.
+std::string parent_of(const sensors::Sensor& sensor, const sdf::ElementPtr& plugin,
+                      const std::string& parent_frame) {
+  if (parent_frame.empty() || parent_frame == kWorldFrame) return "";
+  const std::string model = tagfield::model_name_of(sensor);
+  if (!tagfield::has_link(plugin, parent_frame)) {
+    throw tagfield::Error(
+        fmt::format("<parent_frame> is '{}', expected a link of model '{}'", parent_frame, model));
   }
-  return parent;
+  return fmt::format("{}::{}", model, parent_frame);
 }
 
 /// A second antenna on sensors of one name gets its model's in front, as headless.
-void make_unique(const tagfield::RfidWorld& world, const physics::Link& link,
-                 const tagfield::SensorAntenna& described, tagfield::FieldAntenna& antenna) {
-  const bool named = antenna.parameters.name != antenna.sensor;
-  if (named || !world.has_antenna(antenna.sensor)) return;
-  const std::string name = fmt::format("{}::{}", link.GetModel()->GetScopedName(), antenna.sensor);
-  if (described.parameters.reader == antenna.sensor) antenna.parameters.reader = name;
-  if (described.frame_id == antenna.sensor) antenna.frame_id = name;
+void make_unique(const tagfield::RfidWorld& world, const sensors::Sensor& sensor,
+                 tagfield::FieldAntenna& antenna) {
+  const std::string plain = sensor.Name();
+  if (antenna.parameters.name != plain || !world.has_antenna(plain)) return;
+  const std::string name = fmt::format("{}::{}", tagfield::model_name_of(sensor), plain);
+  if (antenna.parameters.reader == plain) antenna.parameters.reader = name;
+  if (antenna.frame_id == plain) antenna.frame_id = name;
   antenna.parameters.name = name;
 }
 
@@ -83,12 +79,12 @@ void RfidAntennaPlugin::load(const sensors::SensorPtr& sensor, const sdf::Elemen
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }
   tagfield::AntennaOnLink antenna;
-  antenna.link = tagfield::link_of(*sensor);
+  antenna.link = sensor->ParentName();
   antenna.X_LA = tagfield::from_gazebo(sensor->Pose());
-  antenna.antenna = field_antenna(*sensor, described, *antenna.link);
-  antenna.parent = parent_of(antenna.antenna, *antenna.link);
+  antenna.antenna = field_antenna(*sensor, described);
+  antenna.parent = parent_of(*sensor, plugin, described.parent_frame);
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
-  make_unique(*world, *antenna.link, described, antenna.antenna);
+  make_unique(*world, *sensor, antenna.antenna);
   handle_ = world->add_antenna(std::move(antenna));
   world_ = world;
 }

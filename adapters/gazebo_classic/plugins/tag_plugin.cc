@@ -38,11 +38,11 @@ void RfidTagPlugin::load(const sensors::SensorPtr& sensor, const sdf::ElementPtr
   for (const std::string& warning : diagnostics.warnings()) {
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }
-  const physics::LinkPtr link = tagfield::link_of(*sensor);
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
-  const std::string id = epc ? *epc : tagfield::tag_id_of(*sensor, *link);
-  handle_ = world->add_tags(link, {{id, tagfield::published_name_of(*sensor, *link),
-                                    tagfield::from_gazebo(sensor->Pose()).translation}});
+  const std::string id = epc ? *epc : tagfield::tag_id_of(*sensor, plugin);
+  handle_ =
+      world->add_tags(sensor->ParentName(), {{id, tagfield::published_name_of(*sensor, plugin),
+                                              tagfield::from_gazebo(sensor->Pose()).translation}});
   world_ = world;
 }
 

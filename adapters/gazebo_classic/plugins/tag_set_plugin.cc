@@ -54,7 +54,11 @@ std::vector<TagOnLink> tags_in_table(const std::string& uri) {
 }
 
 physics::LinkPtr link_in(const physics::Model& model, const sdf::ElementPtr& plugin) {
-  if (!plugin->HasElement("link")) return model.GetLink();
+  if (!plugin->HasElement("link")) {
+    const physics::LinkPtr link = model.GetLink();
+    if (!link) throw Error("the model has no link for tags to be on");
+    return link;
+  }
   const auto name = plugin->Get<std::string>("link");
   const physics::LinkPtr link = model.GetLink(name);
   if (!link) throw Error(fmt::format("<link> is '{}', expected a link of the model", name));
@@ -85,7 +89,7 @@ void RfidTagSetPlugin::load(const physics::ModelPtr& model, const sdf::ElementPt
   if (tags.empty()) gzwarn << tagfield::place_of(*model, plugin) << ": has no tags\n";
   const physics::LinkPtr link = link_in(*model, plugin);
   const auto world = tagfield::shared_rfid_world(model->GetWorld());
-  handle_ = world->add_tags(link, std::move(tags));
+  handle_ = world->add_tags(link->GetScopedName(), std::move(tags));
   world_ = world;
 }
 

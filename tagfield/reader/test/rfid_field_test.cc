@@ -47,6 +47,9 @@ class Listener final : public FieldListener {
           update.antenna.parameters, update.tags.population.id(reply.slot), update.stamp, reply));
     }
   }
+  void antenna_added(const FieldAntenna& antenna) override {
+    log_.events.push_back("added " + antenna.parameters.name);
+  }
   void antenna_removed(const std::string& antenna) override {
     log_.events.push_back("removed " + antenna);
   }
@@ -82,9 +85,10 @@ TEST(RfidField, TellsChangesBeforeUpdates) {
   step.moved = {{1, {3.0, 0.0, 0.0}}};
   step.due = {antenna_at({0.0, 0.0, 0.0})};
   step.antennas_removed = {"old"};
+  step.antennas_added = {step.due[0].antenna};
   field.step(step);
-  EXPECT_EQ(log.events,
-            (std::vector<std::string>{"removed old", "changed", "moved", "updated gate"}));
+  EXPECT_EQ(log.events, (std::vector<std::string>{"removed old", "added gate", "changed", "moved",
+                                                  "updated gate"}));
   EXPECT_EQ(log.labels.at("A"), "shelf::a");
   EXPECT_EQ(log.places.at("B"), Eigen::Vector3d(3.0, 0.0, 0.0));
   ASSERT_EQ(log.reads.at("gate").size(), 2U);
