@@ -73,12 +73,14 @@ bool has_link(const sdf::ElementPtr& plugin, const std::string& name) {
   });
 }
 
-std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
-                                        const sdf::ElementPtr& plugin) {
+std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
   std::vector<RawParameter> parameters = parameters_in(plugin);
-  // Gazebo's own default of 0 means as often as it can, which no reader does.
-  if (sensor.UpdateRate() != 0.0) {
-    parameters.push_back({"update_rate", fmt::format("{}", sensor.UpdateRate()), {}});
+  // Gazebo's own default of 0 means as often as it can, which no reader does. As it is written, for
+  // Gazebo itself takes what is negative for 0.
+  for (const sdf::ElementPtr& rate : children(above(plugin, 1), "update_rate")) {
+    if (rate->Get<double>() != 0.0) {
+      parameters.push_back({"update_rate", rate->GetValue()->GetAsString(), {}});
+    }
   }
   return parameters;
 }

@@ -17,8 +17,7 @@ namespace tagfield {
 std::string place_of(const gazebo::sensors::Sensor& sensor);
 
 /// The plugin's parameters, and the sensor's <update_rate> where it has one.
-std::vector<RawParameter> parameters_of(const gazebo::sensors::Sensor& sensor,
-                                        const sdf::ElementPtr& plugin);
+std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin);
 
 /// Scoped name of the sensor's model.
 std::string model_name_of(const gazebo::sensors::Sensor& sensor);

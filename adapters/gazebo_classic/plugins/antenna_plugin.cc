@@ -73,8 +73,8 @@ void RfidAntennaPlugin::load(const sensors::SensorPtr& sensor, const sdf::Elemen
         fmt::format("sensor type is '{}', expected 'rfid' for an antenna", sensor->Type()));
   }
   tagfield::Diagnostics diagnostics;
-  const tagfield::SensorAntenna described = tagfield::antenna_from(
-      sensor->Name(), tagfield::parameters_of(*sensor, plugin), {}, diagnostics);
+  const tagfield::SensorAntenna described =
+      tagfield::antenna_from(sensor->Name(), tagfield::parameters_of(plugin), {}, diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }

@@ -34,7 +34,7 @@ void RfidTagPlugin::load(const sensors::SensorPtr& sensor, const sdf::ElementPtr
   }
   tagfield::Diagnostics diagnostics;
   const std::optional<std::string> epc =
-      tagfield::epc_from(tagfield::parameters_of(*sensor, plugin), diagnostics);
+      tagfield::epc_from(tagfield::parameters_of(plugin), diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }

@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+"""Bad parameters in SDF: one clear error, that sensor off, everything else on."""
+
+import re
+
+from gazebo import (
+    Run, antenna, antenna_sensor, case, check, check_between, check_equal, check_in, main, messages, model,
+    schedule, tag, tag_sensor, world)
+
+# What stands in the antenna's plugin, and what must be said of it.
+BAD_ANTENNAS = {
+    "text": ("<frequency>fast</frequency>", "<frequency> is 'fast', expected a number"),
+    "nan": ("<noisephi>nan</noisephi>", "<noisephi> is 'nan', expected a number"),
+    "infinite": ("<range>1e999</range>", "<range> is '1e999', expected a number"),
+    "negative": ("<range>-3</range>", "<range> must be a finite number greater than 0, is -3"),
+    "zero": ("<frequency>0</frequency>", "<frequency> must be"),
+    "noise": ("<noiserssi>-1</noiserssi>", "<noiserssi> must be"),
+    "gain": ("<communication_gain>0</communication_gain>", "<communication_gain> must be"),
+    "distribution": ("<optional_distribution>normal</optional_distribution>",
+                     "did you mean 'normal_distribution'"),
+    "parameters": ("<optional_distribution>uniform_real_distribution</optional_distribution>"
+                   "<optional_distribution_params>2 1</optional_distribution_params>",
+                   "a must be less than b"),
+    "words": ("<optional_distribution>normal_distribution</optional_distribution>"
+              "<optional_distribution_params>0 x</optional_distribution_params>",
+              "<optional_distribution_params> is 'x', expected a number"),
+    "seed": ("<seed>-1</seed>", "<seed> is '-1'"),
+    "model": ("<model>magic</model>", "<model> is 'magic', expected paper"),
+    "parent": ("<parent_frame>nowhere</parent_frame>",
+               "<parent_frame> is 'nowhere', expected a link of model 'bad_parent'"),
+    "name": ("<antenna>gate</antenna>", "there is an antenna called 'gate' already"),
+}
+# Whole sensors, and what must be said of them.
+BAD_SENSORS = {
+    "wrong_kind": (antenna_sensor("s").replace('type="rfid"', 'type="rfidtag"'),
+                   "sensor type is 'rfidtag', expected 'rfid' for an antenna"),
+    "wrong_tag": (tag_sensor("s").replace('type="rfidtag"', 'type="rfid"'),
+                  "sensor type is 'rfid', expected 'rfidtag' for a tag"),
+    "no_epc": (tag_sensor("s", "<epc></epc>"), "<epc> is empty"),
+    "same_epc": (tag_sensor("s", "<epc>good_tag</epc>"),
+                 "there is a tag with the ID 'good_tag' already"),
+    "rate": (antenna_sensor("s", rate=-5), "<update_rate> must be"),
+}
+BAD_SETS = {
+    "no_epc": ("<tag>1 2 3</tag>", '<tag> 1 has no epc'),
+    "two_numbers": ('<tag epc="A">1 2</tag>', '<tag epc="A"> has 2 numbers, expected x y z'),
+    "nan": ('<tag epc="A">1 2 nan</tag>', "'nan', expected a number"),
+    "twice": ('<tag epc="A">1 2 3</tag><tag epc="A">1 2 4</tag>', "ID 'A' already"),
+    "link": ('<link>roof</link><tag epc="A">1 2 3</tag>', "<link> is 'roof'"),
+    "table": ("<table>file:///nowhere.csv</table>", "nowhere.csv"),
+}
+
+
+def check_all_in(parts, text):
+    for part in parts:
+        check(part in text, f"the log lacks {part!r}")
+
+
+def errors(text):
+    """Gazebo's errors, without colours."""
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", text)
+    return [line for line in plain.split("\n") if "[Err]" in line]
+
+
+@case
+def each_bad_parameter_is_one_error_and_everything_else_goes_on(context):
+    bad = [model(f"bad_{name}", "0 0 1 0 0 0", antenna_sensor(f"bad_{name}", text))
+           for name, (text, _) in BAD_ANTENNAS.items()]
+    bad += [model(f"bad_{name}", "0 0 1 0 0 0", text) for name, (text, _) in BAD_SENSORS.items()]
+    bad += [f'<model name="set_{name}"><static>1</static><link name="link"/>'
+            f'<plugin name="set" filename="libTagfieldTagSetPlugin.so">{text}</plugin></model>'
+            for name, (text, _) in BAD_SETS.items()]
+    log = context.folder / "schedule.log"
+    text = world(antenna("gate", 0, 0, 2), tag("good_tag", 1, 0, 1), *bad,
+                 schedule(log, stop=1.0))
+    with Run(context, text, record=True) as running:
+        running.finish(log)
+        check(running.is_alive(), "Gazebo has ended")
+        said = errors(running.log())
+        found = messages(running.bag, "/rfid/reads")
+    for name, (_, expected) in {**BAD_ANTENNAS, **BAD_SENSORS}.items():
+        sensor = f"bad_{name}" if name in BAD_ANTENNAS else "s"
+        place = f"model 'bad_{name}', link 'link', sensor '{sensor}': "
+        about = [line for line in said if place in line]
+        check_equal(len(about), 1, f"errors about {name}")
+        for line in about:
+            check_in(expected, line, f"the error about {name}")
+    for name, (_, expected) in BAD_SETS.items():
+        about = [line for line in said if f"model 'set_{name}', plugin 'set': " in line]
+        check_equal(len(about), 1, f"errors about the set {name}")
+        for line in about:
+            check_in(expected, line, f"the error about the set {name}")
+    check_equal({message.antenna for message in found}, {"gate"}, "antennas that read")
+    check_equal({read.epc for message in found for read in message.reads}, {"good_tag"}, "tags")
+    check_between(len(found), 15, 16, "updates")
+
+
+@case
+def odd_but_usable_parameters_are_warned_of(context):
+    log = context.folder / "schedule.log"
+    text = world(antenna("gate", 0, 0, 2, "<range>7</range><freqency>1e9</freqency>"),
+                 tag("one", 1, 0, 1, "<color>red</color>"), schedule(log, stop=0.5))
+    with Run(context, text, record=True) as running:
+        running.finish(log)
+        plain = re.sub(r"\x1b\[[0-9;]*m", "", running.log())
+        found = messages(running.bag, "/rfid/reads")
+    check_all_in(("<freqency> is not known and left out", "did you mean 'frequency'",
+                  "<color> is not known", "leaves to their defaults: <frequency>"), plain)
+    check_equal({read.epc for message in found for read in message.reads}, {"one"}, "tags read")
+
+
+if __name__ == "__main__":
+    main()
