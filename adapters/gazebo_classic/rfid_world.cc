@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <gazebo/common/Console.hh>
 #include <gazebo/physics/physics.hh>
 #include <utility>
 
@@ -12,6 +13,8 @@
 
 namespace tagfield {
 namespace {
+
+constexpr const char* kWorldFrame = "world";
 
 /// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
 bool same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
@@ -39,21 +42,11 @@ std::uint32_t RfidWorld::free_number() {
   return number;
 }
 
-RfidWorld::Handle RfidWorld::add_tags(const std::string& link, std::vector<TagOnLink> tags) {
+RfidWorld::Handle RfidWorld::add_tags(TagsOnLink tags) {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> taken;
-  for (const TagOnLink& tag : tags) {
-    if (!ids_.insert(tag.id).second) {
-      for (const std::string& id : taken) ids_.erase(id);
-      throw Error(fmt::format("there is a tag with the ID '{}' already", tag.id));
-    }
-    taken.push_back(tag.id);
-  }
   TagGroup group;
   group.handle = next_handle_++;
-  group.link_name = link;
-  for (std::size_t i = 0; i < tags.size(); ++i) group.numbers.push_back(free_number());
-  group.tags = std::move(tags);
+  group.on_link = std::move(tags);
   groups_.push_back(std::move(group));
   all_found_ = false;
   return groups_.back().handle;
@@ -121,26 +114,62 @@ gazebo::physics::LinkPtr RfidWorld::find_link(const std::string& name) const {
   return boost::dynamic_pointer_cast<gazebo::physics::Link>(world_->EntityByName(name));
 }
 
+void RfidWorld::describe(TagGroup& group) {
+  std::vector<TagOnLink> tags = group.on_link.describe(*group.link);
+  std::vector<std::string> taken;
+  for (const TagOnLink& tag : tags) {
+    if (!ids_.insert(tag.id).second) {
+      for (const std::string& id : taken) ids_.erase(id);
+      throw Error(fmt::format("there is a tag with the ID '{}' already", tag.id));
+    }
+    taken.push_back(tag.id);
+  }
+  for (std::size_t i = 0; i < tags.size(); ++i) group.numbers.push_back(free_number());
+  group.tags = std::move(tags);
+}
+
+void RfidWorld::set_up(Antenna& antenna, Time now) {
+  FieldAntenna field = antenna.on_link.antenna;
+  // What is mounted for good has a known place.
+  if (field.parent_frame.empty() && antenna.link->IsStatic()) field.parent_frame = kWorldFrame;
+  if (!field.parent_frame.empty() && field.parent_frame != kWorldFrame) {
+    const gazebo::physics::ModelPtr model = antenna.link->GetModel();
+    antenna.parent = model->GetLink(field.parent_frame);
+    if (!antenna.parent) {
+      throw Error(fmt::format("<parent_frame> is '{}', expected a link of model '{}'",
+                              field.parent_frame, model->GetName()));
+    }
+  }
+  antenna.shared = std::make_shared<const FieldAntenna>(field);
+  set_due(antenna, now);
+}
+
 /// Looks for the links of what was added since the last step. Between two steps all models are
 /// whole; a link that is not there has gone again, and its plugin goes with it.
 void RfidWorld::find_links(Time now) {
   if (all_found_) return;
   all_found_ = true;
+  const auto find = [&](auto& entry, const std::string& link_name, const auto& set_up_entry,
+                        const char* consequence) {
+    if (entry.link || entry.refused) return;
+    entry.link = find_link(link_name);
+    all_found_ = all_found_ && entry.link;
+    if (!entry.link) return;
+    try {
+      set_up_entry(entry);
+    } catch (const std::exception& error) {
+      gzerr << entry.on_link.place << ": " << error.what() << "; " << consequence << "\n";
+      entry.refused = true;
+      entry.link.reset();
+    }
+  };
   for (TagGroup& group : groups_) {
-    if (!group.link) group.link = find_link(group.link_name);
-    all_found_ = all_found_ && group.link;
+    find(
+        group, group.on_link.link, [&](TagGroup& found) { describe(found); }, "left out");
   }
   for (auto& [handle, antenna] : antennas_) {
-    if (antenna.link) continue;
-    antenna.link = find_link(antenna.on_link.link);
-    all_found_ = all_found_ && antenna.link;
-    if (!antenna.link) continue;
-    FieldAntenna field = antenna.on_link.antenna;
-    // What is mounted for good has a known place.
-    if (field.parent_frame.empty() && antenna.link->IsStatic()) field.parent_frame = "world";
-    if (!antenna.on_link.parent.empty()) antenna.parent = find_link(antenna.on_link.parent);
-    antenna.shared = std::make_shared<const FieldAntenna>(field);
-    set_due(antenna, now);
+    find(
+        antenna, antenna.on_link.link, [&](Antenna& found) { set_up(found, now); }, "stays off");
   }
 }
 

@@ -27,14 +27,20 @@ struct TagOnLink {
   Eigen::Vector3d p_LT;  ///< [m]
 };
 
+/// Tags that come and go together.
+struct TagsOnLink {
+  std::string place;  ///< For messages.
+  std::string link;   ///< Scoped name.
+  /// Called once, when the link is there with its whole model. May throw Error.
+  std::function<std::vector<TagOnLink>(gazebo::physics::Link&)> describe;
+};
+
 /// An antenna fixed to a link.
 struct AntennaOnLink {
+  std::string place;  ///< For messages.
   FieldAntenna antenna;
   std::string link;  ///< Scoped name.
   RigidTransform X_LA;
-  /// Scoped name of the link that is the antenna's parent frame; "" for the world, where the
-  /// antenna names a parent frame.
-  std::string parent;
 };
 
 /// How long updates took, for benchmarks.
@@ -63,12 +69,13 @@ class RfidWorld {
   RfidWorld(const RfidWorld&) = delete;
   RfidWorld& operator=(const RfidWorld&) = delete;
 
-  /// Adds tags on the link of that scoped name; they are read from the next update on. Throws
-  /// Error, and adds none, if an ID is taken.
-  Handle add_tags(const std::string& link, std::vector<TagOnLink> tags);
+  /// Adds tags; they are read from the next update on. If they can't be described, or an ID is
+  /// taken, that is one error of Gazebo's, and none of them is there.
+  Handle add_tags(TagsOnLink tags);
   void remove_tags(Handle handle);
 
-  /// Throws Error if the name is taken.
+  /// Throws Error if the name is taken. If its parent frame is no link of its model, that is one
+  /// error of Gazebo's, and it stays off.
   Handle add_antenna(AntennaOnLink antenna);
   void remove_antenna(Handle handle);
 
@@ -79,8 +86,9 @@ class RfidWorld {
  private:
   struct TagGroup {
     Handle handle = 0;
-    std::string link_name;
+    TagsOnLink on_link;
     gazebo::physics::LinkPtr link;  ///< None until it is found.
+    bool refused = false;           ///< For an error that was told.
     ignition::math::Pose3d X_WL;    ///< At the last update.
     bool told = false;              ///< Whether its tags were added to the field.
     std::vector<TagOnLink> tags;
@@ -89,13 +97,16 @@ class RfidWorld {
   struct Antenna {
     AntennaOnLink on_link;
     gazebo::physics::LinkPtr link;    ///< None until it is found.
-    gazebo::physics::LinkPtr parent;  ///< Likewise.
+    gazebo::physics::LinkPtr parent;  ///< Likewise; none for the world.
+    bool refused = false;             ///< For an error that was told.
     std::shared_ptr<const FieldAntenna> shared;
     Time due = Time::max();
   };
 
   void after_step();
   void find_links(Time now);
+  void describe(TagGroup& group);
+  void set_up(Antenna& antenna, Time now);
   [[nodiscard]] gazebo::physics::LinkPtr find_link(const std::string& name) const;
   [[nodiscard]] bool is_due(Time now) const;
   FieldStep gather(Time now);

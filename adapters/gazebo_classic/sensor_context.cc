@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <gazebo/physics/physics.hh>
 #include <gazebo/sensors/sensors.hh>
 
 #include "adapters/gazebo_classic/plugin_elements.h"
@@ -21,12 +22,6 @@ std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::
   return found;
 }
 
-/// The element `levels` above the plugin's: 1 the sensor's, 2 the link's, 3 the model's.
-sdf::ElementPtr above(sdf::ElementPtr element, int levels) {
-  while (element && levels-- > 0) element = element->GetParent();
-  return element;
-}
-
 /// Names of the tags on a link.
 std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
   std::vector<std::string> names;
@@ -39,10 +34,10 @@ std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
 }
 
 /// Names of the tags on all links of a model, models inside it excepted.
-std::vector<std::string> tags_on_links_of(const sdf::ElementPtr& model) {
+std::vector<std::string> tags_on_links_of(const gazebo::physics::Model& model) {
   std::vector<std::string> names;
-  for (const sdf::ElementPtr& link : children(model, "link")) {
-    const std::vector<std::string> more = tags_on(link);
+  for (const gazebo::physics::LinkPtr& link : model.GetLinks()) {
+    const std::vector<std::string> more = tags_on(link->GetSDF());
     names.insert(names.end(), more.begin(), more.end());
   }
   return names;
@@ -66,18 +61,11 @@ std::string place_of(const gazebo::sensors::Sensor& sensor) {
                      link_name_of(sensor), sensor.Name());
 }
 
-bool has_link(const sdf::ElementPtr& plugin, const std::string& name) {
-  const std::vector<sdf::ElementPtr> links = children(above(plugin, 3), "link");
-  return std::any_of(links.begin(), links.end(), [&](const sdf::ElementPtr& link) {
-    return link->Get<std::string>("name") == name;
-  });
-}
-
 std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
   std::vector<RawParameter> parameters = parameters_in(plugin);
   // Gazebo's own default of 0 means as often as it can, which no reader does. As it is written, for
   // Gazebo itself takes what is negative for 0.
-  for (const sdf::ElementPtr& rate : children(above(plugin, 1), "update_rate")) {
+  for (const sdf::ElementPtr& rate : children(plugin->GetParent(), "update_rate")) {
     if (rate->Get<double>() != 0.0) {
       parameters.push_back({"update_rate", rate->GetValue()->GetAsString(), {}});
     }
@@ -85,19 +73,19 @@ std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
   return parameters;
 }
 
-std::string tag_id_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin) {
-  const std::vector<std::string> tags = tags_on_links_of(above(plugin, 3));
-  if (tags.size() <= 1) return model_name_of(sensor);
-  if (std::count(tags.begin(), tags.end(), sensor.Name()) == 1) {
-    return fmt::format("{}::{}", model_name_of(sensor), sensor.Name());
+std::string tag_id_of(const std::string& sensor, gazebo::physics::Link& link) {
+  const gazebo::physics::ModelPtr model = link.GetModel();
+  const std::vector<std::string> tags = tags_on_links_of(*model);
+  if (tags.size() <= 1) return model->GetScopedName();
+  if (std::count(tags.begin(), tags.end(), sensor) == 1) {
+    return fmt::format("{}::{}", model->GetScopedName(), sensor);
   }
-  return fmt::format("{}::{}", sensor.ParentName(), sensor.Name());
+  return fmt::format("{}::{}", link.GetScopedName(), sensor);
 }
 
-std::string published_name_of(const gazebo::sensors::Sensor& sensor,
-                              const sdf::ElementPtr& plugin) {
-  if (tags_on(above(plugin, 2)).size() <= 1) return sensor.ParentName();
-  return fmt::format("{}::{}", sensor.ParentName(), sensor.Name());
+std::string published_name_of(const std::string& sensor, gazebo::physics::Link& link) {
+  if (tags_on(link.GetSDF()).size() <= 1) return link.GetScopedName();
+  return fmt::format("{}::{}", link.GetScopedName(), sensor);
 }
 
 }  // namespace tagfield

@@ -1,6 +1,5 @@
 /// @file
-/// Where a sensor plugin stands: its names and parameters. All from its description, as Gazebo may
-/// still be putting the model together on another thread.
+/// Where a sensor plugin stands: its names and parameters.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
@@ -22,14 +21,12 @@ std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin);
 /// Scoped name of the sensor's model.
 std::string model_name_of(const gazebo::sensors::Sensor& sensor);
 
-/// Whether the sensor's model, as it is written, has a link of this name.
-bool has_link(const sdf::ElementPtr& plugin, const std::string& name);
-
 /// A tag's ID where it has no EPC: its model's name where it is the model's only tag, else
-/// MODEL::SENSOR, else MODEL::LINK::SENSOR where that is not unique. The same as headless.
-std::string tag_id_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin);
+/// MODEL::SENSOR, else MODEL::LINK::SENSOR where that is not unique. The same as headless. To be
+/// called when the link's model is whole.
+std::string tag_id_of(const std::string& sensor, gazebo::physics::Link& link);
 
 /// What the published plugin calls a tag: MODEL::LINK; with ::SENSOR where the link has several.
-std::string published_name_of(const gazebo::sensors::Sensor& sensor, const sdf::ElementPtr& plugin);
+std::string published_name_of(const std::string& sensor, gazebo::physics::Link& link);
 
 }  // namespace tagfield

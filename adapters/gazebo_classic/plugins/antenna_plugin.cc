@@ -14,8 +14,6 @@
 namespace gazebo {
 namespace {
 
-constexpr const char* kWorldFrame = "world";
-
 tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
                                      const tagfield::SensorAntenna& described) {
   tagfield::FieldAntenna antenna;
@@ -26,18 +24,6 @@ tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
   antenna.frame_id = described.frame_id;
   antenna.parent_frame = described.parent_frame;
   return antenna;
-}
-
-/// Scoped name of the link that the antenna's parent frame is; "" for the world.
-std::string parent_of(const sensors::Sensor& sensor, const sdf::ElementPtr& plugin,
-                      const std::string& parent_frame) {
-  if (parent_frame.empty() || parent_frame == kWorldFrame) return "";
-  const std::string model = tagfield::model_name_of(sensor);
-  if (!tagfield::has_link(plugin, parent_frame)) {
-    throw tagfield::Error(
-        fmt::format("<parent_frame> is '{}', expected a link of model '{}'", parent_frame, model));
-  }
-  return fmt::format("{}::{}", model, parent_frame);
 }
 
 /// A second antenna on sensors of one name gets its model's in front, as headless.
@@ -61,7 +47,7 @@ void RfidAntennaPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr plugin) 
   try {
     load(sensor, plugin);
   } catch (const std::exception& error) {
-    gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; the antenna stays off\n";
+    gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; stays off\n";
   }
   // Updates come from the world's steps, so Gazebo need not look after the sensor.
   sensor->SetActive(false);
@@ -79,10 +65,10 @@ void RfidAntennaPlugin::load(const sensors::SensorPtr& sensor, const sdf::Elemen
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }
   tagfield::AntennaOnLink antenna;
+  antenna.place = tagfield::place_of(*sensor);
   antenna.link = sensor->ParentName();
   antenna.X_LA = tagfield::from_gazebo(sensor->Pose());
   antenna.antenna = field_antenna(*sensor, described);
-  antenna.parent = parent_of(*sensor, plugin, described.parent_frame);
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
   make_unique(*world, *sensor, antenna.antenna);
   handle_ = world->add_antenna(std::move(antenna));

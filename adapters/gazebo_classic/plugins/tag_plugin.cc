@@ -21,7 +21,7 @@ void RfidTagPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr plugin) {
   try {
     load(sensor, plugin);
   } catch (const std::exception& error) {
-    gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; the tag is left out\n";
+    gzerr << tagfield::place_of(*sensor) << ": " << error.what() << "; left out\n";
   }
   // A tag has nothing to update by itself.
   sensor->SetActive(false);
@@ -39,10 +39,12 @@ void RfidTagPlugin::load(const sensors::SensorPtr& sensor, const sdf::ElementPtr
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
-  const std::string id = epc ? *epc : tagfield::tag_id_of(*sensor, plugin);
-  handle_ =
-      world->add_tags(sensor->ParentName(), {{id, tagfield::published_name_of(*sensor, plugin),
-                                              tagfield::from_gazebo(sensor->Pose()).translation}});
+  const Eigen::Vector3d p_LT = tagfield::from_gazebo(sensor->Pose()).translation;
+  const auto describe = [epc, p_LT, name = sensor->Name()](physics::Link& link) {
+    return std::vector<tagfield::TagOnLink>{{epc ? *epc : tagfield::tag_id_of(name, link),
+                                             tagfield::published_name_of(name, link), p_LT}};
+  };
+  handle_ = world->add_tags({tagfield::place_of(*sensor), sensor->ParentName(), describe});
   world_ = world;
 }
 

@@ -75,8 +75,7 @@ void RfidTagSetPlugin::Load(physics::ModelPtr model, sdf::ElementPtr plugin) {
   try {
     load(model, plugin);
   } catch (const std::exception& error) {
-    gzerr << tagfield::place_of(*model, plugin) << ": " << error.what()
-          << "; its tags are left out\n";
+    gzerr << tagfield::place_of(*model, plugin) << ": " << error.what() << "; left out\n";
   }
 }
 
@@ -89,7 +88,8 @@ void RfidTagSetPlugin::load(const physics::ModelPtr& model, const sdf::ElementPt
   if (tags.empty()) gzwarn << tagfield::place_of(*model, plugin) << ": has no tags\n";
   const physics::LinkPtr link = link_in(*model, plugin);
   const auto world = tagfield::shared_rfid_world(model->GetWorld());
-  handle_ = world->add_tags(link->GetScopedName(), std::move(tags));
+  handle_ = world->add_tags({tagfield::place_of(*model, plugin), link->GetScopedName(),
+                             [tags](physics::Link&) { return tags; }});
   world_ = world;
 }
 
