@@ -15,6 +15,8 @@ namespace tagfield {
 namespace {
 
 constexpr const char* kWorldFrame = "world";
+/// Simulated time in which a fault may pass.
+constexpr Duration kPatience = std::chrono::milliseconds(200);
 
 /// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
 bool same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
@@ -158,9 +160,14 @@ void RfidWorld::find_links(Time now) {
     try {
       set_up_entry(entry);
     } catch (const std::exception& error) {
-      gzerr << entry.on_link.place << ": " << error.what() << "; " << consequence << "\n";
-      entry.refused = true;
       entry.link.reset();
+      // A tag that was deleted may hold its ID a little longer than its successor takes to come.
+      if (!entry.faulty_since) entry.faulty_since = now;
+      entry.refused = now - *entry.faulty_since >= kPatience || now < *entry.faulty_since;
+      all_found_ = all_found_ && entry.refused;
+      if (entry.refused) {
+        gzerr << entry.on_link.place << ": " << error.what() << "; " << consequence << "\n";
+      }
     }
   };
   for (TagGroup& group : groups_) {

@@ -88,9 +88,10 @@ class RfidWorld {
     Handle handle = 0;
     TagsOnLink on_link;
     gazebo::physics::LinkPtr link;  ///< None until it is found.
-    bool refused = false;           ///< For an error that was told.
-    ignition::math::Pose3d X_WL;    ///< At the last update.
-    bool told = false;              ///< Whether its tags were added to the field.
+    std::optional<Time> faulty_since;
+    bool refused = false;         ///< For an error that was told.
+    ignition::math::Pose3d X_WL;  ///< At the last update.
+    bool told = false;            ///< Whether its tags were added to the field.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
@@ -98,7 +99,8 @@ class RfidWorld {
     AntennaOnLink on_link;
     gazebo::physics::LinkPtr link;    ///< None until it is found.
     gazebo::physics::LinkPtr parent;  ///< Likewise; none for the world.
-    bool refused = false;             ///< For an error that was told.
+    std::optional<Time> faulty_since;
+    bool refused = false;  ///< For an error that was told.
     std::shared_ptr<const FieldAntenna> shared;
     Time due = Time::max();
   };

@@ -74,10 +74,16 @@ bool same_pose(const RigidTransform& a, const RigidTransform& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-/// Sorted, each stamp once, and one row of whoever never moved.
-std::vector<AntennaPose> tidy_poses(std::vector<AntennaPose> poses) {
+/// Sorted, each stamp once.
+std::vector<AntennaPose> ordered_poses(std::vector<AntennaPose> poses) {
   sort_by_stamp(poses);
   keep_first(poses, [](const AntennaPose& pose) { return std::tuple(pose.stamp, pose.antenna); });
+  return poses;
+}
+
+/// Ordered, and one row of whoever never moved.
+std::vector<AntennaPose> tidy_poses(std::vector<AntennaPose> unordered) {
+  const std::vector<AntennaPose> poses = ordered_poses(std::move(unordered));
   std::map<std::string, const AntennaPose*> first;
   std::set<std::string> moved;
   for (const AntennaPose& pose : poses) {
@@ -108,7 +114,8 @@ std::vector<TagPosition> changes_of(std::vector<TagPosition> positions) {
 }
 
 Truth tidy_truth(Truth truth) {
-  truth.antenna_poses = tidy_poses(std::move(truth.antenna_poses));
+  // All of them, also at rest: a replay updates the antennas at these stamps.
+  truth.antenna_poses = ordered_poses(std::move(truth.antenna_poses));
   truth.robot_poses = tidy_poses(std::move(truth.robot_poses));
   truth.tag_positions = changes_of(std::move(truth.tag_positions));
   sort_by_stamp(truth.distances);
@@ -137,9 +144,10 @@ double duration_of(const BagContent& content) {
 void add_fixed_antennas(const BagRecording& recording, std::vector<AntennaPose>& poses) {
   std::map<std::string, std::size_t> rows;
   std::set<std::string> known;
-  for (const AntennaPose& pose : recording.truth.antenna_poses) ++rows[pose.antenna];
+  const std::vector<AntennaPose> truth = tidy_poses(recording.truth.antenna_poses);
+  for (const AntennaPose& pose : truth) ++rows[pose.antenna];
   for (const AntennaPose& pose : poses) known.insert(pose.antenna);
-  for (const AntennaPose& pose : recording.truth.antenna_poses) {
+  for (const AntennaPose& pose : truth) {
     if (rows[pose.antenna] == 1 && known.count(pose.antenna) == 0) poses.push_back(pose);
   }
 }

@@ -98,22 +98,26 @@ std::string ros_name(const std::string& text) {
   return name.empty() ? "_" : name;
 }
 
+/// Of all tags.
+struct RfidPublisher::TagTopics {
+  explicit TagTopics(RosLink& link)
+      : all(link.advertise<tagfield_msgs::TagPositions>({"", "rfid/truth/tags", kQueue, true})),
+        moved(link.advertise<tagfield_msgs::TagPositions>({"", "rfid/truth/tags_moved", kQueue})) {}
+
+  std::shared_ptr<RosPublisher<tagfield_msgs::TagPositions>> all;
+  std::shared_ptr<RosPublisher<tagfield_msgs::TagPositions>> moved;
+};
+
 /// Of one name space.
 struct RfidPublisher::Topics {
   Topics(RosLink& link, const std::string& name_space)
       : reads(link.advertise<tagfield_msgs::TagReads>({name_space, "rfid/reads", kQueue})),
         antennas(link.advertise<tagfield_msgs::AntennaTruth>(
             {name_space, "rfid/truth/antennas", kQueue})),
-        tags(link.advertise<tagfield_msgs::TagPositions>(
-            {name_space, "rfid/truth/tags", kQueue, true})),
-        tags_moved(link.advertise<tagfield_msgs::TagPositions>(
-            {name_space, "rfid/truth/tags_moved", kQueue})),
         tf(link.advertise<tf2_msgs::TFMessage>({name_space, "/tf", kQueue})) {}
 
   std::shared_ptr<RosPublisher<tagfield_msgs::TagReads>> reads;
   std::shared_ptr<RosPublisher<tagfield_msgs::AntennaTruth>> antennas;
-  std::shared_ptr<RosPublisher<tagfield_msgs::TagPositions>> tags;
-  std::shared_ptr<RosPublisher<tagfield_msgs::TagPositions>> tags_moved;
   std::shared_ptr<RosPublisher<tf2_msgs::TFMessage>> tf;
 };
 
@@ -124,12 +128,11 @@ struct RfidPublisher::AntennaTopics {
 };
 
 RfidPublisher::RfidPublisher(std::shared_ptr<RosLink> link)
-    : link_(std::move(link)), truth_(std::make_unique<Topics>(*link_, "")) {}
+    : link_(std::move(link)), truth_(std::make_unique<TagTopics>(*link_)) {}
 
 RfidPublisher::~RfidPublisher() = default;
 
 RfidPublisher::Topics& RfidPublisher::topics_in(const std::string& name_space) {
-  if (name_space.empty()) return *truth_;
   std::unique_ptr<Topics>& topics = by_name_space_[name_space];
   if (!topics) topics = std::make_unique<Topics>(*link_, name_space);
   return *topics;
@@ -148,15 +151,15 @@ RfidPublisher::AntennaTopics& RfidPublisher::topics_of(const FieldAntenna& anten
 void RfidPublisher::tags_changed(Time stamp, const FieldTags& tags) {
   tagfield_msgs::TagPositions message = empty_positions(stamp);
   tags.population.for_each([&](std::uint32_t slot) { add_position(tags, slot, message); });
-  truth_->tags->publish(message);
+  truth_->all->publish(message);
 }
 
 void RfidPublisher::tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
                                const FieldTags& tags) {
-  if (!truth_->tags_moved->is_heard()) return;
+  if (!truth_->moved->is_heard()) return;
   tagfield_msgs::TagPositions message = empty_positions(stamp);
   for (const std::uint32_t slot : slots) add_position(tags, slot, message);
-  truth_->tags_moved->publish(message);
+  truth_->moved->publish(message);
 }
 
 void RfidPublisher::antenna_updated(const AntennaUpdate& update) {

@@ -14,7 +14,8 @@ namespace tagfield {
 /// `text` with what a ROS name can't hold replaced by '_'.
 std::string ros_name(const std::string& text);
 
-/// Publishes what a field's listener hears. Relative names are in the antenna's name space.
+/// Publishes what a field's listener hears. The names of reads, antennas and tf are in the
+/// antenna's name space, those of tags in none.
 ///
 ///   ~SENSOR/data           rfid_sensor/TagArray        the published plugin's message, latched
 ///   rfid/reads             tagfield_msgs/TagReads      every update of every antenna
@@ -35,13 +36,14 @@ class RfidPublisher final : public FieldListener {
   void antenna_removed(const std::string& antenna) override;
 
  private:
+  struct TagTopics;
   struct Topics;
   struct AntennaTopics;
   Topics& topics_in(const std::string& name_space);
   AntennaTopics& topics_of(const FieldAntenna& antenna);
 
   std::shared_ptr<RosLink> link_;
-  std::unique_ptr<Topics> truth_;  ///< Of the tags, in no antenna's name space.
+  std::unique_ptr<TagTopics> truth_;
   std::map<std::string, std::unique_ptr<Topics>> by_name_space_;
   std::map<std::string, std::unique_ptr<AntennaTopics>> by_antenna_;
 };

@@ -123,8 +123,9 @@ class RosSubscriber final : public RosEndpoint {
 };
 
 /// Looks after the master on a thread of its own: topics open when one appears, and open anew when
-/// another takes its place. Nothing here waits for a master but that thread, and nothing ends the
-/// process. Initializes ROS as node "gazebo" unless somebody else (gazebo_ros) did.
+/// another takes its place. Nothing but that thread waits for a master, the first look excepted,
+/// and nothing ends the process. Initializes ROS as node "gazebo" unless somebody else (gazebo_ros)
+/// did.
 class RosLink {
  public:
   /// The process' link: ROS has one node in a process, so there is one link, which lives as long as

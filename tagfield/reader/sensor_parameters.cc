@@ -141,11 +141,12 @@ void warn_of_unknown(const std::vector<RawParameter>& parameters, std::vector<st
 
 /// The parameter that a check complained of, as it is called in SDF.
 std::string in_sdf_words(std::string message) {
-  static const std::array<std::array<const char*, 2>, 7> words = {{
+  static const std::array<std::array<const char*, 2>, 8> words = {{
       {"frequency_hz", "<frequency>"},
       {"phase_noise_rad", "<noisephi>"},
       {"rssi_noise", "<noiserssi>"},
       {"range_m", "<range>"},
+      {"range_sigma", "<range_sigma>"},
       {"communication_gain", "<communication_gain>"},
       {"rate_hz", "<update_rate>"},
       {"phase_offset_rad", "<phase_offset>"},

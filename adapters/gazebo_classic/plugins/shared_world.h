@@ -11,8 +11,7 @@ namespace tagfield {
 
 /// Made for the first plugin that asks, gone with the last that holds it. Then, if the environment
 /// has TAGFIELD_REPORT_COST, it prints its FieldCost as a line of JSON on standard output: means in
-/// milliseconds an antenna update. `report_cost` makes it
-/// print its FieldCost when it goes.
+/// milliseconds an antenna update.
 std::shared_ptr<RfidWorld> shared_rfid_world(const gazebo::physics::WorldPtr& world);
 
 }  // namespace tagfield

@@ -53,6 +53,21 @@ std::vector<TagOnLink> tags_in_table(const std::string& uri) {
   return tags;
 }
 
+/// The tables named in the plugin; warns of what it does not know there.
+std::vector<std::string> tables_in(physics::Model& model, const sdf::ElementPtr& plugin) {
+  std::vector<std::string> tables;
+  for (sdf::ElementPtr child = plugin->GetFirstElement(); child; child = child->GetNextElement()) {
+    const std::string name = child->GetName();
+    if (name == "table") {
+      tables.push_back(child->Get<std::string>());
+    } else if (name != "tag" && name != "link") {
+      gzwarn << tagfield::place_of(model, plugin) << ": <" << name
+             << "> is not known and left out\n";
+    }
+  }
+  return tables;
+}
+
 physics::LinkPtr link_in(const physics::Model& model, const sdf::ElementPtr& plugin) {
   if (!plugin->HasElement("link")) {
     const physics::LinkPtr link = model.GetLink();
@@ -81,8 +96,8 @@ void RfidTagSetPlugin::Load(physics::ModelPtr model, sdf::ElementPtr plugin) {
 
 void RfidTagSetPlugin::load(const physics::ModelPtr& model, const sdf::ElementPtr& plugin) {
   std::vector<TagOnLink> tags = tags_in_rows(plugin);
-  if (plugin->HasElement("table")) {
-    const std::vector<TagOnLink> more = tags_in_table(plugin->Get<std::string>("table"));
+  for (const std::string& table : tables_in(*model, plugin)) {
+    const std::vector<TagOnLink> more = tags_in_table(table);
     tags.insert(tags.end(), more.begin(), more.end());
   }
   if (tags.empty()) gzwarn << tagfield::place_of(*model, plugin) << ": has no tags\n";

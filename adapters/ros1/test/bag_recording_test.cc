@@ -138,7 +138,7 @@ TEST(ReadBag, KeepsTruthAndStampsExactly) {
   EXPECT_EQ(bag.truth_frame, "world");
 }
 
-TEST(ReadBag, GivesOneRowToWhatRestsAndOneToEachChange) {
+TEST(ReadBag, KeepsEachUpdateOfAnAntennaAndOneRowOfATagAtRest) {
   const BagRecording bag = written([](BagWriter& writer) {
     writer.reads(at(0.0), "fixed", {});
     for (const double t : {0.0, 1.0, 2.0}) {
@@ -148,9 +148,10 @@ TEST(ReadBag, GivesOneRowToWhatRestsAndOneToEachChange) {
                            {{"rests", {1.0, 1.0, 1.0}}, {"moves", {std::floor(t / 2), 0.0, 0.0}}});
     }
   });
-  ASSERT_EQ(bag.truth.antenna_poses.size(), 4U);
+  ASSERT_EQ(bag.truth.antenna_poses.size(), 6U);
   EXPECT_EQ(bag.truth.antenna_poses[0].antenna, "fixed");
-  EXPECT_EQ(bag.truth.antenna_poses[3].antenna, "lifted");
+  EXPECT_EQ(bag.truth.antenna_poses[4].antenna, "fixed");
+  EXPECT_EQ(bag.truth.antenna_poses[5].antenna, "lifted");
   ASSERT_EQ(bag.truth.tag_positions.size(), 3U);
   EXPECT_EQ(bag.truth.tag_positions[2].tag, "moves");
   EXPECT_EQ(bag.truth.tag_positions[2].stamp, at(2.0));
