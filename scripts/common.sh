@@ -27,18 +27,20 @@ build() {
   exec 9>&-
 }
 
-# build_gazebo [OPTION…]: configures if need be and builds the plugins in build/gazebo, with the compiler of
-# the system that Gazebo 11 is on (whose CMake may be too old for presets).
+# build_gazebo FOLDER [OPTION…]: configures if need be and builds the plugins in build/FOLDER, with the
+# compiler of the system that Gazebo 11 is on (whose CMake may be too old for presets).
 build_gazebo() {
+  local folder=$1
+  shift
   mkdir -p build
   exec 8>build/.gazebo-lock
   flock 8
-  scripts/in-gazebo cmake -G Ninja -S . -B build/gazebo -DCMAKE_BUILD_TYPE=Release \
-    -DTAGFIELD_COMMAND=OFF -DTAGFIELD_GAZEBO=ON "$@" >build/gazebo-configure.log 2>&1 || {
+  scripts/in-gazebo cmake -G Ninja -S . -B "build/$folder" -DCMAKE_BUILD_TYPE=Release \
+    -DTAGFIELD_COMMAND=OFF -DTAGFIELD_GAZEBO=ON "$@" >"build/$folder-configure.log" 2>&1 || {
     local code=$?
-    cat build/gazebo-configure.log >&2
+    cat "build/$folder-configure.log" >&2
     exit "$code"
   }
-  scripts/in-gazebo cmake --build build/gazebo
+  scripts/in-gazebo cmake --build "build/$folder"
   exec 8>&-
 }

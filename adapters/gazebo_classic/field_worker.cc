@@ -1,6 +1,6 @@
 #include "adapters/gazebo_classic/field_worker.h"
 
-#include <chrono>
+#include <ctime>
 #include <gazebo/common/Console.hh>
 #include <utility>
 
@@ -8,6 +8,13 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kMostWaiting = 64;
+
+/// CPU time of this thread [s]: wall time would count others' work on a busy machine.
+double cpu_time_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 }  // namespace
 
@@ -52,16 +59,16 @@ void FieldWorker::work() {
 }
 
 void FieldWorker::take(const FieldStep& step) {
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = cpu_time_s();
   try {
     field_.step(step);
   } catch (const std::exception& error) {
     // Nothing that comes of reads may end the simulation.
     gzerr << "Tagfield: " << error.what() << "\n";
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double took = cpu_time_s() - begin;
   const std::lock_guard lock(mutex_);
-  done_.busy_s += took.count();
+  done_.busy_s += took;
   done_.reads = field_.reads();
 }
 

@@ -16,7 +16,7 @@ namespace tagfield {
 
 /// What was done so far.
 struct WorkDone {
-  double busy_s = 0.0;  ///< Wall time.
+  double busy_s = 0.0;  ///< CPU time.
   std::int64_t reads = 0;
 };
 

@@ -205,9 +205,11 @@ void RfidWorld::after_step() {
   if (!is_due(time)) return;
   const auto begin = std::chrono::steady_clock::now();
   FieldStep step = gather(time);
-  cost_.updates += static_cast<std::int64_t>(step.due.size());
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  cost_.physics_s += took.count();
+  if (step.added.empty()) {
+    cost_.updates += static_cast<std::int64_t>(step.due.size());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    cost_.physics_s += took.count();
+  }
   lock.unlock();
   // Not counted above: where this waits, it waits for the reads, which count themselves.
   worker_.post(std::move(step));

@@ -45,9 +45,9 @@ struct AntennaOnLink {
 
 /// How long updates took, for benchmarks.
 struct FieldCost {
-  std::int64_t updates = 0;  ///< Of antennas.
-  double physics_s = 0.0;    ///< Wall time that physics waited.
-  double reads_s = 0.0;      ///< Wall time of the thread that makes and publishes the reads.
+  std::int64_t updates = 0;  ///< Of antennas, in steps to which no tag came.
+  double physics_s = 0.0;    ///< Wall time that physics waited in them.
+  double reads_s = 0.0;      ///< CPU time of the thread that makes and publishes all reads.
   std::int64_t reads = 0;
 };
 

@@ -17,7 +17,12 @@ constexpr Duration kInterval = std::chrono::milliseconds(500);
 constexpr const char* kService = "/marker";
 constexpr const char* kTags = "tagfield_tags";
 constexpr const char* kAntennas = "tagfield_antennas";
-constexpr int kShades = 16;          // A marker has one colour, so tags are drawn shade by shade.
+/// Materials of Gazebo's own, from the weakest reads to the strongest: its window colours markers
+/// by material alone. A marker has one, so tags are drawn shade by shade.
+constexpr std::array<const char*, 5> kShades = {"Gazebo/BlueTransparent", "Gazebo/GreenTransparent",
+                                                "Gazebo/Green", "Gazebo/Orange", "Gazebo/Red"};
+constexpr int kSilent = static_cast<int>(kShades.size());
+constexpr const char* kSilentMaterial = "Gazebo/GreyTransparent";
 constexpr double kTagRadius = 0.06;  // [m] larger than a label, to be seen across a hall
 constexpr double kArrowLength = 0.5;
 constexpr double kArrowRadius = 0.04;
@@ -26,16 +31,10 @@ using ignition::msgs::Marker;
 
 ignition::math::Vector3d to_ignition(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-void set_color(const ReadColor& color, Marker& marker) {
-  const auto fill = [&](ignition::msgs::Color* target) {
-    target->set_r(static_cast<float>(color.red));
-    target->set_g(static_cast<float>(color.green));
-    target->set_b(static_cast<float>(color.blue));
-    target->set_a(static_cast<float>(color.alpha));
-  };
-  fill(marker.mutable_material()->mutable_ambient());
-  fill(marker.mutable_material()->mutable_diffuse());
-  fill(marker.mutable_material()->mutable_emissive());
+void set_material(const std::string& name, Marker& marker) {
+  ignition::msgs::Material::Script* const script = marker.mutable_material()->mutable_script();
+  script->set_name(name);
+  script->add_uri("file://media/materials/scripts/gazebo.material");
 }
 
 Marker marker_of(const char* name_space, std::uint64_t id, Marker::Type type) {
@@ -64,19 +63,18 @@ void add_octahedron(const Eigen::Vector3d& center, Marker& marker) {
   }
 }
 
-/// The shade nearest to a colour; silent tags have one of their own.
+/// The shade of a colour; silent tags have one of their own.
 int shade_of(const ReadColor& color) {
-  if (color.red == silent_color().red && color.green == silent_color().green &&
-      color.blue == silent_color().blue) {
-    return kShades;
+  const ReadColor silent = silent_color();
+  if (color.red == silent.red && color.green == silent.green && color.blue == silent.blue) {
+    return kSilent;
   }
   const double share = color.red > 0.0 ? 0.5 + 0.5 * color.red : 0.5 - 0.5 * color.blue;
-  return static_cast<int>(std::lround(share * (kShades - 1)));
+  return static_cast<int>(std::lround(share * (kSilent - 1)));
 }
 
-ReadColor color_of_shade(int shade) {
-  if (shade == kShades) return silent_color();
-  return read_color(static_cast<double>(shade) / (kShades - 1));
+std::string material_of_shade(int shade) {
+  return shade == kSilent ? kSilentMaterial : kShades.at(static_cast<std::size_t>(shade));
 }
 
 }  // namespace
@@ -117,7 +115,7 @@ void WindowMarkers::draw(Time stamp, const FieldTags& tags) {
     add_octahedron(tags.population.position(slot), found->second);
   });
   for (auto& [shade, marker] : by_shade) {
-    set_color(color_of_shade(shade), marker);
+    set_material(material_of_shade(shade), marker);
     window_->show(marker);
   }
   std::uint64_t id = 1;
@@ -135,13 +133,13 @@ void WindowMarkers::draw(Time stamp, const FieldTags& tags) {
     ignition::msgs::Set(
         arrow.mutable_scale(),
         ignition::math::Vector3d(2.0 * kArrowRadius, 2.0 * kArrowRadius, kArrowLength));
-    set_color({0.9, 0.55, 0.0, 1.0}, arrow);
+    set_material("Gazebo/Orange", arrow);
     window_->show(arrow);
     Marker ball = marker_of(kAntennas, id++, Marker::SPHERE);
     ignition::msgs::Set(ball.mutable_pose(), ignition::math::Pose3d(place, rotation));
     ignition::msgs::Set(ball.mutable_scale(),
                         ignition::math::Vector3d::One * (2.0 * antenna.range_m));
-    set_color({0.9, 0.7, 0.2, 0.1}, ball);
+    set_material("Gazebo/YellowTransparent", ball);
     window_->show(ball);
   }
   for (const auto& which : before) {

@@ -90,6 +90,15 @@ def escaped(text):
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
+def insert(time_s, text):
+    """An event of the schedule: a model comes."""
+    return f'<insert time="{time_s}">{escaped(f"<sdf version={chr(39)}1.6{chr(39)}>{text}</sdf>")}</insert>'
+
+
+def remove(time_s, name):
+    return f'<remove time="{time_s}">{name}</remove>'
+
+
 # --- Runs -----------------------------------------------------------------------------------------
 
 class Run:

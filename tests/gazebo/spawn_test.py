@@ -4,18 +4,10 @@
 import bisect
 
 from gazebo import (
-    Run, antenna, case, check, check_equal, escaped, main, messages, model, nanoseconds,
-    antenna_sensor, tag_sensor, read_if_there, schedule, tag, world)
+    Run, antenna, antenna_sensor, case, check, check_equal, insert, main, messages, model,
+    nanoseconds, read_if_there, remove, schedule, tag, tag_sensor, world)
 
 UPDATE_NS = 66_700_000  # One update at 15 Hz, on steps of 1 ms.
-
-
-def insert(time, text):
-    return f'<insert time="{time}">{escaped("<sdf version=" + chr(39) + "1.6" + chr(39) + ">" + text + "</sdf>")}</insert>'
-
-
-def remove(time, name):
-    return f'<remove time="{time}">{name}</remove>'
 
 
 def presence(log):
