@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/motion/path_follower.h"
 #include "simulator/pose_error.h"
-#include "tagfield/motion/unicycle.h"
 #include "tagfield/base/error.h"
+#include "tagfield/motion/path_follower.h"
+#include "tagfield/motion/unicycle.h"
 #include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {

@@ -83,7 +83,8 @@ TEST(AddPlacements, RefusesBadValuesByLine) {
             std::string::npos);
   EXPECT_NE(complaint_about(parameter("optional_distribution", "normal")).find("did you mean"),
             std::string::npos);
-  EXPECT_NE(complaint_about(parameter("update_rate", "0")).find("<update_rate>"), std::string::npos);
+  EXPECT_NE(complaint_about(parameter("update_rate", "0")).find("<update_rate>"),
+            std::string::npos);
 }
 
 }  // namespace

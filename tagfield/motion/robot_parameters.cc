@@ -193,8 +193,8 @@ LiftParameters lift_from(const std::vector<RawParameter>& parameters, Diagnostic
   reader.warn_of_unknown(diagnostics);
   if (lift.joint.empty()) throw Error("<joint> is missing, expected the name of a prismatic joint");
   if (!(upper > lift.lower_m)) {
-    throw Error(
-        fmt::format("<upper> is '{:g}', expected a number over <lower>, {:g}", upper, lift.lower_m));
+    throw Error(fmt::format("<upper> is '{:g}', expected a number over <lower>, {:g}", upper,
+                            lift.lower_m));
   }
   lift.lift.travel_m = upper - lift.lower_m;
   return lift;

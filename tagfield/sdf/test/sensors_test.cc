@@ -108,8 +108,7 @@ TEST_F(LoadWorldSensors, TheOnlyTagOfAModelHasItsName) {
   const Scene scene =
       load(model("a", link("l", tag("tag") + tag("other"))) + model("b", link("l", tag("tag"))) +
            model("c", link("l", "") + model("d", link("l", tag("tag")))));
-  EXPECT_EQ(names(scene.tags),
-            (std::vector<std::string>{"a::tag", "a::other", "b", "c::d"}));
+  EXPECT_EQ(names(scene.tags), (std::vector<std::string>{"a::tag", "a::other", "b", "c::d"}));
 }
 
 TEST_F(LoadWorldSensors, NamesSharedWithinAModelAreScopedByTheirLinkToo) {
