@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 
 #include "simulator/scenario_yaml.h"
 #include "simulator/simulation.h"
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/stream/files.h"
 #include "tagfield/stream/poses_csv.h"
 #include "tagfield/stream/reads_csv.h"
@@ -15,19 +15,10 @@
 namespace tagfield {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A file of these tests, which may run at once in several processes.
-std::string temp(const std::string& name) {
-  const testing::TestInfo* const test = testing::UnitTest::GetInstance()->current_test_info();
-  const fs::path folder = fs::path(testing::TempDir()) / "recorded_motion_test" / test->name();
-  fs::create_directories(folder);
-  return (folder / name).string();
-}
+std::string temp(const std::string& name) { return folder_of_test().file(name); }
 
 std::string write(const std::string& name, const std::string& text) {
-  write_text_file(temp(name), text);
-  return temp(name);
+  return folder_of_test().with(name, text);
 }
 
 Recording run(const Scenario& scenario) {

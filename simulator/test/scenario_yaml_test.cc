@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {
@@ -32,9 +30,7 @@ localization: {tag_height_m: 1.2, stride_m: 0.4}
 )";
 
 std::string write_scenario(const std::string& text) {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "scenario.yaml").string();
-  write_text_file(path, text);
-  return path;
+  return folder_of_test().with("scenario.yaml", text);
 }
 
 /// The complaint about the whole scenario with `from` replaced by `to`, without the folder.

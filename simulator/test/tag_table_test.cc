@@ -2,17 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "tagfield/stream/files.h"
+#include "tagfield/base/test/temporary_folder.h"
 
 namespace tagfield {
 namespace {
 
 std::string write_table(const std::string& text) {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "tag_table.csv").string();
-  write_text_file(path, text);
-  return path;
+  return folder_of_test().with("tag_table.csv", text);
 }
 
 TEST(TagTable, GivesATagARow) {

@@ -8,9 +8,9 @@
 
 #include "adapters/ros1/test/bag_writer.h"
 #include "tagfield/base/test/error_text.h"
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/locate.h"
-#include "tagfield/stream/test/temporary_folder.h"
 
 namespace tagfield {
 namespace {

@@ -1,8 +1,5 @@
 #include "tagfield/report/test/run_folder.h"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 
@@ -78,12 +75,7 @@ constexpr const char* kTopView =
 
 }  // namespace
 
-RunFolder::RunFolder(const FolderPlan& plan) {
-  static std::atomic<int> made{0};
-  path_ = (fs::temp_directory_path() /
-           ("tagfield-report-" + std::to_string(getpid()) + "-" + std::to_string(made++)))
-              .string();
-  fs::remove_all(path_);
+RunFolder::RunFolder(const FolderPlan& plan) : path_(parent_.file("run")) {
   StagedFolder folder(path_);
   const std::vector<AntennaPose> poses = poses_of(plan);
   folder.add("summary.json", to_json(summary_of(plan)));
@@ -92,11 +84,6 @@ RunFolder::RunFolder(const FolderPlan& plan) {
   if (plan.truth) stage_truth(truth_of(plan), folder);
   if (plan.top_view) folder.add("top_view.json", kTopView);
   folder.commit();
-}
-
-RunFolder::~RunFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 std::string RunFolder::text(const std::string& name) const {

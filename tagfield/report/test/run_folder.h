@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/report/summary.h"
 
 namespace tagfield {
@@ -26,9 +27,6 @@ struct FolderPlan {
 class RunFolder {
  public:
   explicit RunFolder(const FolderPlan& plan);
-  ~RunFolder();
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Text of a file in it; "" where there is none.
@@ -37,6 +35,7 @@ class RunFolder {
   void remove(const std::string& name) const;
 
  private:
+  TemporaryFolder parent_;
   std::string path_;
 };
 

@@ -3,36 +3,21 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 
 class WorldTest : public testing::Test {
  protected:
-  WorldTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("tagfield_sdf_" + std::to_string(getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~WorldTest() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path_of(const std::string& name) const {
-    return (folder_ / name).string();
-  }
+  [[nodiscard]] std::string path_of(const std::string& name) const { return folder_.file(name); }
 
   std::string write(const std::string& name, const std::string& text) {
-    const std::filesystem::path path = folder_ / name;
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path) << text;
-    return path.string();
+    return folder_.with(name, text);
   }
 
   /// Loads a world whose first two lines are <sdf> and <world>, so that `inside` starts on line 3.
@@ -57,7 +42,7 @@ class WorldTest : public testing::Test {
   /// The same for a world as load() makes it, and without the file's folder.
   std::string error_of(const std::string& inside, const std::string& version = "1.9") {
     const std::string message = error_of_file(write("world.sdf", world(inside, version)));
-    const std::string prefix = folder_.string() + "/";
+    const std::string prefix = path_of("");
     return message.rfind(prefix, 0) == 0 ? message.substr(prefix.size()) : message;
   }
 
@@ -76,7 +61,7 @@ class WorldTest : public testing::Test {
   Diagnostics diagnostics_;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// A triangle with corners at the origin, (1, 0, 0) and (0, 1, 0).

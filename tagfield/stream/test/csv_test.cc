@@ -5,7 +5,7 @@
 
 #include "odd_names.h"
 #include "tagfield/base/test/error_text.h"
-#include "temporary_folder.h"
+#include "tagfield/base/test/temporary_folder.h"
 
 namespace tagfield {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/test/error_text.h"
-#include "temporary_folder.h"
+#include "tagfield/base/test/temporary_folder.h"
 
 namespace tagfield {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "odd_names.h"
 #include "tagfield/base/test/error_text.h"
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"
-#include "temporary_folder.h"
 
 namespace tagfield {
 namespace {

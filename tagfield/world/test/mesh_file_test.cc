@@ -1,13 +1,12 @@
 #include "tagfield/world/mesh_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {
@@ -104,26 +103,14 @@ std::string as_collada(const TriangleMesh& mesh, const std::string& unit,
 
 class MeshFileTest : public testing::Test {
  protected:
-  MeshFileTest()
-      : folder_(fs::temp_directory_path() /
-                ("tagfield_mesh_" + std::to_string(getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~MeshFileTest() override { fs::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) {
-    const fs::path path = folder_ / name;
-    std::ofstream(path) << text;
-    return path.string();
+    return folder_.with(name, text);
   }
 
-  [[nodiscard]] std::string path_of(const std::string& name) const {
-    return (folder_ / name).string();
-  }
+  [[nodiscard]] std::string path_of(const std::string& name) const { return folder_.file(name); }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 std::string error_of(const std::string& path, const std::string& submesh = "") {

@@ -10,6 +10,7 @@
 
 #include "simulator/placements.h"
 #include "simulator/scenario_yaml.h"
+#include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/sdf/load_world.h"
 #include "tagfield/stream/files.h"
 
@@ -21,11 +22,7 @@ using tinyxml2::XMLElement;
 
 constexpr double kTiny = 1e-9;
 
-fs::path temp(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / "scenario_world_test";
-  fs::create_directories(folder);
-  return folder / name;
-}
+fs::path temp(const std::string& name) { return folder_of_test().path() / name; }
 
 GazeboWorldOptions with_p3at() {
   GazeboWorldOptions options;
@@ -34,9 +31,7 @@ GazeboWorldOptions with_p3at() {
 }
 
 std::string write_scenario(const std::string& yaml) {
-  const std::string path = temp("scenario.yaml").string();
-  write_text_file(path, yaml);
-  return path;
+  return folder_of_test().with("scenario.yaml", yaml);
 }
 
 std::string world_text(const std::string& scenario_path, Diagnostics& diagnostics,

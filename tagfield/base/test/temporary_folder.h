@@ -1,5 +1,5 @@
 /// @file
-/// A folder for one test, gone after it.
+/// A folder for one test, gone after it. No two tests share one, whatever runs beside.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -52,5 +53,15 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// The running test's own folder; gone when the next test asks for its own, or the program ends.
+inline const TemporaryFolder& folder_of_test() {
+  static const testing::TestInfo* owner = nullptr;
+  static std::optional<TemporaryFolder> folder;
+  const testing::TestInfo* const now = testing::UnitTest::GetInstance()->current_test_info();
+  if (!folder || now != owner) folder.emplace();
+  owner = now;
+  return *folder;
+}
 
 }  // namespace tagfield
