@@ -1,0 +1,35 @@
+/// @file
+/// One turn of a planar laser scanner, real or simulated.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/base/time.h"
+
+namespace tagfield {
+
+/// Ranges at equal angles about the scanner's z axis, beam i at first_angle_rad + i·angle_step_rad
+/// (frame L of the scanner: x forward, z up, so angles grow to the left) and at the time
+/// stamp + i·beam_interval.
+struct LaserScan {
+  Time stamp;                ///< Of the first beam.
+  Duration beam_interval{};  ///< Between neighbouring beams; 0 where all are taken at once.
+  double first_angle_rad = 0.0;
+  double angle_step_rad = 0.0;  ///< > 0.
+  double least_range_m = 0.0;
+  double most_range_m = 0.0;
+  /// Finite. A return is in [least_range_m, most_range_m]; above that the beam met nothing within
+  /// range; 0 is a beam without meaning (too near, or invalid).
+  std::vector<float> ranges_m;
+};
+
+/// What a beam says.
+enum class Beam { kReturn, kNothing, kInvalid };
+
+inline Beam beam_of(const LaserScan& scan, float range_m) {
+  if (range_m > static_cast<float>(scan.most_range_m)) return Beam::kNothing;
+  return range_m >= static_cast<float>(scan.least_range_m) && range_m > 0.0F ? Beam::kReturn
+                                                                              : Beam::kInvalid;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,52 @@
+/// @file
+/// A map of the floor: which cells are free, occupied, unknown.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace tagfield {
+
+/// As nav_msgs/OccupancyGrid has it: row by row from the origin's corner, x first; 0 surely free to
+/// 100 surely occupied, -1 unknown. Axes along those of the map's frame M.
+struct OccupancyGrid {
+  double resolution_m = 0.05;
+  int width = 0;                                           ///< Cells along x.
+  int height = 0;                                          ///< Cells along y.
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();        ///< Outer corner of cell (0, 0) [m].
+  std::vector<std::int8_t> cells;                          ///< width·height
+
+  [[nodiscard]] bool contains(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height;
+  }
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+  /// -1 beyond the map.
+  [[nodiscard]] std::int8_t at(int x, int y) const { return contains(x, y) ? cells[index(x, y)] : std::int8_t{-1}; }
+  /// The cell that holds the point, which may lie beyond the map.
+  [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& p) const {
+    return {static_cast<int>(std::floor((p.x() - origin.x()) / resolution_m)),
+            static_cast<int>(std::floor((p.y() - origin.y()) / resolution_m))};
+  }
+  [[nodiscard]] Eigen::Vector2d centre_of(int x, int y) const {
+    return {origin.x() + (x + 0.5) * resolution_m, origin.y() + (y + 0.5) * resolution_m};
+  }
+};
+
+/// The map server's defaults: occupied from 65 %, free below 19.6 %.
+inline constexpr int kOccupiedFrom = 65;
+inline constexpr int kFreeBelow = 20;
+
+inline bool is_occupied(std::int8_t cell) { return cell >= kOccupiedFrom; }
+inline bool is_free(std::int8_t cell) { return cell >= 0 && cell < kFreeBelow; }
+
+/// Distance from each cell's centre to the nearest centre of a cell for which `is_source` [m];
+/// exact (Felzenszwalb and Huttenlocher); at most `most_m`. Row by row as the grid.
+std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<bool>& is_source,
+                                  double most_m);
+
+}  // namespace tagfield
