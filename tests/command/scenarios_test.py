@@ -6,14 +6,16 @@ import math
 import shutil
 import statistics
 
+from bags import RunBag, require_rosbag, write_bag
 from common import (SPEED_OF_LIGHT, case, check, check_between, check_equal, check_in, check_near,
                     files_in, main, percentile, position, read_csv, read_json)
 
 POSE_NOISE = ("--set", "pose.source=noisy", "--set", "pose.sigma_m=0.01",
               "--set", "pose.yaw_sigma_deg=0.5")
 SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "pose", "complete", "path_length_m",
-                "reads", "simulated_s", "wall_s", "real_time_factor", "pose_error", "tags",
-                "error_m", "over_0_3_m", "located", "ambiguous", "not_located", "warnings"}
+                "reads", "simulated_s", "wall_s", "real_time_factor", "pose_error",
+                "compared_pose", "tags", "error_m", "over_0_3_m", "located", "ambiguous",
+                "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",
             "candidates_expected_error_m", "reads", "reads_used"}
@@ -157,6 +159,7 @@ def check_summary(folder):
     check_statistics(summary)
     check_equal(summary["complete"], True, "complete")
     check_equal(summary["method"], "hyperbola", "method")
+    check_equal(summary["compared_pose"], None, "compared_pose where poses are of one kind")
     check(summary["wall_s"] > 0.0, f"wall_s is {summary['wall_s']}")
     check_near(summary["real_time_factor"] * summary["wall_s"],
                summary["simulated_s"] * len(summary["seeds"]),
@@ -481,9 +484,43 @@ def localize_gives_what_the_run_gave(context):
         summary = read_json(out / "summary.json")
         check_equal(set(summary), SUMMARY_KEYS, "keys of summary.json")
         check_equal(summary["pose"], "given", "pose")
+        check_equal(summary["compared_pose"], None, "compared_pose with one file of poses")
         check_equal(summary["error_m"], None, "error_m where the truth is not known")
         check((out / "report.html").exists(), "localize drew no page")
         check(not (out / "truth").exists(), "localize made up a truth")
+
+
+def horizontal_rms(poses, others):
+    """Between two files' poses of the same antennas at the same stamps [m]."""
+    squares = []
+    for row, other in zip(read_csv(poses), read_csv(others), strict=True):
+        check_equal((other["antenna"], other["stamp_s"]), (row["antenna"], row["stamp_s"]), "pose")
+        squares.append(math.dist(position(row)[:2], position(other)[:2]) ** 2)
+    return math.sqrt(statistics.fmean(squares))
+
+
+@case
+def compared_pose_is_what_the_other_poses_give(context):
+    require_rosbag()
+    folder = context.simulate("paper_warehouse", "--set", "pose.source=odometry")
+    bag = write_bag(context.folder / "run.bag", RunBag(context.source, folder).messages())
+    for pose in ("true", "odometry"):
+        context.run_well("localize", bag, "--poses", pose, "--tag-heights",
+                         folder / "tag_heights.csv", "--out", pose)
+    for pose, other in (("true", "odometry"), ("odometry", "true")):
+        out = context.folder / pose
+        compared = read_json(out / "summary.json")["compared_pose"]
+        alone = read_json(context.folder / other / "summary.json")
+        check_equal(set(compared), {"pose", "position_rms_m", "error_m", "located"},
+                    "keys of compared_pose")
+        check_equal(compared["pose"], other, f"{pose}: compared_pose.pose")
+        check_equal(compared["located"], alone["located"], f"{pose}: compared_pose.located")
+        check_equal(compared["error_m"], alone["error_m"], f"{pose}: compared_pose.error_m")
+        # Files hold micrometres.
+        check_near(compared["position_rms_m"],
+                   horizontal_rms(out / "antenna_poses.csv", out / "compared_poses.csv"), 2e-6,
+                   f"{pose}: compared_pose.position_rms_m")
+        check(compared["position_rms_m"] > 0.01, "the wheels do not slip")
 
 
 @case
