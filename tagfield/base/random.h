@@ -16,6 +16,10 @@ enum class Purpose : std::uint64_t {
   kOptionalNoise = 3,  ///< The optional phase distribution of one read.
   kOdometry = 4,       ///< Wheel odometry noise.
   kPoseError = 5,      ///< Error of the believed pose.
+  kLaser = 6,          ///< Range noise of one laser scan.
+  kWheelOdometry = 7,  ///< Noise of an odometry's motion increments.
+  kMapping = 8,        ///< Particles of a filter that maps.
+  kLocalization = 9,   ///< Particles of a filter that localizes on a map.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

@@ -29,7 +29,15 @@ enum class Beam { kReturn, kNothing, kInvalid };
 inline Beam beam_of(const LaserScan& scan, float range_m) {
   if (range_m > static_cast<float>(scan.most_range_m)) return Beam::kNothing;
   return range_m >= static_cast<float>(scan.least_range_m) && range_m > 0.0F ? Beam::kReturn
-                                                                              : Beam::kInvalid;
+                                                                             : Beam::kInvalid;
+}
+
+/// The range that stands for a beam that met nothing within `most_range_m` (finite, up to 1e6 m).
+inline float nothing_range(double most_range_m) { return static_cast<float>(most_range_m) + 1.0F; }
+
+/// Angle of beam `i` in L [rad].
+inline double beam_angle(const LaserScan& scan, std::size_t i) {
+  return scan.first_angle_rad + static_cast<double>(i) * scan.angle_step_rad;
 }
 
 }  // namespace tagfield

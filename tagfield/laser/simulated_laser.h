@@ -1,13 +1,13 @@
 /// @file
-/// A Hokuyo-like laser scanner in a world.
+/// A Hokuyo-like laser scanner in a world. docs/laser.md has the equations.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
+#include "tagfield/base/time.h"
 #include "tagfield/laser/laser_scan.h"
 #include "tagfield/poses/rigid_transform.h"
 #include "tagfield/world/ray_scene.h"
@@ -22,12 +22,14 @@ struct LaserParameters {
   double least_range_m = 0.3;
   double most_range_m = 30.0;
   double rate_hz = 30.0;
-  double sigma_m = 0.01;        ///< Standard deviation of a range.
-  double sweep_s = 0.0;         ///< From the first beam to the last; less than 1/rate_hz.
+  double sigma_m = 0.01;  ///< Standard deviation of a range.
+  double sweep_s = 0.0;   ///< From the first beam to the last; less than 1/rate_hz.
   RigidTransform X_RL = from_translation({0.15, 0.0, 0.31});  ///< On the robot's base.
 };
 
-/// Throws Error on parameters out of range, naming the parameter.
+/// Throws Error on parameters out of range, naming the parameter: 2 to 100,000 beams over more than
+/// 0 and at most 2π; 0 ≤ least < most ≤ 1000 m; 0 < rate ≤ 10,000 Hz; 0 ≤ sigma ≤ 10 m;
+/// 0 ≤ sweep < 1/rate; a finite place within 1000 m of the robot's base.
 void check(const LaserParameters& laser);
 
 /// An upright obstacle that is not part of the world at rest: its outline in the laser's plane at
@@ -42,6 +44,8 @@ struct Rectangle {
   Eigen::Vector2d size;    ///< Edge lengths [m].
   double yaw = 0.0;        ///< [rad]
 };
+/// Taken to be taller than the laser, wherever that is. Outlines are surfaces, seen from either
+/// side; those that are not finite are not there.
 struct Obstacles {
   std::vector<Disc> discs;
   std::vector<Rectangle> rectangles;
@@ -49,14 +53,19 @@ struct Obstacles {
 
 /// Scan `number` (stamp = number / rate). `pose_at` gives X_WR at a time in
 /// [stamp, stamp + sweep_s], so that each beam leaves from where the scanner is then;
-/// `obstacles_at` what moves (or nullptr). Noise is keyed by (seed, key, number): the same
-/// arguments give the same scan.
+/// `obstacles_at` what moves (or nullptr). Both are asked once for each beam, in order of time, or
+/// once in all where sweep_s is 0. Noise is keyed by (seed, key, number): the same arguments give
+/// the same scan.
+///
+/// A true distance d in [least, most] is a return of d + N(0, sigma_m²); where the noise takes it
+/// below `least` it is 0, and above `most` nothing. d < least is 0 and d > most is nothing, however
+/// the noise falls. Throws Error as check() does.
 LaserScan simulate_scan(const RayScene& world, const LaserParameters& laser, std::int64_t number,
                         const std::function<RigidTransform(Time)>& pose_at,
                         const std::function<Obstacles(Time)>& obstacles_at, std::uint64_t seed,
                         std::uint64_t key);
 
-/// Stamp of scan `number`.
+/// Stamp of scan `number`. Throws Error beyond ±292 years.
 Time scan_stamp(const LaserParameters& laser, std::int64_t number);
 
 }  // namespace tagfield

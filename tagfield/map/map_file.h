@@ -17,9 +17,9 @@ std::string map_to_yaml(const OccupancyGrid& grid, const std::string& image);
 
 /// Reads both. P5 and P2 images of 8 or 16 bits, `negate`, and the modes trinary, scale and raw are
 /// understood. Throws Error with file and line or byte on: a missing, empty or torn file, a size
-/// that the file's bytes don't bear out, a resolution that is not positive, thresholds out of order,
-/// a yaw of the origin other than 0 (which no cell-aligned grid can hold). The image's path is
-/// relative to the YAML.
+/// that the file's bytes don't bear out, a resolution that is not positive, thresholds out of
+/// order, a yaw of the origin other than 0 (which no cell-aligned grid can hold). The image's path
+/// is relative to the YAML.
 OccupancyGrid read_map(const std::string& yaml_path, Diagnostics& diagnostics);
 
 }  // namespace tagfield

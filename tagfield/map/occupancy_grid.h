@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -13,10 +14,10 @@ namespace tagfield {
 /// 100 surely occupied, -1 unknown. Axes along those of the map's frame M.
 struct OccupancyGrid {
   double resolution_m = 0.05;
-  int width = 0;                                           ///< Cells along x.
-  int height = 0;                                          ///< Cells along y.
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();        ///< Outer corner of cell (0, 0) [m].
-  std::vector<std::int8_t> cells;                          ///< width·height
+  int width = 0;                                     ///< Cells along x.
+  int height = 0;                                    ///< Cells along y.
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< Outer corner of cell (0, 0) [m].
+  std::vector<std::int8_t> cells;                    ///< width·height
 
   [[nodiscard]] bool contains(int x, int y) const {
     return x >= 0 && y >= 0 && x < width && y < height;
@@ -26,14 +27,22 @@ struct OccupancyGrid {
            static_cast<std::size_t>(x);
   }
   /// -1 beyond the map.
-  [[nodiscard]] std::int8_t at(int x, int y) const { return contains(x, y) ? cells[index(x, y)] : std::int8_t{-1}; }
-  /// The cell that holds the point, which may lie beyond the map.
+  [[nodiscard]] std::int8_t at(int x, int y) const {
+    return contains(x, y) ? cells[index(x, y)] : std::int8_t{-1};
+  }
+  /// The cell that holds the point, which may lie beyond the map; beyond 1e9 cells, or not finite,
+  /// one that is on no map.
   [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& p) const {
-    return {static_cast<int>(std::floor((p.x() - origin.x()) / resolution_m)),
-            static_cast<int>(std::floor((p.y() - origin.y()) / resolution_m))};
+    return {whole((p.x() - origin.x()) / resolution_m), whole((p.y() - origin.y()) / resolution_m)};
   }
   [[nodiscard]] Eigen::Vector2d centre_of(int x, int y) const {
     return {origin.x() + (x + 0.5) * resolution_m, origin.y() + (y + 0.5) * resolution_m};
+  }
+
+ private:
+  static int whole(double cells) {
+    // In this order NaN becomes 1e9, and no conversion overflows.
+    return static_cast<int>(std::floor(std::max(-1e9, std::min(1e9, cells))));
   }
 };
 
@@ -45,7 +54,9 @@ inline bool is_occupied(std::int8_t cell) { return cell >= kOccupiedFrom; }
 inline bool is_free(std::int8_t cell) { return cell >= 0 && cell < kFreeBelow; }
 
 /// Distance from each cell's centre to the nearest centre of a cell for which `is_source` [m];
-/// exact (Felzenszwalb and Huttenlocher); at most `most_m`. Row by row as the grid.
+/// exact (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions, Theory of
+/// Computing 8, 2012, here in whole numbers); at most `most_m`, and that where there is no source.
+/// `is_source` and the result are row by row as the grid, and as long.
 std::vector<float> distance_field(const OccupancyGrid& grid, const std::vector<bool>& is_source,
                                   double most_m);
 

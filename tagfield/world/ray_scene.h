@@ -17,20 +17,26 @@ struct Ray {
 };
 
 /// All collisions of a scene, ready for rays. Boxes, meshes, cylinders and spheres are the
-/// triangles of triangulate(); a plane is endless in its own way (analytic). May be used by several
-/// threads at once.
+/// triangles of triangulate(); a plane is endless in its own way (analytic). No ray slips through
+/// an edge or a corner that triangles share. May be used by several threads at once.
 class RayScene {
  public:
-  /// Keeps no reference to `scene`.
+  /// Keeps no reference to `scene`. Throws Error, naming the collision, if a vertex is not finite
+  /// or further than 1e9 m from the world's origin, if a triangle names a vertex that is not there,
+  /// or if a plane's normal has no direction.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
   /// Distance to the first surface from either side [m], or +infinity where nothing is within
-  /// most_m.
+  /// most_m. In single precision: to about 1e-6 of the greatest coordinate met with. A ray that
+  /// begins on a surface may meet it at 0 or miss it; one with a component that is not finite, or
+  /// a `most_m` below 0, meets nothing.
   [[nodiscard]] float distance(const Ray& ray) const;
-  /// Likewise for many rays, by Embree's packets; `distances` has one for each ray.
+  /// Likewise for many rays, by Embree's packets, which is quicker; `distances` becomes as long as
+  /// `rays`. May differ from distance() by its rounding errors, and where a ray just meets the rim
+  /// of something.
   void distances(const std::vector<Ray>& rays, std::vector<float>& distances) const;
 
  private:

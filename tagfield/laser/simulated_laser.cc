@@ -1,0 +1,204 @@
+#include "tagfield/laser/simulated_laser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr int kMostBeams = 100'000;
+constexpr double kMostMetres = 1000.0;
+constexpr double kMostRateHz = 10'000.0;
+constexpr double kMostSigmaM = 10.0;
+/// A full turn as it is written with nine decimals.
+constexpr double kFullTurn = kTwoPi + 1e-8;
+
+void require(bool right, const char* name, double value, const std::string& expected) {
+  if (!right) throw Error(fmt::format("laser: {} must be {}, is {}", name, expected, value));
+}
+
+/// A ray seen from above: points origin + t·direction, where t is the distance along the ray itself
+/// [m], so that `direction` is shorter than 1 where the ray is not level.
+struct FlatRay {
+  Eigen::Vector2d origin;
+  Eigen::Vector2d direction;
+};
+
+FlatRay seen_from_above(const Ray& ray) {
+  return {ray.origin.head<2>().cast<double>(), ray.direction.head<2>().cast<double>()};
+}
+
+/// The lesser of `least` and of t, if the ray reaches t; NaN, as of an upright ray, is left out.
+double nearer(double t, double least) { return t >= 0.0 && t < least ? t : least; }
+
+/// Where |origin + t·direction − centre| = radius.
+double nearer(const Disc& disc, const FlatRay& ray, double least) {
+  const Eigen::Vector2d from_centre = ray.origin - disc.centre;
+  const double a = ray.direction.squaredNorm();
+  const double half_b = ray.direction.dot(from_centre);
+  const double c = from_centre.squaredNorm() - disc.radius * disc.radius;
+  const double discriminant = half_b * half_b - a * c;
+  if (!(discriminant >= 0.0)) return least;
+  const double root = std::sqrt(discriminant);
+  return nearer((-half_b + root) / a, nearer((-half_b - root) / a, least));
+}
+
+/// By slabs: the ray is inside both pairs of edges between `in` and `out`.
+double nearer(const Rectangle& rectangle, const FlatRay& ray, double least) {
+  const Eigen::Rotation2Dd R_CW(-rectangle.yaw);
+  const Eigen::Vector2d origin = R_CW * (ray.origin - rectangle.centre);
+  const Eigen::Vector2d direction = R_CW * ray.direction;
+  double in = -std::numeric_limits<double>::infinity();
+  double out = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 2; ++axis) {
+    const double half = 0.5 * rectangle.size[axis];
+    if (direction[axis] == 0.0) {
+      if (!(std::abs(origin[axis]) <= half)) return least;
+      continue;
+    }
+    const double one = (-half - origin[axis]) / direction[axis];
+    const double other = (half - origin[axis]) / direction[axis];
+    in = std::max(in, std::min(one, other));
+    out = std::min(out, std::max(one, other));
+  }
+  if (!(in <= out)) return least;
+  return nearer(out, nearer(in, least));
+}
+
+double nearest(const Obstacles& obstacles, const Ray& ray, double least) {
+  const FlatRay flat = seen_from_above(ray);
+  for (const Disc& disc : obstacles.discs) least = nearer(disc, flat, least);
+  for (const Rectangle& rectangle : obstacles.rectangles) least = nearer(rectangle, flat, least);
+  return least;
+}
+
+bool is_finite(const Disc& disc) { return disc.centre.allFinite() && std::isfinite(disc.radius); }
+
+bool is_finite(const Rectangle& rectangle) {
+  return rectangle.centre.allFinite() && rectangle.size.allFinite() && std::isfinite(rectangle.yaw);
+}
+
+Obstacles finite_ones(Obstacles obstacles) {
+  std::erase_if(obstacles.discs, [](const Disc& disc) { return !is_finite(disc); });
+  std::erase_if(obstacles.rectangles, [](const Rectangle& box) { return !is_finite(box); });
+  return obstacles;
+}
+
+LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
+  LaserScan scan;
+  scan.stamp = scan_stamp(laser, number);
+  const int steps = laser.beams - 1;
+  // Down to a whole nanosecond, so that the last beam is not after the sweep.
+  scan.beam_interval = duration_from_seconds(laser.sweep_s) / steps;
+  scan.first_angle_rad = laser.first_angle_rad;
+  scan.angle_step_rad = (laser.last_angle_rad - laser.first_angle_rad) / steps;
+  scan.least_range_m = laser.least_range_m;
+  scan.most_range_m = laser.most_range_m;
+  scan.ranges_m.resize(static_cast<std::size_t>(laser.beams));
+  return scan;
+}
+
+/// What all beams of one instant share.
+struct View {
+  Eigen::Matrix3d R_WL;
+  Eigen::Vector3f origin;
+  Obstacles obstacles;
+};
+
+View view_at(const LaserParameters& laser, Time time,
+             const std::function<RigidTransform(Time)>& pose_at,
+             const std::function<Obstacles(Time)>& obstacles_at) {
+  const RigidTransform X_WL = pose_at(time) * laser.X_RL;
+  return {X_WL.rotation.toRotationMatrix(), X_WL.translation.cast<float>(),
+          obstacles_at ? finite_ones(obstacles_at(time)) : Obstacles{}};
+}
+
+Ray ray_of(const View& view, double angle, float most_m) {
+  const Eigen::Vector3d direction =
+      view.R_WL.col(0) * std::cos(angle) + view.R_WL.col(1) * std::sin(angle);
+  return {view.origin, direction.cast<float>(), most_m};
+}
+
+/// What the laser reports of a true distance.
+float measured(const LaserParameters& laser, double distance_m, double noise_m) {
+  if (!(distance_m <= laser.most_range_m)) return nothing_range(laser.most_range_m);
+  const double range = distance_m + noise_m;
+  if (distance_m < laser.least_range_m || range < laser.least_range_m || range <= 0.0) return 0.0F;
+  if (range > laser.most_range_m) return nothing_range(laser.most_range_m);
+  return static_cast<float>(range);
+}
+
+}  // namespace
+
+void check(const LaserParameters& laser) {
+  require(laser.beams >= 2 && laser.beams <= kMostBeams, "beams", laser.beams,
+          fmt::format("2 to {}", kMostBeams));
+  require(std::abs(laser.first_angle_rad) <= kFullTurn, "first_angle_rad", laser.first_angle_rad,
+          "within ±2π");
+  const double span = laser.last_angle_rad - laser.first_angle_rad;
+  require(span > 0.0 && span <= kFullTurn, "last_angle_rad", laser.last_angle_rad,
+          "greater than first_angle_rad, by 2π at most");
+  require(laser.least_range_m >= 0.0, "least_range_m", laser.least_range_m, "0 or more");
+  require(laser.most_range_m > laser.least_range_m && laser.most_range_m <= kMostMetres,
+          "most_range_m", laser.most_range_m,
+          fmt::format("greater than least_range_m and {} at most", kMostMetres));
+  require(laser.rate_hz > 0.0 && laser.rate_hz <= kMostRateHz, "rate_hz", laser.rate_hz,
+          fmt::format("greater than 0 and {} at most", kMostRateHz));
+  require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMostSigmaM, "sigma_m", laser.sigma_m,
+          fmt::format("0 to {}", kMostSigmaM));
+  require(laser.sweep_s >= 0.0 && laser.sweep_s < 1.0 / laser.rate_hz, "sweep_s", laser.sweep_s,
+          "0 or more and less than 1/rate_hz");
+  require(laser.X_RL.translation.norm() <= kMostMetres, "X_RL", laser.X_RL.translation.norm(),
+          fmt::format("within {} m of the base", kMostMetres));
+  require(std::abs(laser.X_RL.rotation.norm() - 1.0) < 1e-6, "X_RL", laser.X_RL.rotation.norm(),
+          "a rotation, of length 1");
+}
+
+Time scan_stamp(const LaserParameters& laser, std::int64_t number) {
+  return time_from_seconds(static_cast<double>(number) / laser.rate_hz);
+}
+
+LaserScan simulate_scan(const RayScene& world, const LaserParameters& laser, std::int64_t number,
+                        const std::function<RigidTransform(Time)>& pose_at,
+                        const std::function<Obstacles(Time)>& obstacles_at, std::uint64_t seed,
+                        std::uint64_t key) {
+  check(laser);
+  LaserScan scan = empty_scan(laser, number);
+  const std::size_t beams = scan.ranges_m.size();
+  const bool at_once = scan.beam_interval == Duration{};
+  // The world's surfaces are met within the range only, and the obstacles' the same.
+  const auto most_m = std::nextafter(static_cast<float>(laser.most_range_m),
+                                     std::numeric_limits<float>::infinity());
+  std::vector<Ray> rays(beams);
+  std::vector<double> to_obstacle(beams, std::numeric_limits<double>::infinity());
+  View view = view_at(laser, scan.stamp, pose_at, obstacles_at);
+  for (std::size_t i = 0; i < beams; ++i) {
+    if (!at_once && i > 0) {
+      const auto later = scan.beam_interval * static_cast<std::int64_t>(i);
+      view = view_at(laser, scan.stamp + later, pose_at, obstacles_at);
+    }
+    rays[i] = ray_of(view, beam_angle(scan, i), most_m);
+    to_obstacle[i] = nearest(view.obstacles, rays[i], to_obstacle[i]);
+  }
+  world.distances(rays, scan.ranges_m);
+
+  RandomStream stream(seed, Purpose::kLaser, key, static_cast<std::uint64_t>(number));
+  std::array<double, 2> noise{};
+  for (std::size_t i = 0; i < beams; ++i) {
+    if (i % 2 == 0) noise = standard_normal_pair(stream);
+    const double distance_m = std::min(static_cast<double>(scan.ranges_m[i]), to_obstacle[i]);
+    scan.ranges_m[i] = measured(laser, distance_m, laser.sigma_m * noise[i % 2]);
+  }
+  return scan;
+}
+
+}  // namespace tagfield

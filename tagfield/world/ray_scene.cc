@@ -1,0 +1,226 @@
+#include "tagfield/world/ray_scene.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "tagfield/base/error.h"
+#include "tagfield/world/triangulate.h"
+
+namespace tagfield {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+/// No world is larger [m]; Embree leaves out triangles beyond 1.8e18.
+constexpr double kMostCoordinate = 1e9;
+constexpr std::size_t kPacket = 16;
+
+/// The points p with normal · p = offset.
+struct WorldPlane {
+  Eigen::Vector3d normal;  ///< Unit vector [world].
+  double offset = 0.0;     ///< [m]
+};
+
+/// Triangles as Embree takes them.
+struct Triangles {
+  std::vector<std::array<float, 3>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> indices;
+};
+
+WorldPlane world_plane(const Collision& collision, const Plane& plane) {
+  const double length = plane.normal.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    throw Error(collision.name + ": the plane's normal has no direction");
+  }
+  const Eigen::Vector3d normal = collision.X_WC.rotation * (plane.normal / length);
+  return {normal, normal.dot(collision.X_WC.translation)};
+}
+
+void add_vertex(Triangles& triangles, const Collision& collision, const Eigen::Vector3d& p_W) {
+  if (!(p_W.cwiseAbs().maxCoeff() <= kMostCoordinate) || !p_W.allFinite()) {
+    throw Error(fmt::format("{}: a vertex at ({}, {}, {}) is not within {} m of the origin",
+                            collision.name, p_W.x(), p_W.y(), p_W.z(), kMostCoordinate));
+  }
+  const Eigen::Vector3f p = p_W.cast<float>();
+  triangles.vertices.push_back({p.x(), p.y(), p.z()});
+}
+
+void add_solid(Triangles& triangles, const Collision& collision) {
+  const TriangleMesh mesh = triangulate(collision.shape);
+  const auto first = static_cast<std::uint32_t>(triangles.vertices.size());
+  const std::size_t count = mesh.vertices.size();
+  for (const Eigen::Vector3d& p_C : mesh.vertices) {
+    add_vertex(triangles, collision, collision.X_WC * p_C);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (a >= count || b >= count || c >= count) {
+      throw Error(collision.name + ": a triangle names a vertex that is not there");
+    }
+    triangles.indices.push_back({first + a, first + b, first + c});
+  }
+}
+
+void require_success(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  throw Error(fmt::format("rays can't be made ready: Embree's error {}", static_cast<int>(error)));
+}
+
+/// A copy of `from` in a buffer that Embree owns.
+template <typename Element>
+void set_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                const std::vector<Element>& from) {
+  void* const to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), from.size());
+  if (to == nullptr) require_success(device);
+  std::copy(from.begin(), from.end(), static_cast<Element*>(to));
+}
+
+void attach(RTCDevice device, RTCScene scene, const Triangles& triangles) {
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  set_buffer(device, geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.vertices);
+  set_buffer(device, geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.indices);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+bool can_hit(const Ray& ray) {
+  return ray.origin.allFinite() && ray.direction.allFinite() && ray.most_m >= 0.0F;
+}
+
+/// Distance along the ray to the plane, or `otherwise` where that is nearer.
+float nearer(const WorldPlane& plane, const Ray& ray, float otherwise) {
+  const double slope = plane.normal.dot(ray.direction.cast<double>());
+  const double height = plane.normal.dot(ray.origin.cast<double>()) - plane.offset;
+  const double distance = -height / slope;
+  // False too for 0/0 and height/0: a ray along the plane doesn't meet it.
+  return distance >= 0.0 && distance < static_cast<double>(otherwise) ? static_cast<float>(distance)
+                                                                      : otherwise;
+}
+
+void put(const Ray& ray, std::size_t lane, RTCRayHit16& packet) {
+  packet.ray.org_x[lane] = ray.origin.x();
+  packet.ray.org_y[lane] = ray.origin.y();
+  packet.ray.org_z[lane] = ray.origin.z();
+  packet.ray.dir_x[lane] = ray.direction.x();
+  packet.ray.dir_y[lane] = ray.direction.y();
+  packet.ray.dir_z[lane] = ray.direction.z();
+  packet.ray.tnear[lane] = 0.0F;
+  packet.ray.tfar[lane] = ray.most_m;
+  packet.ray.time[lane] = 0.0F;
+  packet.ray.mask[lane] = ~0U;
+  packet.ray.flags[lane] = 0;
+  packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+}
+
+RTCRayHit single(const Ray& ray) {
+  RTCRayHit hit{};
+  hit.ray.org_x = ray.origin.x();
+  hit.ray.org_y = ray.origin.y();
+  hit.ray.org_z = ray.origin.z();
+  hit.ray.dir_x = ray.direction.x();
+  hit.ray.dir_y = ray.direction.y();
+  hit.ray.dir_z = ray.direction.z();
+  hit.ray.tfar = ray.most_m;
+  hit.ray.mask = ~0U;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return hit;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  // One thread: Embree would start its own to build, and nothing else here does unasked.
+  Impl() : device(rtcNewDevice("threads=1")) {
+    if (device == nullptr) throw Error("rays can't be made ready: Embree has no device");
+    scene = rtcNewScene(device);
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  /// `ray` and what the triangles answered, with the planes before it.
+  [[nodiscard]] float with_planes(const Ray& ray, float distance) const {
+    // Up to most_m, but an endless ray doesn't meet a plane at infinity.
+    float nearest = distance == kNothing ? std::nextafter(ray.most_m, kNothing) : distance;
+    const float limit = nearest;
+    for (const WorldPlane& plane : planes) nearest = nearer(plane, ray, nearest);
+    return nearest < limit ? nearest : distance;
+  }
+
+  void intersect(const Ray* rays, std::size_t count, float* distances) const;
+
+  RTCDevice device;
+  RTCScene scene = nullptr;
+  std::vector<WorldPlane> planes;
+};
+
+/// Up to kPacket rays at once.
+void RayScene::Impl::intersect(const Ray* rays, std::size_t count, float* distances) const {
+  alignas(64) std::array<int, kPacket> valid{};
+  RTCRayHit16 packet{};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!can_hit(rays[i])) continue;
+    valid[i] = -1;
+    put(rays[i], i, packet);
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid.data(), scene, &context, &packet);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool hit = valid[i] != 0 && packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    distances[i] = hit ? packet.ray.tfar[i] : kNothing;
+    if (valid[i] != 0 && !planes.empty()) distances[i] = with_planes(rays[i], distances[i]);
+  }
+}
+
+RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+  Triangles triangles;
+  for (const Collision& collision : scene.collisions) {
+    if (const auto* plane = std::get_if<Plane>(&collision.shape)) {
+      impl_->planes.push_back(world_plane(collision, *plane));
+    } else {
+      add_solid(triangles, collision);
+    }
+  }
+  // Robust: a ray at an edge meets at least one of the triangles that share it.
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+  if (!triangles.indices.empty()) attach(impl_->device, impl_->scene, triangles);
+  rtcCommitScene(impl_->scene);
+  require_success(impl_->device);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+float RayScene::distance(const Ray& ray) const {
+  if (!can_hit(ray)) return kNothing;
+  RTCRayHit hit = single(ray);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->scene, &context, &hit);
+  const bool met = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  return impl_->with_planes(ray, met ? hit.ray.tfar : kNothing);
+}
+
+void RayScene::distances(const std::vector<Ray>& rays, std::vector<float>& distances) const {
+  distances.resize(rays.size());
+  for (std::size_t i = 0; i < rays.size(); i += kPacket) {
+    impl_->intersect(&rays[i], std::min(kPacket, rays.size() - i), &distances[i]);
+  }
+}
+
+}  // namespace tagfield
