@@ -52,45 +52,44 @@ double nearer(const Disc& disc, const FlatRay& ray, double least) {
   return nearer((-half_b + root) / a, nearer((-half_b - root) / a, least));
 }
 
-/// By slabs: the ray is inside both pairs of edges between `in` and `out`.
-double nearer(const Rectangle& rectangle, const FlatRay& ray, double least) {
-  const Eigen::Rotation2Dd R_CW(-rectangle.yaw);
-  const Eigen::Vector2d origin = R_CW * (ray.origin - rectangle.centre);
-  const Eigen::Vector2d direction = R_CW * ray.direction;
+/// A rectangle with its axes in the world.
+struct Slabs {
+  Eigen::Vector2d centre;
+  Eigen::Matrix2d axes;  ///< A row each.
+  Eigen::Vector2d half;  ///< [m]
+};
+
+Slabs slabs_of(const Rectangle& rectangle) {
+  const double c = std::cos(rectangle.yaw);
+  const double s = std::sin(rectangle.yaw);
+  Eigen::Matrix2d axes;
+  axes << c, s, -s, c;
+  return {rectangle.centre, axes, 0.5 * rectangle.size};
+}
+
+/// The ray is inside both pairs of edges between `in` and `out`.
+double nearer(const Slabs& slabs, const FlatRay& ray, double least) {
+  const Eigen::Vector2d origin = slabs.axes * (ray.origin - slabs.centre);
+  const Eigen::Vector2d direction = slabs.axes * ray.direction;
   double in = -std::numeric_limits<double>::infinity();
   double out = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 2; ++axis) {
-    const double half = 0.5 * rectangle.size[axis];
     if (direction[axis] == 0.0) {
-      if (!(std::abs(origin[axis]) <= half)) return least;
+      if (std::abs(origin[axis]) > slabs.half[axis]) return least;
       continue;
     }
-    const double one = (-half - origin[axis]) / direction[axis];
-    const double other = (half - origin[axis]) / direction[axis];
+    const double one = (-slabs.half[axis] - origin[axis]) / direction[axis];
+    const double other = (slabs.half[axis] - origin[axis]) / direction[axis];
     in = std::max(in, std::min(one, other));
     out = std::min(out, std::max(one, other));
   }
-  if (!(in <= out)) return least;
-  return nearer(out, nearer(in, least));
-}
-
-double nearest(const Obstacles& obstacles, const Ray& ray, double least) {
-  const FlatRay flat = seen_from_above(ray);
-  for (const Disc& disc : obstacles.discs) least = nearer(disc, flat, least);
-  for (const Rectangle& rectangle : obstacles.rectangles) least = nearer(rectangle, flat, least);
-  return least;
+  return in <= out ? nearer(out, nearer(in, least)) : least;
 }
 
 bool is_finite(const Disc& disc) { return disc.centre.allFinite() && std::isfinite(disc.radius); }
 
 bool is_finite(const Rectangle& rectangle) {
   return rectangle.centre.allFinite() && rectangle.size.allFinite() && std::isfinite(rectangle.yaw);
-}
-
-Obstacles finite_ones(Obstacles obstacles) {
-  std::erase_if(obstacles.discs, [](const Disc& disc) { return !is_finite(disc); });
-  std::erase_if(obstacles.rectangles, [](const Rectangle& box) { return !is_finite(box); });
-  return obstacles;
 }
 
 LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
@@ -111,21 +110,65 @@ LaserScan empty_scan(const LaserParameters& laser, std::int64_t number) {
 struct View {
   Eigen::Matrix3d R_WL;
   Eigen::Vector3f origin;
-  Obstacles obstacles;
+  std::vector<Disc> discs;
+  std::vector<Slabs> rectangles;
 };
+
+void add_obstacles(const Obstacles& obstacles, View& view) {
+  for (const Disc& disc : obstacles.discs) {
+    if (is_finite(disc)) view.discs.push_back(disc);
+  }
+  for (const Rectangle& rectangle : obstacles.rectangles) {
+    if (is_finite(rectangle)) view.rectangles.push_back(slabs_of(rectangle));
+  }
+}
 
 View view_at(const LaserParameters& laser, Time time,
              const std::function<RigidTransform(Time)>& pose_at,
              const std::function<Obstacles(Time)>& obstacles_at) {
   const RigidTransform X_WL = pose_at(time) * laser.X_RL;
-  return {X_WL.rotation.toRotationMatrix(), X_WL.translation.cast<float>(),
-          obstacles_at ? finite_ones(obstacles_at(time)) : Obstacles{}};
+  View view{X_WL.rotation.toRotationMatrix(), X_WL.translation.cast<float>(), {}, {}};
+  if (obstacles_at) add_obstacles(obstacles_at(time), view);
+  return view;
 }
 
-Ray ray_of(const View& view, double angle, float most_m) {
-  const Eigen::Vector3d direction =
-      view.R_WL.col(0) * std::cos(angle) + view.R_WL.col(1) * std::sin(angle);
-  return {view.origin, direction.cast<float>(), most_m};
+/// Distance to the nearest obstacle, or infinity.
+double to_obstacle(const View& view, const Ray& ray) {
+  double least = std::numeric_limits<double>::infinity();
+  const FlatRay flat = seen_from_above(ray);
+  for (const Disc& disc : view.discs) least = nearer(disc, flat, least);
+  for (const Slabs& rectangle : view.rectangles) least = nearer(rectangle, flat, least);
+  return least;
+}
+
+/// The beams' rays, and for each how far the nearest obstacle is.
+struct Beams {
+  std::vector<Ray> rays;
+  std::vector<double> to_obstacles;
+};
+
+Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
+               const std::function<RigidTransform(Time)>& pose_at,
+               const std::function<Obstacles(Time)>& obstacles_at) {
+  // A little beyond, so that a wall just there is met.
+  const float most_m = nothing_range(laser.most_range_m);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
+  Eigen::Vector2d direction_L(std::cos(scan.first_angle_rad), std::sin(scan.first_angle_rad));
+  Beams beams;
+  beams.rays.reserve(scan.ranges_m.size());
+  beams.to_obstacles.reserve(scan.ranges_m.size());
+  View view = view_at(laser, scan.stamp, pose_at, obstacles_at);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (i > 0 && scan.beam_interval > Duration{}) {
+      const auto later = scan.beam_interval * static_cast<std::int64_t>(i);
+      view = view_at(laser, scan.stamp + later, pose_at, obstacles_at);
+    }
+    const Eigen::Vector3d direction = view.R_WL.leftCols<2>() * direction_L;
+    beams.rays.push_back({view.origin, direction.cast<float>(), most_m});
+    beams.to_obstacles.push_back(to_obstacle(view, beams.rays.back()));
+    direction_L = turn * direction_L;
+  }
+  return beams;
 }
 
 /// What the laser reports of a true distance.
@@ -173,29 +216,15 @@ LaserScan simulate_scan(const RayScene& world, const LaserParameters& laser, std
                         std::uint64_t key) {
   check(laser);
   LaserScan scan = empty_scan(laser, number);
-  const std::size_t beams = scan.ranges_m.size();
-  const bool at_once = scan.beam_interval == Duration{};
-  // The world's surfaces are met within the range only, and the obstacles' the same.
-  const auto most_m = std::nextafter(static_cast<float>(laser.most_range_m),
-                                     std::numeric_limits<float>::infinity());
-  std::vector<Ray> rays(beams);
-  std::vector<double> to_obstacle(beams, std::numeric_limits<double>::infinity());
-  View view = view_at(laser, scan.stamp, pose_at, obstacles_at);
-  for (std::size_t i = 0; i < beams; ++i) {
-    if (!at_once && i > 0) {
-      const auto later = scan.beam_interval * static_cast<std::int64_t>(i);
-      view = view_at(laser, scan.stamp + later, pose_at, obstacles_at);
-    }
-    rays[i] = ray_of(view, beam_angle(scan, i), most_m);
-    to_obstacle[i] = nearest(view.obstacles, rays[i], to_obstacle[i]);
-  }
-  world.distances(rays, scan.ranges_m);
+  const Beams beams = beams_of(laser, scan, pose_at, obstacles_at);
+  world.distances(beams.rays, scan.ranges_m);
 
   RandomStream stream(seed, Purpose::kLaser, key, static_cast<std::uint64_t>(number));
   std::array<double, 2> noise{};
-  for (std::size_t i = 0; i < beams; ++i) {
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (i % 2 == 0) noise = standard_normal_pair(stream);
-    const double distance_m = std::min(static_cast<double>(scan.ranges_m[i]), to_obstacle[i]);
+    const double distance_m =
+        std::min(static_cast<double>(scan.ranges_m[i]), beams.to_obstacles[i]);
     scan.ranges_m[i] = measured(laser, distance_m, laser.sigma_m * noise[i % 2]);
   }
   return scan;

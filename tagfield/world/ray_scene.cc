@@ -19,6 +19,8 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// No world is larger [m]; Embree leaves out triangles beyond 1.8e18.
 constexpr double kMostCoordinate = 1e9;
 constexpr std::size_t kPacket = 16;
+/// How far beyond a triangle's rim a hit is still taken if Embree takes it; barycentric.
+constexpr double kRimTolerance = 0.01;
 
 /// The points p with normal · p = offset.
 struct WorldPlane {
@@ -26,9 +28,8 @@ struct WorldPlane {
   double offset = 0.0;     ///< [m]
 };
 
-/// Triangles as Embree takes them.
 struct Triangles {
-  std::vector<std::array<float, 3>> vertices;
+  std::vector<Eigen::Vector3d> vertices;  ///< [m, world]
   std::vector<std::array<std::uint32_t, 3>> indices;
 };
 
@@ -46,8 +47,7 @@ void add_vertex(Triangles& triangles, const Collision& collision, const Eigen::V
     throw Error(fmt::format("{}: a vertex at ({}, {}, {}) is not within {} m of the origin",
                             collision.name, p_W.x(), p_W.y(), p_W.z(), kMostCoordinate));
   }
-  const Eigen::Vector3f p = p_W.cast<float>();
-  triangles.vertices.push_back({p.x(), p.y(), p.z()});
+  triangles.vertices.push_back(p_W);
 }
 
 void add_solid(Triangles& triangles, const Collision& collision) {
@@ -71,19 +71,68 @@ void require_success(RTCDevice device) {
   throw Error(fmt::format("rays can't be made ready: Embree's error {}", static_cast<int>(error)));
 }
 
-/// A copy of `from` in a buffer that Embree owns.
-template <typename Element>
-void set_buffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
-                const std::vector<Element>& from) {
-  void* const to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), from.size());
-  if (to == nullptr) require_success(device);
-  std::copy(from.begin(), from.end(), static_cast<Element*>(to));
+/// Where a line meets a triangle's plane.
+struct PlanePoint {
+  double distance;  ///< Along the line from `origin` [m]; not finite for a line along the plane.
+  double inside;    ///< Least barycentric coordinate: negative beyond the triangle's rim.
+};
+
+PlanePoint meet(const Triangles& triangles, std::size_t triangle, const Eigen::Vector3d& origin,
+                const Eigen::Vector3d& direction) {
+  const auto& [i, j, k] = triangles.indices[triangle];
+  const Eigen::Vector3d& a = triangles.vertices[i];
+  const Eigen::Vector3d to_b = triangles.vertices[j] - a;
+  const Eigen::Vector3d to_c = triangles.vertices[k] - a;
+  const Eigen::Vector3d normal = to_b.cross(to_c);
+  const double distance = normal.dot(a - origin) / normal.dot(direction);
+  const Eigen::Vector3d p = origin + distance * direction - a;
+  const double of_b = normal.dot(p.cross(to_c)) / normal.squaredNorm();
+  const double of_c = normal.dot(to_b.cross(p)) / normal.squaredNorm();
+  return {distance, std::min({of_b, of_c, 1.0 - of_b - of_c})};
 }
 
-void attach(RTCDevice device, RTCScene scene, const Triangles& triangles) {
+/// Embree asks this of each hit that it would take. Its single precision fails where a ray grazes a
+/// triangle: hits far from the triangle come up (issue 387 of Embree), and true ones are metres
+/// off. So each is made anew in double precision and taken unless it is clearly beyond the rim.
+/// Near the rim Embree's own verdict stands, since with it no ray slips through.
+void refine(const RTCFilterFunctionNArguments* hits) {
+  const auto& triangles = *static_cast<const Triangles*>(hits->geometryUserPtr);
+  const unsigned count = hits->N;
+  for (unsigned i = 0; i < count; ++i) {
+    if (hits->valid[i] != -1) continue;
+    const Eigen::Vector3d origin(RTCRayN_org_x(hits->ray, count, i),
+                                 RTCRayN_org_y(hits->ray, count, i),
+                                 RTCRayN_org_z(hits->ray, count, i));
+    const Eigen::Vector3d direction(RTCRayN_dir_x(hits->ray, count, i),
+                                    RTCRayN_dir_y(hits->ray, count, i),
+                                    RTCRayN_dir_z(hits->ray, count, i));
+    const auto point = meet(triangles, RTCHitN_primID(hits->hit, count, i), origin, direction);
+    if (point.distance >= 0.0 && point.inside > -kRimTolerance) {
+      RTCRayN_tfar(hits->ray, count, i) = static_cast<float>(point.distance);
+    } else {
+      hits->valid[i] = 0;
+    }
+  }
+}
+
+/// Copies the triangles as Embree takes them; `triangles` must outlive the scene.
+void attach(RTCDevice device, RTCScene scene, Triangles& triangles) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  set_buffer(device, geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.vertices);
-  set_buffer(device, geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.indices);
+  void* const vertices =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), triangles.vertices.size());
+  void* const indices =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), triangles.indices.size());
+  require_success(device);
+  for (std::size_t i = 0; i < triangles.vertices.size(); ++i) {
+    Eigen::Map<Eigen::Vector3f>(static_cast<float*>(vertices) + 3 * i) =
+        triangles.vertices[i].cast<float>();
+  }
+  std::copy(triangles.indices.begin(), triangles.indices.end(),
+            static_cast<std::array<std::uint32_t, 3>*>(indices));
+  rtcSetGeometryUserData(geometry, &triangles);
+  rtcSetGeometryIntersectFilterFunction(geometry, refine);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -162,6 +211,7 @@ struct RayScene::Impl {
 
   RTCDevice device;
   RTCScene scene = nullptr;
+  Triangles triangles;
   std::vector<WorldPlane> planes;
 };
 
@@ -186,7 +236,7 @@ void RayScene::Impl::intersect(const Ray* rays, std::size_t count, float* distan
 }
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
-  Triangles triangles;
+  Triangles& triangles = impl_->triangles;
   for (const Collision& collision : scene.collisions) {
     if (const auto* plane = std::get_if<Plane>(&collision.shape)) {
       impl_->planes.push_back(world_plane(collision, *plane));

@@ -30,7 +30,7 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// Distance to the first surface from either side [m], or +infinity where nothing is within
-  /// most_m. In single precision: to about 1e-6 of the greatest coordinate met with. A ray that
+  /// most_m. The ray is taken as its floats say, and all else is to 1e-6 of the distance. A ray that
   /// begins on a surface may meet it at 0 or miss it; one with a component that is not finite, or
   /// a `most_m` below 0, meets nothing.
   [[nodiscard]] float distance(const Ray& ray) const;

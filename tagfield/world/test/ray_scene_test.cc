@@ -283,8 +283,39 @@ RC_GTEST_PROP(RayScene, IsTheNearestOfAllTriangles, ()) {
       if (std::isinf(expected.distance)) {
         RC_ASSERT(distance == kNothing);
       } else {
-        RC_ASSERT(std::abs(distance - expected.distance) < 1e-3);
+        RC_ASSERT(std::abs(distance - expected.distance) < 1e-5);
       }
+    }
+  }
+}
+
+RC_GTEST_PROP(RayScene, IsExactWhereRaysGrazeThinTriangles, ()) {
+  // As along a wall of long thin triangles, far from the origin.
+  auto mesh = std::make_shared<TriangleMesh>();
+  const Eigen::Vector3d a = any_point(50.0);
+  const Eigen::Vector3d along = any_point(1.0);
+  RC_PRE(along.norm() > 0.1);
+  const Eigen::Vector3d b = a + 10.0 * along.normalized();
+  const Eigen::Vector3d c = 0.5 * (a + b) + any_point(0.3);
+  for (const auto& p : {a, b, c}) mesh->vertices.push_back(p.cast<float>().cast<double>());
+  mesh->triangles = {{0, 1, 2}};
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  RC_PRE(normal.norm() > 0.3);
+  const RayScene rays(scene_of(MeshPtr(mesh)));
+  for (int i = 0; i < 100; ++i) {
+    const double slope = 1e-3 * *rc::gen::inRange(1, 100);
+    const double u = 0.01 * *rc::gen::inRange(0, 120);
+    const double v = 0.01 * *rc::gen::inRange(0, 120);
+    const Eigen::Vector3d direction = (b - a).normalized() + slope * normal.normalized();
+    const Eigen::Vector3d target = a + u * (b - a) + v * (c - a);
+    const Ray ray = ray_of(target - 10.0 * direction, direction, 30.0F);
+    const Crossing expected = brute_force(ray, *mesh);
+    if (expected.rim < 0.02) continue;  // Either answer is right near a rim.
+    const float distance = distance_of(rays, ray);
+    if (std::isinf(expected.distance)) {
+      RC_ASSERT(distance == kNothing);
+    } else {
+      RC_ASSERT(std::abs(distance - expected.distance) < 1e-5);
     }
   }
 }
