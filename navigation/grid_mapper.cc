@@ -25,9 +25,9 @@ Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& in
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(from_M.yaw).toRotationMatrix();
   Eigen::Matrix3d covariance = R * increment_covariance(increment, noise) * R.transpose();
-  covariance.diagonal() += Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m,
-                                           kLeastSigma_m * kLeastSigma_m,
-                                           kLeastSigma_rad * kLeastSigma_rad);
+  covariance.diagonal() +=
+      Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m, kLeastSigma_m * kLeastSigma_m,
+                      kLeastSigma_rad * kLeastSigma_rad);
   return covariance.inverse();
 }
 
@@ -61,9 +61,8 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const ScanPoints points = scan_points(scan, X_RL_, settings_.most_clear_m);
   if (points.ends_R.empty()) return false;
   const std::vector<Eigen::Vector2d> to_match = thinned(points.ends_R, settings_.point_spacing_m);
-  parallel_for(particles_.size(), settings_.threads, [&](std::size_t i) {
-    advance(particles_[i], i, increment, to_match, points);
-  });
+  parallel_for(particles_.size(), settings_.threads,
+               [&](std::size_t i) { advance(particles_[i], i, increment, to_match, points); });
   odometry_ = odometry;
   ++updates_;
   normalize_weights();
@@ -75,8 +74,7 @@ void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose
                          const std::vector<Eigen::Vector2d>& points, const ScanPoints& scan) const {
   if (updates_ > 0) {
     const PlanarPose expected = compose(particle.pose_M, increment);
-    const Eigen::Matrix3d prior =
-        prior_information(particle.pose_M, increment, settings_.odometry);
+    const Eigen::Matrix3d prior = prior_information(particle.pose_M, increment, settings_.odometry);
     const ScanMatch match =
         match_scan(particle.map, points, expected, expected, prior, settings_.match);
     RandomStream stream(seed_, Purpose::kMapping, index, updates_);

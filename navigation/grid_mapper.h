@@ -18,20 +18,20 @@ namespace tagfield {
 struct MapperSettings {
   double resolution_m = 0.05;
   int particles = 15;
-  OdometryNoise odometry;          ///< What the wheels are believed to err.
-  double update_distance_m = 0.15; ///< A scan is entered after so much driving,
-  double update_turn_rad = 0.1;    ///< or turning.
-  double most_clear_m = 15.0;      ///< How far a beam that met nothing clears the map.
-  double point_spacing_m = 0.04;   ///< Of the points that are matched.
+  OdometryNoise odometry;           ///< What the wheels are believed to err.
+  double update_distance_m = 0.15;  ///< A scan is entered after so much driving,
+  double update_turn_rad = 0.1;     ///< or turning.
+  double most_clear_m = 15.0;       ///< How far a beam that met nothing clears the map.
+  double point_spacing_m = 0.04;    ///< Of the points that are matched.
   MatchOptions match;
-  int threads = 1;                 ///< The map does not depend on it.
+  int threads = 1;  ///< The map does not depend on it.
 };
 
 /// A Rao-Blackwellized particle filter (Grisetti, Stachniss, Burgard, 2007): each particle has a
-/// path and the map that follows from it. A particle's next pose is drawn from the Gaussian that the
-/// scan's match on its own map and the odometry give together, and its weight grows by the evidence
-/// of both; particles are resampled when few carry the weight. docs/mapping.md has the equations.
-/// Frame M, the map's, is set by the starting pose.
+/// path and the map that follows from it. A particle's next pose is drawn from the Gaussian that
+/// the scan's match on its own map and the odometry give together, and its weight grows by the
+/// evidence of both; particles are resampled when few carry the weight. docs/mapping.md has the
+/// equations. Frame M, the map's, is set by the starting pose.
 class GridMapper {
  public:
   GridMapper(const MapperSettings& settings, const RigidTransform& X_RL, const PlanarPose& start_M,

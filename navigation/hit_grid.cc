@@ -77,8 +77,8 @@ HitCell& HitGrid::cell_to_change(int x, int y) {
   const int patch_x = x >> kPatchBits;
   const int patch_y = y >> kPatchBits;
   make_room(patch_x, patch_y);
-  std::shared_ptr<Patch>& patch = patches_[static_cast<std::size_t>(
-      (patch_y - patch_y0_) * patches_x_ + patch_x - patch_x0_)];
+  std::shared_ptr<Patch>& patch =
+      patches_[static_cast<std::size_t>((patch_y - patch_y0_) * patches_x_ + patch_x - patch_x0_)];
   if (!patch) {
     patch = std::make_shared<Patch>();
   } else if (patch.use_count() > 1) {

@@ -15,8 +15,8 @@
 
 namespace tagfield {
 
-/// The mean of the beams' ends in a cell tells where in the cell the surface is, which a scan can be
-/// matched to far finer than to the cell itself.
+/// The mean of the beams' ends in a cell tells where in the cell the surface is, which a scan can
+/// be matched to far finer than to the cell itself.
 struct HitCell {
   float sum_x = 0.0F;  ///< Of the ends' offsets from the cell's centre [m].
   float sum_y = 0.0F;

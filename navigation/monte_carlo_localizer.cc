@@ -8,7 +8,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "navigation/internal/mrpt_conversions.h"
 #include "navigation/internal/mrpt_random.h"
@@ -19,25 +22,45 @@
 namespace tagfield {
 namespace {
 
-/// Particles this near to the best one are of one opinion.
+/// Particles this near to each other are of one opinion.
 constexpr double kCluster_m = 0.5;
 constexpr double kCluster_rad = 0.35;
-/// Found: so much of the weight is of one opinion,
-constexpr double kFoundShare = 0.95;
-/// its spread is less than this,
-constexpr double kFoundSigma_m = 0.3;
-/// and so much of the scan lies on walls, so many times in a row.
-constexpr double kGoodFit = 0.75;
-constexpr int kGoodScans = 5;
+/// While searching, so many opinions are looked at closely.
+constexpr std::size_t kOpinions = 40;
+/// Now and then the whole map is looked at, on a lattice of such steps, and the best so many places
+/// are looked at closely.
+constexpr double kLattice_m = 0.4;
+constexpr int kLatticeTurns = 24;
+constexpr std::size_t kLatticeOpinions = 200;
+constexpr int kLatticeEvery = 10;
+/// Beyond this a point's distance from the walls no longer counts on the lattice.
+constexpr double kLatticeReach_m = 0.6;
+/// Found: the scan fits so well, so much better than in any other place, so many times in a row.
+constexpr double kGoodFit = 0.9;
+constexpr double kBetterBy = 0.04;
+constexpr int kGoodScans = 8;
+/// and over so much driving: turning in one place shows nothing new.
+constexpr double kGoodWay_m = 0.7;
+/// Opinions that fit so well get more particles (sensor resetting: Lenser and Veloso, 2000).
+constexpr double kPromisingFit = 0.75;
+constexpr int kMoreParticles = 100;
 /// Lost: less than this fits, so many times in a row.
 constexpr double kBadFit = 0.5;
 constexpr int kBadScans = 12;
-/// An opinion that does not fit when it is formed is given up after so many scans.
+/// A search that has found nothing after so many scans begins anew.
 constexpr int kPatience = 40;
+/// Spread of the particles around a place just found.
+constexpr double kFoundSigma_m = 0.05;
+constexpr double kFoundSigma_rad = 0.02;
+/// Opinions are first brought into reach of the map's walls by a few points that look far.
+constexpr double kCoarseSpacing_m = 0.25;
+constexpr int kCoarseReach = 8;  ///< [cells]
 constexpr double kLeastSigma_m = 0.002;
 constexpr double kLeastSigma_rad = 0.001;
 /// A point this near to a wall lies on it.
 constexpr double kOnWall_m = 0.1;
+/// A beam crosses a wall that is this far before its end.
+constexpr double kCrossing_m = 0.4;
 
 /// The map's walls as something to match scans to: the middle of each occupied cell.
 HitGrid walls_of(const OccupancyGrid& map) {
@@ -50,6 +73,19 @@ HitGrid walls_of(const OccupancyGrid& map) {
   }
   walls.add_ends(ends.ends_R);
   return walls;
+}
+
+double square(double x) { return x * x; }
+
+Eigen::Matrix3d diagonal_covariance(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
+}
+Eigen::Matrix3d least_covariance() { return diagonal_covariance(kLeastSigma_m, kLeastSigma_rad); }
+Eigen::Matrix3d found_covariance() { return diagonal_covariance(kFoundSigma_m, kFoundSigma_rad); }
+
+bool are_near(const PlanarPose& a, const PlanarPose& b) {
+  return (position_of(a) - position_of(b)).norm() < kCluster_m &&
+         std::abs(wrap_to_pi(a.yaw - b.yaw)) < kCluster_rad;
 }
 
 void require_usable(const OccupancyGrid& map) {
@@ -67,7 +103,8 @@ struct MonteCarloLocalizer::Impl {
   LocalizerSettings settings;
   RigidTransform X_RL;
   std::uint64_t seed = 0;
-  mrpt::maps::COccupancyGridMap2D::Ptr grid;
+  mrpt::maps::COccupancyGridMap2D::Ptr sharp;  ///< The map as it weighs particles when tracking,
+  mrpt::maps::COccupancyGridMap2D::Ptr broad;  ///< and when searching, where particles lie thin.
   HitGrid walls{0.05};
   std::vector<float> wall_distance;
   OccupancyGrid map;
@@ -80,46 +117,73 @@ struct MonteCarloLocalizer::Impl {
   double fit = 0.0;
   int good_scans = 0;
   int bad_scans = 0;
+  double good_way_m = 0.0;
+  double way_m = 0.0;  ///< Driven since the scan before.
   int searching_scans = 0;
   int times_lost = 0;
 
   MrptRandom random() { return MrptRandom(RandomStream(seed, Purpose::kLocalization, draws++)); }
 
   void configure();
+  void use(Localization next);
   void search();
   bool update(const LaserScan& scan, const PlanarPose& now);
   void filter_scan(const LaserScan& scan, const PlanarPose& increment);
-  double gather_cluster();
-  void refine(const std::vector<Eigen::Vector2d>& points);
-  double share_on_walls(const std::vector<Eigen::Vector2d>& points) const;
-  void judge(double share);
+  [[nodiscard]] PoseEstimate mean_near(PlanarPose centre) const;
+  [[nodiscard]] std::vector<PlanarPose> opinions() const;
+  [[nodiscard]] std::vector<PlanarPose> lattice_opinions(
+      const std::vector<Eigen::Vector2d>& points) const;
+  [[nodiscard]] PoseEstimate refined(const PoseEstimate& rough,
+                                     const std::vector<Eigen::Vector2d>& points) const;
+  [[nodiscard]] PoseEstimate settled(const PlanarPose& opinion,
+                                     const std::vector<Eigen::Vector2d>& points) const;
+  [[nodiscard]] bool crosses_wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  [[nodiscard]] double fit_at(const PlanarPose& pose,
+                              const std::vector<Eigen::Vector2d>& points) const;
+  void track(const std::vector<Eigen::Vector2d>& points);
+  void look_around(const std::vector<Eigen::Vector2d>& points);
+  void scatter(const PoseEstimate& around, int count, double log_weight);
 };
 
-void MonteCarloLocalizer::Impl::configure() {
-  mrpt::maps::COccupancyGridMap2D::TLikelihoodOptions& likelihood = grid->likelihoodOptions;
+/// How a beam's end weighs a particle by its distance from the nearest occupied cell.
+void set_likelihood(mrpt::maps::COccupancyGridMap2D& grid, double sigma_m) {
+  mrpt::maps::COccupancyGridMap2D::TLikelihoodOptions& likelihood = grid.likelihoodOptions;
   likelihood.likelihoodMethod = mrpt::maps::COccupancyGridMap2D::lmLikelihoodField_Thrun;
-  likelihood.LF_stdHit = static_cast<float>(settings.sigma_hit_m);
+  likelihood.LF_stdHit = static_cast<float>(sigma_m);
   likelihood.LF_zHit = 0.9F;
   likelihood.LF_zRandom = 0.1F;
-  likelihood.LF_maxRange = 30.0F;
-  likelihood.LF_maxCorrsDistance = static_cast<float>(4.0 * settings.sigma_hit_m);
+  likelihood.LF_maxRange = 3.0F;
+  likelihood.LF_maxCorrsDistance = static_cast<float>(4.0 * sigma_m);
   likelihood.LF_decimation = 1;
   likelihood.enableLikelihoodCache = true;
-  filter.options.metricMap = grid;
+}
+
+void MonteCarloLocalizer::Impl::configure() {
+  sharp = to_mrpt(map);
+  broad = to_mrpt(map);
+  set_likelihood(*sharp, settings.sigma_hit_m);
+  set_likelihood(*broad, settings.search_sigma_m);
   mrpt::slam::TKLDParams& kld = filter.options.KLD_params;
   kld.KLD_binSize_XY = settings.bin_m;
   kld.KLD_binSize_PHI = settings.bin_rad;
-  kld.KLD_minSampleSize = static_cast<unsigned>(settings.least_particles);
   kld.KLD_maxSampleSize = static_cast<unsigned>(settings.most_particles);
   kld.KLD_epsilon = 0.05;
   kld.KLD_delta = 0.01;
 }
 
+void MonteCarloLocalizer::Impl::use(Localization next) {
+  state = next;
+  const bool tracking = next == Localization::kTracking;
+  filter.options.metricMap = tracking ? sharp : broad;
+  filter.options.KLD_params.KLD_minSampleSize =
+      static_cast<unsigned>(tracking ? settings.least_particles : settings.least_searching);
+  good_scans = bad_scans = searching_scans = 0;
+}
+
 void MonteCarloLocalizer::Impl::search() {
   const MrptRandom lent = random();
-  filter.resetUniformFreeSpace(grid.get(), 0.8, settings.most_particles);
-  state = Localization::kSearching;
-  good_scans = bad_scans = searching_scans = 0;
+  filter.resetUniformFreeSpace(broad.get(), 0.8, settings.first_particles);
+  use(Localization::kSearching);
 }
 
 void MonteCarloLocalizer::Impl::filter_scan(const LaserScan& scan, const PlanarPose& increment) {
@@ -132,107 +196,222 @@ void MonteCarloLocalizer::Impl::filter_scan(const LaserScan& scan, const PlanarP
   // KLD sampling draws the next particles itself, which in MRPT needs multinomial resampling.
   run.m_options.resamplingMethod = mrpt::bayes::CParticleFilter::prMultinomial;
   run.m_options.adaptiveSampleSize = true;
-  run.m_options.powFactor = settings.trust;
+  run.m_options.powFactor =
+      state == Localization::kTracking ? settings.trust : settings.search_trust;
   const MrptRandom lent = random();
   run.executeOn(filter, &actions, &frame);
 }
 
-/// Mean and covariance of the particles around the one in the densest place; returns their share
-/// of the weight.
-double MonteCarloLocalizer::Impl::gather_cluster() {
-  const auto& particles = filter.m_particles;
-  double most = particles.front().log_w;
-  for (const auto& particle : particles) most = std::max(most, particle.log_w);
-  PlanarPose centre = estimate.pose_M;
-  const auto weigh = [&](bool narrow, Eigen::Vector3d& mean, Eigen::Matrix3d& covariance) {
-    double inside = 0.0;
-    double all = 0.0;
+/// Mean and covariance of the particles near to `centre`.
+PoseEstimate MonteCarloLocalizer::Impl::mean_near(PlanarPose centre) const {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d squares;
+  for (int i = 0; i < 3; ++i) {
+    double weight = 0.0;
     mean.setZero();
-    covariance.setZero();
-    for (const auto& particle : particles) {
-      const double w = std::exp(particle.log_w - most);
-      all += w;
+    squares.setZero();
+    for (const auto& particle : filter.m_particles) {
       const Eigen::Vector3d d(particle.d.x - centre.x, particle.d.y - centre.y,
                               wrap_to_pi(particle.d.phi - centre.yaw));
-      if (narrow && (d.head<2>().norm() > kCluster_m || std::abs(d.z()) > kCluster_rad)) continue;
-      inside += w;
+      if (d.head<2>().norm() > kCluster_m || std::abs(d.z()) > kCluster_rad) continue;
+      const double w = std::exp(particle.log_w);
+      weight += w;
       mean += w * d;
-      covariance += w * d * d.transpose();
+      squares += w * d * d.transpose();
     }
-    if (inside > 0.0) {
-      mean /= inside;
-      covariance = covariance / inside - mean * mean.transpose();
-    }
-    return inside / all;
-  };
-  if (state == Localization::kSearching) {
-    // The heaviest bin says where to look.
-    struct Bin { double w = 0.0; std::size_t first = 0; };
-    std::map<std::tuple<int, int, int>, Bin> bins;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      const auto& d = particles[i].d;
-      Bin& bin = bins[{static_cast<int>(std::floor(d.x / kCluster_m)),
-                       static_cast<int>(std::floor(d.y / kCluster_m)),
-                       static_cast<int>(std::floor(wrap_to_two_pi(d.phi) / kCluster_rad))}];
-      if (bin.w == 0.0) bin.first = i;
-      bin.w += std::exp(particles[i].log_w - most);
-    }
-    const auto heaviest = std::max_element(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.second.w < b.second.w; });
-    const auto& d = particles[heaviest->second.first].d;
-    centre = {d.x, d.y, d.phi};
-  }
-  Eigen::Vector3d mean;
-  Eigen::Matrix3d covariance;
-  double share = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    share = weigh(true, mean, covariance);
+    if (!(weight > 0.0)) return {centre, found_covariance()};
+    mean /= weight;
+    squares = squares / weight - mean * mean.transpose();
     centre = {centre.x + mean.x(), centre.y + mean.y(), wrap_to_pi(centre.yaw + mean.z())};
   }
-  estimate = {centre, covariance};
-  return share;
+  return {centre, squares};
 }
 
-/// Brings the estimate below the particles' spread.
-void MonteCarloLocalizer::Impl::refine(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Matrix3d covariance = estimate.covariance;
-  covariance.diagonal() +=
-      Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m, kLeastSigma_m * kLeastSigma_m,
-                      kLeastSigma_rad * kLeastSigma_rad);
-  const ScanMatch match = match_scan(walls, points, estimate.pose_M, estimate.pose_M,
-                                     covariance.inverse(), settings.match);
-  estimate = {match.pose_M, match.information.inverse()};
+/// The places where most of the particles' weight is, heaviest first.
+std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
+  struct Bin {
+    double weight = 0.0;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();  ///< x, y, cos, sin of the yaw.
+  };
+  std::map<std::array<int, 3>, Bin> bins;
+  const auto cell = [](double value, double size) {
+    return static_cast<int>(std::floor(value / size));
+  };
+  for (const auto& particle : filter.m_particles) {
+    const auto& q = particle.d;
+    Bin& bin = bins[{cell(q.x, kCluster_m), cell(q.y, kCluster_m),
+                     cell(wrap_to_two_pi(q.phi), kCluster_rad)}];
+    const double w = std::exp(particle.log_w);
+    bin.weight += w;
+    bin.sum += w * Eigen::Vector4d(q.x, q.y, std::cos(q.phi), std::sin(q.phi));
+  }
+  std::vector<Bin> sorted;
+  for (const auto& [place, bin] : bins) sorted.push_back(bin);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Bin& a, const Bin& b) { return a.weight > b.weight; });
+  if (sorted.size() > kOpinions) sorted.resize(kOpinions);
+  std::vector<PlanarPose> poses;
+  for (const Bin& bin : sorted) {
+    const Eigen::Vector4d mean = bin.sum / bin.weight;
+    poses.push_back({mean.x(), mean.y(), std::atan2(mean.w(), mean.z())});
+  }
+  return poses;
 }
 
-double MonteCarloLocalizer::Impl::share_on_walls(const std::vector<Eigen::Vector2d>& points) const {
-  std::size_t on_walls = 0;
-  for (const Eigen::Vector2d& p_R : points) {
-    const Eigen::Vector2i cell = map.cell_of(transformed(estimate.pose_M, p_R));
-    if (map.contains(cell.x(), cell.y()) &&
-        wall_distance[map.index(cell.x(), cell.y())] <= kOnWall_m) {
-      ++on_walls;
+/// The places of a lattice over all free space that a scan fits best, by the mean distance of its
+/// ends from the walls.
+std::vector<PlanarPose> MonteCarloLocalizer::Impl::lattice_opinions(
+    const std::vector<Eigen::Vector2d>& points) const {
+  const std::vector<Eigen::Vector2d> few = thinned(points, kCoarseSpacing_m);
+  const int step = std::max(1, static_cast<int>(std::lround(kLattice_m / map.resolution_m)));
+  std::vector<std::pair<double, PlanarPose>> places;
+  for (int turn = 0; turn < kLatticeTurns; ++turn) {
+    const PlanarPose turned{0.0, 0.0, turn * kTwoPi / kLatticeTurns};
+    std::vector<Eigen::Vector2d> ends;
+    for (const Eigen::Vector2d& p_R : few) ends.push_back(transformed(turned, p_R));
+    for (int y = 0; y < map.height; y += step) {
+      for (int x = 0; x < map.width; x += step) {
+        if (!is_free(map.at(x, y))) continue;
+        const Eigen::Vector2d at = map.centre_of(x, y);
+        double sum = 0.0;
+        for (const Eigen::Vector2d& end : ends) {
+          const Eigen::Vector2i cell = map.cell_of(at + end);
+          const bool inside = map.contains(cell.x(), cell.y());
+          const double away =
+              inside ? wall_distance[map.index(cell.x(), cell.y())] : kLatticeReach_m;
+          sum += std::min(away, kLatticeReach_m);
+        }
+        places.push_back({sum, {at.x(), at.y(), turned.yaw}});
+      }
     }
   }
-  return static_cast<double>(on_walls) / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  const std::size_t count = std::min(places.size(), kLatticeOpinions);
+  std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count),
+                    places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<PlanarPose> best;
+  for (std::size_t i = 0; i < count; ++i) best.push_back(places[i].second);
+  return best;
 }
 
-/// Whether the robot has been found, or got lost. `share` is that of the opinion's weight.
-void MonteCarloLocalizer::Impl::judge(double share) {
-  good_scans = fit >= kGoodFit ? good_scans + 1 : 0;
-  bad_scans = fit < kBadFit ? bad_scans + 1 : 0;
-  if (state == Localization::kTracking) {
-    if (bad_scans < kBadScans) return;
-    ++times_lost;
-    search();
-    return;
+/// Brings an estimate below the particles' spread.
+PoseEstimate MonteCarloLocalizer::Impl::refined(const PoseEstimate& rough,
+                                                const std::vector<Eigen::Vector2d>& points) const {
+  const ScanMatch match =
+      match_scan(walls, points, rough.pose_M, rough.pose_M,
+                 (rough.covariance + least_covariance()).inverse(), settings.match);
+  return {match.pose_M, match.information.inverse()};
+}
+
+/// An opinion, first brought into the walls' reach and then finished.
+PoseEstimate MonteCarloLocalizer::Impl::settled(const PlanarPose& opinion,
+                                                const std::vector<Eigen::Vector2d>& points) const {
+  const Eigen::Matrix3d loose = Eigen::Vector3d(1.0 / square(kCluster_m), 1.0 / square(kCluster_m),
+                                                1.0 / square(kCluster_rad))
+                                    .asDiagonal();
+  MatchOptions coarse = settings.match;
+  coarse.search_cells = kCoarseReach;
+  coarse.outlier_m = 0.3;
+  coarse.sigma_m = 0.1;
+  const ScanMatch near =
+      match_scan(walls, thinned(points, kCoarseSpacing_m), opinion, opinion, loose, coarse);
+  return refined({near.pose_M, found_covariance()}, points);
+}
+
+/// Whether the way from `from` to `to` crosses an occupied cell before it is near to its end.
+bool MonteCarloLocalizer::Impl::crosses_wall(const Eigen::Vector2d& from,
+                                             const Eigen::Vector2d& to) const {
+  const double length = (to - from).norm() - kCrossing_m;
+  const Eigen::Vector2d direction = (to - from).normalized();
+  for (double way = 0.0; way < length;) {
+    const Eigen::Vector2i cell = map.cell_of(from + way * direction);
+    if (!map.contains(cell.x(), cell.y())) return false;
+    const double clear = wall_distance[map.index(cell.x(), cell.y())];
+    if (clear < 0.5 * map.resolution_m) return true;
+    // Nothing is nearer than this, but for the two cells' halves.
+    way += std::max(clear - map.resolution_m, 0.5 * map.resolution_m);
   }
-  ++searching_scans;
-  const double sigma = std::sqrt(estimate.covariance.topLeftCorner<2, 2>().trace());
-  const bool of_one_opinion = share >= kFoundShare && sigma <= kFoundSigma_m;
-  if (of_one_opinion && good_scans >= kGoodScans) {
-    state = Localization::kTracking;
-    bad_scans = 0;
-  } else if (of_one_opinion && searching_scans >= kPatience) {
+  return false;
+}
+
+/// How well a scan fits the map from `pose`: the share of its ends that lie on walls, less the
+/// share of beams that crossed one. Things that are not on the map cost the first, but only a wrong
+/// place costs the second.
+double MonteCarloLocalizer::Impl::fit_at(const PlanarPose& pose,
+                                         const std::vector<Eigen::Vector2d>& points) const {
+  const Eigen::Vector2d from = transformed(pose, X_RL.translation.head<2>());
+  int score = 0;
+  for (const Eigen::Vector2d& p_R : points) {
+    const Eigen::Vector2d p = transformed(pose, p_R);
+    const Eigen::Vector2i cell = map.cell_of(p);
+    const bool on_wall = map.contains(cell.x(), cell.y()) &&
+                         wall_distance[map.index(cell.x(), cell.y())] <= kOnWall_m;
+    score += static_cast<int>(on_wall) - static_cast<int>(crosses_wall(from, p));
+  }
+  return score / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+}
+
+void MonteCarloLocalizer::Impl::track(const std::vector<Eigen::Vector2d>& points) {
+  estimate = refined(mean_near(estimate.pose_M), points);
+  fit = fit_at(estimate.pose_M, points);
+  bad_scans = fit < kBadFit ? bad_scans + 1 : 0;
+  if (bad_scans < kBadScans) return;
+  ++times_lost;
+  search();
+}
+
+/// Looks at the opinions there are; the robot is found where one fits, and no other.
+void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& points) {
+  const PlanarPose expected = estimate.pose_M;
+  double heaviest = filter.m_particles.front().log_w;
+  for (const auto& particle : filter.m_particles) heaviest = std::max(heaviest, particle.log_w);
+  std::vector<std::pair<double, PoseEstimate>> seen;
+  std::vector<PlanarPose> to_see = opinions();
+  // Always before it is found: a place like this one may have no particle left.
+  if (searching_scans % kLatticeEvery == 0 || good_scans + 1 >= kGoodScans) {
+    const std::vector<PlanarPose> more = lattice_opinions(points);
+    to_see.insert(to_see.end(), more.begin(), more.end());
+  }
+  for (const PlanarPose& opinion : to_see) {
+    const PoseEstimate place = settled(opinion, points);
+    seen.emplace_back(fit_at(place.pose_M, points), place);
+  }
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  fit = seen.front().first;
+  estimate = seen.front().second;
+  const bool alone = std::none_of(seen.begin(), seen.end(), [&](const auto& other) {
+    return other.first > fit - kBetterBy && !are_near(other.second.pose_M, estimate.pose_M);
+  });
+  const bool good = fit >= kGoodFit && alone;
+  const bool same = are_near(expected, estimate.pose_M);
+  good_scans = !good ? 0 : same ? good_scans + 1 : 1;
+  good_way_m = good_scans > 1 ? good_way_m + way_m : 0.0;
+  if (good_scans >= kGoodScans && good_way_m >= kGoodWay_m) {
+    filter.m_particles.clear();
+    scatter({estimate.pose_M, found_covariance()}, 2 * settings.least_particles, 0.0);
+    use(Localization::kTracking);
+  } else if (++searching_scans >= kPatience) {
     search();
+  } else {
+    for (std::size_t i = 0; i < std::min(seen.size(), kOpinions); ++i) {
+      const auto& [fits, place] = seen[i];
+      if (fits < kPromisingFit) break;
+      scatter({place.pose_M, found_covariance()}, kMoreParticles, heaviest);
+    }
+  }
+}
+
+/// Adds particles around a pose.
+void MonteCarloLocalizer::Impl::scatter(const PoseEstimate& around, int count, double log_weight) {
+  RandomStream stream(seed, Purpose::kLocalization, draws++, 1);
+  const Eigen::Matrix3d L = (around.covariance + least_covariance()).llt().matrixL();
+  for (int i = 0; i < count; ++i) {
+    const auto [a, b] = standard_normal_pair(stream);
+    const Eigen::Vector3d d = L * Eigen::Vector3d(a, b, standard_normal(stream));
+    filter.m_particles.emplace_back();
+    auto& particle = filter.m_particles.back();
+    particle.log_w = log_weight;
+    particle.d = {around.pose_M.x + d.x(), around.pose_M.y + d.y(), around.pose_M.yaw + d.z()};
   }
 }
 
@@ -244,18 +423,21 @@ bool MonteCarloLocalizer::Impl::update(const LaserScan& scan, const PlanarPose& 
   const std::vector<Eigen::Vector2d> ends = scan_points(scan, X_RL, 0.0).ends_R;
   if (ends.empty()) return false;
   filter_scan(scan, increment);
+  way_m = std::hypot(increment.x, increment.y);
   has_odometry = true;
   odometry = now;
   estimate.pose_M = compose(estimate.pose_M, increment);
-  const double share = gather_cluster();
   const std::vector<Eigen::Vector2d> points = thinned(ends, settings.point_spacing_m);
-  refine(points);
-  fit = share_on_walls(points);
-  judge(share);
+  if (state == Localization::kTracking) {
+    track(points);
+  } else {
+    look_around(points);
+  }
   return true;
 }
 
-MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const LocalizerSettings& settings,
+MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map,
+                                         const LocalizerSettings& settings,
                                          const RigidTransform& X_RL, std::uint64_t seed)
     : impl_(std::make_unique<Impl>()) {
   require_usable(map);
@@ -263,7 +445,6 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map, const Localiz
   impl_->X_RL = X_RL;
   impl_->seed = seed;
   impl_->map = map;
-  impl_->grid = to_mrpt(map);
   impl_->walls = walls_of(map);
   std::vector<bool> occupied;
   for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
@@ -282,21 +463,11 @@ void MonteCarloLocalizer::start_at(const PoseEstimate& start) {
       !start.covariance.allFinite()) {
     throw Error("the starting pose and its covariance must be finite");
   }
-  const auto count = static_cast<std::size_t>(impl.settings.least_particles) * 2;
-  RandomStream stream(impl.seed, Purpose::kLocalization, impl.draws++, 1);
-  const Eigen::Matrix3d floor = Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m, kLeastSigma_m * kLeastSigma_m, kLeastSigma_rad * kLeastSigma_rad).asDiagonal();
-  const Eigen::Matrix3d L = (start.covariance + floor).llt().matrixL();
-  impl.filter.m_particles.resize(count);
-  for (auto& particle : impl.filter.m_particles) {
-    const auto [a, b] = standard_normal_pair(stream);
-    const Eigen::Vector3d d = L * Eigen::Vector3d(a, b, standard_normal(stream));
-    particle.log_w = 0.0;
-    particle.d = {start.pose_M.x + d.x(), start.pose_M.y + d.y(), start.pose_M.yaw + d.z()};
-  }
+  impl.filter.m_particles.clear();
+  impl.scatter(start, 2 * impl.settings.least_particles, 0.0);
   impl.estimate = start;
-  impl.state = Localization::kTracking;
   impl.has_odometry = false;
-  impl.good_scans = impl.bad_scans = 0;
+  impl.use(Localization::kTracking);
 }
 
 void MonteCarloLocalizer::start_anywhere() {

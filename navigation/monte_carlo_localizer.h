@@ -18,19 +18,24 @@
 namespace tagfield {
 
 struct LocalizerSettings {
-  OdometryNoise odometry;           ///< What the wheels are believed to err.
-  double update_distance_m = 0.1;   ///< A scan is used after so much driving,
-  double update_turn_rad = 0.1;     ///< or turning.
-  int beams = 90;                   ///< Of a scan, evenly, that weigh the particles.
-  double sigma_hit_m = 0.1;         ///< Of a beam's end beside the nearest occupied cell.
+  OdometryNoise odometry;          ///< What the wheels are believed to err.
+  double update_distance_m = 0.1;  ///< A scan is used after so much driving,
+  double update_turn_rad = 0.1;    ///< or turning.
+  int beams = 90;                  ///< Of a scan, evenly, that weigh the particles.
+  double sigma_hit_m = 0.1;        ///< Of a beam's end beside the nearest occupied cell.
   /// Power of the scan's likelihood: 1 would take all beams for independent, and lock onto wrong
   /// poses.
   double trust = 0.15;
   int least_particles = 200;
   int most_particles = 20000;
-  double bin_m = 0.1;               ///< Of KLD sampling (Fox, 2003).
+  // While it searches, particles lie thin: their weights must fall off slowly from one to the next.
+  double search_sigma_m = 0.3;
+  double search_trust = 0.01;
+  int first_particles = 20000;  ///< Over all free space.
+  int least_searching = 6000;
+  double bin_m = 0.1;  ///< Of KLD sampling (Fox, 2003).
   double bin_rad = 0.087;
-  double point_spacing_m = 0.05;    ///< Of the points of the final match.
+  double point_spacing_m = 0.05;  ///< Of the points of the final match.
   MatchOptions match;
 };
 
@@ -42,10 +47,10 @@ struct PoseEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y [m], yaw [rad].
 };
 
-/// KLD-adaptive Monte Carlo localization (Fox, 2003) by MRPT, finished by a match of the scan on the
-/// map, which brings the pose below the particles' spread. Without a start it searches the whole map's
-/// free space; when scans stop to fit for a while, as after a kidnapping, it searches again.
-/// docs/localization_on_map.md has the method.
+/// KLD-adaptive Monte Carlo localization (Fox, 2003) by MRPT, finished by a match of the scan on
+/// the map, which brings the pose below the particles' spread. Without a start it searches the
+/// whole map's free space; when scans stop to fit for a while, as after a kidnapping, it searches
+/// again. docs/localization_on_map.md has the method.
 class MonteCarloLocalizer {
  public:
   /// Throws Error on a map without a free or without an occupied cell.
@@ -60,14 +65,15 @@ class MonteCarloLocalizer {
   /// Starts anywhere in the free space. Also what it begins with.
   void start_anywhere();
 
-  /// Takes a scan whose beams are of one moment, and the odometry's pose then. Returns whether it was
-  /// used, which is not done before the robot has moved on, or when no beam met anything.
+  /// Takes a scan whose beams are of one moment, and the odometry's pose then. Returns whether it
+  /// was used, which is not done before the robot has moved on, or when no beam met anything.
   bool update(const LaserScan& scan, const PlanarPose& odometry);
 
   /// Moved on by what the odometry has told since the last scan that was used.
   [[nodiscard]] PoseEstimate estimate_at(const PlanarPose& odometry) const;
   [[nodiscard]] Localization state() const;
-  /// Share of the last scan's ends that lie on the map's walls, at the estimate.
+  /// Share of the last scan's ends that lie on the map's walls, less that of the beams that crossed
+  /// one, at the estimate: 1 for a perfect map and pose.
   [[nodiscard]] double fit() const;
   [[nodiscard]] std::vector<PlanarPose> particles() const;
   /// How often it has lost its place and begun to search.

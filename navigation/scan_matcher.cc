@@ -151,7 +151,8 @@ ScanMatch match_scan(const HitGrid& map, const std::vector<Eigen::Vector2d>& poi
     match.cost = sums.cost + 0.5 * off.dot(prior_information * off);
     const auto count = static_cast<double>(std::max<std::size_t>(points_R.size(), 1));
     match.matched_share = static_cast<double>(sums.matched) / count;
-    match.rms_m = std::sqrt(sums.squares / std::max<double>(static_cast<double>(sums.matched), 1.0));
+    match.rms_m =
+        std::sqrt(sums.squares / std::max<double>(static_cast<double>(sums.matched), 1.0));
     if (i + 1 == options.iterations) break;
     const Eigen::LDLT<Eigen::Matrix3d> solver(match.information);
     const Eigen::Vector3d step = solver.solve(-gradient);

@@ -12,9 +12,9 @@ namespace tagfield {
 
 struct MatchOptions {
   int iterations = 12;
-  int search_cells = 4;        ///< How far a point looks for its surface at first.
-  double sigma_m = 0.02;       ///< Of a point beside its surface.
-  double outlier_m = 0.06;     ///< Distance at which a point counts half (Cauchy's weight).
+  int search_cells = 4;     ///< How far a point looks for its surface at first.
+  double sigma_m = 0.02;    ///< Of a point beside its surface.
+  double outlier_m = 0.06;  ///< Distance at which a point counts half (Cauchy's weight).
   /// Share of a point's information that counts: neighbouring beams err together, by what the map
   /// and the pose of its scans have wrong.
   double trust = 0.1;

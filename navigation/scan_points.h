@@ -10,7 +10,8 @@
 
 namespace tagfield {
 
-/// Frame R is the robot's base; the laser looks along the floor, so only x, y and yaw of X_RL count.
+/// Frame R is the robot's base; the laser looks along the floor, so only x, y and yaw of X_RL
+/// count.
 struct ScanPoints {
   Eigen::Vector2d sensor_R = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> ends_R;   ///< Where beams met something.

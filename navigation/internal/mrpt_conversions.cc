@@ -25,7 +25,8 @@ mrpt::maps::COccupancyGridMap2D::Ptr to_mrpt(const OccupancyGrid& grid) {
 mrpt::obs::CObservation2DRangeScan::Ptr to_mrpt(const LaserScan& scan, const RigidTransform& X_RL,
                                                 int beams) {
   const std::size_t all = scan.ranges_m.size();
-  const std::size_t skip = std::max<std::size_t>(all / static_cast<std::size_t>(std::max(beams, 1)), 1);
+  const std::size_t skip =
+      std::max<std::size_t>(all / static_cast<std::size_t>(std::max(beams, 1)), 1);
   const std::size_t count = (all - 1) / skip + 1;
   auto observation = mrpt::obs::CObservation2DRangeScan::Create();
   observation->resizeScan(count);
@@ -50,8 +51,8 @@ mrpt::obs::CActionRobotMovement2D to_mrpt(const PlanarPose& increment, const Odo
   mrpt::poses::CPosePDFGaussian change(
       mrpt::poses::CPose2D(increment.x, increment.y, increment.yaw),
       mrpt::math::CMatrixDouble33(increment_covariance(increment, noise)));
-  action.poseChange = mrpt::poses::CPosePDF::Ptr(
-      std::make_shared<mrpt::poses::CPosePDFGaussian>(change));
+  action.poseChange =
+      mrpt::poses::CPosePDF::Ptr(std::make_shared<mrpt::poses::CPosePDFGaussian>(change));
   return action;
 }
 
