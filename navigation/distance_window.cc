@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "navigation/near_distances.h"
+
 namespace tagfield {
 
 DistanceWindow::DistanceWindow(const OccupancyGrid& map,
@@ -13,18 +15,18 @@ DistanceWindow::DistanceWindow(const OccupancyGrid& map,
   window_.width = static_cast<int>(std::ceil(2.0 * half_m / map.resolution_m)) + 1;
   window_.height = window_.width;
   window_.origin = map.origin + map.resolution_m * low.cast<double>();
-  std::vector<bool> is_source(static_cast<std::size_t>(window_.width) *
-                              static_cast<std::size_t>(window_.height));
+  std::vector<std::uint8_t> sources(static_cast<std::size_t>(window_.width) *
+                                    static_cast<std::size_t>(window_.height));
   for (int y = 0; y < window_.height; ++y) {
     for (int x = 0; x < window_.width; ++x) {
-      is_source[window_.index(x, y)] = is_occupied(map.at(low.x() + x, low.y() + y));
+      sources[window_.index(x, y)] = is_occupied(map.at(low.x() + x, low.y() + y)) ? 1 : 0;
     }
   }
   for (const Eigen::Vector2d& point : points_M) {
     const Eigen::Vector2i cell = window_.cell_of(point);
-    if (window_.contains(cell.x(), cell.y())) is_source[window_.index(cell.x(), cell.y())] = true;
+    if (window_.contains(cell.x(), cell.y())) sources[window_.index(cell.x(), cell.y())] = 1;
   }
-  distances_ = distance_field(window_, is_source, most_m);
+  distances_ = near_distances(sources, window_.width, cells_for(most_m, window_.resolution_m));
 }
 
 double DistanceWindow::at(const Eigen::Vector2d& p_M) const {
@@ -39,8 +41,8 @@ double DistanceWindow::at(const Eigen::Vector2d& p_M) const {
   const double u = place.x() - x;
   const double v = place.y() - y;
   const auto d = [&](int i, int j) { return static_cast<double>(distances_[window_.index(i, j)]); };
-  return (1.0 - v) * ((1.0 - u) * d(x, y) + u * d(x + 1, y)) +
-         v * ((1.0 - u) * d(x, y + 1) + u * d(x + 1, y + 1));
+  return window_.resolution_m * ((1.0 - v) * ((1.0 - u) * d(x, y) + u * d(x + 1, y)) +
+                                 v * ((1.0 - u) * d(x, y + 1) + u * d(x + 1, y + 1)));
 }
 
 }  // namespace tagfield

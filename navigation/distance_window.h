@@ -13,7 +13,8 @@ namespace tagfield {
 class DistanceWindow {
  public:
   /// `half_m` around `centre_M`: occupied cells of `map` and cells that hold one of `points_M`.
-  /// Distances are at most `most_m`. `map` has a resolution > 0 and may be empty else.
+  /// Distances are no more than two cells above `most_m`. `map` has a resolution > 0 and may be
+  /// empty else.
   DistanceWindow(const OccupancyGrid& map, const std::vector<Eigen::Vector2d>& points_M,
                  const Eigen::Vector2d& centre_M, double half_m, double most_m);
 
@@ -23,7 +24,7 @@ class DistanceWindow {
 
  private:
   OccupancyGrid window_;
-  std::vector<float> distances_;
+  std::vector<float> distances_;  ///< In cells.
 };
 
 }  // namespace tagfield

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "navigation/near_distances.h"
+
 namespace tagfield {
 namespace {
 
@@ -33,23 +35,41 @@ int unknown_neighbours(const std::vector<std::int8_t>& cells, std::size_t i, std
   return count - 1;
 }
 
-std::vector<float> distances_to(const OccupancyGrid& grid, std::int8_t kind, double most_m) {
-  std::vector<bool> is_source(grid.cells.size());
-  for (std::size_t i = 0; i < is_source.size(); ++i) is_source[i] = grid.cells[i] == kind;
-  return distance_field(grid, is_source, most_m);
-}
-
-/// How much farther each cell is from obstacles and unknown ground than it must be [m].
+/// How much farther each cell is from occupied ones than it must be [m], up to a little more than
+/// the clearance.
 std::vector<float> rooms(const OccupancyGrid& grid, const RobotRoom& size) {
-  const double unknown_least = kUnknownShare * size.radius_m;
-  const double wanted = size.clearance_m + grid.resolution_m;
-  std::vector<float> room = distances_to(grid, kOccupiedCell, size.least_m() + wanted);
-  const std::vector<float> unknown = distances_to(grid, kUnknownCell, unknown_least + wanted);
-  for (std::size_t i = 0; i < room.size(); ++i) {
-    room[i] = std::min(room[i] - static_cast<float>(size.least_m()),
-                       unknown[i] - static_cast<float>(unknown_least));
+  std::vector<std::uint8_t> sources(grid.cells.size());
+  std::transform(grid.cells.begin(), grid.cells.end(), sources.begin(),
+                 [](std::int8_t cell) { return std::uint8_t{cell == kOccupiedCell}; });
+  const double most_m = size.least_m() + size.clearance_m;
+  std::vector<float> room =
+      near_distances(sources, grid.width, cells_for(most_m, grid.resolution_m));
+  const auto least = static_cast<float>(size.least_m());
+  for (float& distance : room) {
+    distance = distance * static_cast<float>(grid.resolution_m) - least;
   }
   return room;
+}
+
+bool borders_on_free(const OccupancyGrid& grid, int x, int y) {
+  return grid.at(x - 1, y) == kFreeCell || grid.at(x + 1, y) == kFreeCell ||
+         grid.at(x, y - 1) == kFreeCell || grid.at(x, y + 1) == kFreeCell;
+}
+
+/// Lowers the room beside unknown ground, so that it is below 0 nearer than `least_m` to it: from
+/// each cell at its edge, as these are few.
+void keep_from_unknown(const OccupancyGrid& grid, double least_m, std::vector<float>& room) {
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      if (grid.cells[grid.index(x, y)] != kUnknownCell || !borders_on_free(grid, x, y)) continue;
+      const Eigen::Vector2d centre = grid.centre_of(x, y);
+      around(grid, centre, least_m, [&](int i, int j) {
+        const double distance = (grid.centre_of(i, j) - centre).norm();
+        float& here = room[grid.index(i, j)];
+        here = std::min(here, static_cast<float>(distance - least_m));
+      });
+    }
+  }
 }
 
 std::uint8_t weight_of(float room_m, double clearance_m) {
@@ -112,7 +132,8 @@ FloorRoom floor_room(const OccupancyGrid& map, const std::vector<Eigen::Vector2d
     }
   }
   if (robot) stand(grid, *robot, size.radius_m);
-  const std::vector<float> room = rooms(grid, size);
+  std::vector<float> room = rooms(grid, size);
+  keep_from_unknown(grid, kUnknownShare * size.radius_m, room);
   floor.weights.resize(room.size());
   std::transform(room.begin(), room.end(), grid.cells.begin(), floor.weights.begin(),
                  [&](float room_m, std::int8_t cell) {

@@ -28,17 +28,18 @@ constexpr std::array<Step, 8> kSteps = {{{1, 0, 12},
                                          {-1, 1, 17}}};
 constexpr double kTwelfths = 12.0;
 
-/// Cells that wait, by cost: Dial's queue, since a step's cost is a small whole number.
+/// Cells that wait, by the cost of the way that they promise: Dial's queue, since a step adds a
+/// small whole number to that.
 class Waiting {
  public:
   struct Entry {
-    std::int32_t cost;
+    std::int32_t cost;  ///< So far.
     int x;
     int y;
   };
 
-  void add(const Entry& entry) {
-    buckets_[static_cast<std::size_t>(entry.cost) % buckets_.size()].push_back(entry);
+  void add(const Entry& entry, std::int32_t promised) {
+    buckets_[static_cast<std::size_t>(promised) % buckets_.size()].push_back(entry);
     ++count_;
   }
   [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -52,12 +53,19 @@ class Waiting {
   }
 
  private:
-  // More than the dearest step, 17 twelfths at the mean of two weights.
+  // More than a step can add: 17 twelfths at the dearest weight, and leading away at the cheapest.
   std::array<std::vector<Entry>, 1024> buckets_;
   std::size_t at_ = 0;
   std::size_t count_ = 0;
 };
-static_assert(17 * FloorRoom::kOut < 1024);
+static_assert(17 * (FloorRoom::kOut + FloorRoom::kFar) < 1024);
+
+/// The least that any way between two cells can cost.
+std::int32_t least_cost(int x, int y, const Eigen::Vector2i& to) {
+  const int along = std::abs(x - to.x());
+  const int across = std::abs(y - to.y());
+  return FloorRoom::kFar * (12 * std::max(along, across) + 5 * std::min(along, across));
+}
 
 /// Whether a step over a corner squeezes between two cells that are not allowed.
 bool cuts_corner(const FloorRoom& floor, int x, int y, const Step& step) {
@@ -112,8 +120,10 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
                 std::vector<std::int8_t>(grid.cells.size(), -1)};
   if (floor.weight(from.x(), from.y()) == 0) return result;
   Waiting waiting;
+  // With an end in view this is A*, else Dijkstra's algorithm.
+  const auto ahead = [&](int x, int y) { return until ? least_cost(x, y, *until) : 0; };
   result.costs[grid.index(from.x(), from.y())] = 0;
-  waiting.add({0, from.x(), from.y()});
+  waiting.add({0, from.x(), from.y()}, ahead(from.x(), from.y()));
   while (!waiting.empty()) {
     const auto [cost, x, y] = waiting.take();
     if (until && x == until->x() && y == until->y()) break;
@@ -128,7 +138,7 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
       if (result.costs[there] >= 0 && result.costs[there] <= total) continue;
       result.costs[there] = total;
       result.back[there] = static_cast<std::int8_t>(k ^ 1U);
-      waiting.add({total, x + step.x, y + step.y});
+      waiting.add({total, x + step.x, y + step.y}, total + ahead(x + step.x, y + step.y));
     }
   }
   return result;
