@@ -10,14 +10,12 @@
 #include <limits>
 
 #include "tagfield/base/error.h"
-#include "tagfield/world/triangulate.h"
+#include "tagfield/world/world_mesh.h"
 
 namespace tagfield {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-/// No world is larger [m]; Embree leaves out triangles beyond 1.8e18.
-constexpr double kMostCoordinate = 1e9;
 constexpr std::size_t kPacket = 16;
 /// How far beyond a triangle's rim a hit is still taken if Embree takes it; barycentric.
 constexpr double kRimTolerance = 0.01;
@@ -42,25 +40,11 @@ WorldPlane world_plane(const Collision& collision, const Plane& plane) {
   return {normal, normal.dot(collision.X_WC.translation)};
 }
 
-void add_vertex(Triangles& triangles, const Collision& collision, const Eigen::Vector3d& p_W) {
-  if (!(p_W.cwiseAbs().maxCoeff() <= kMostCoordinate) || !p_W.allFinite()) {
-    throw Error(fmt::format("{}: a vertex at ({}, {}, {}) is not within {} m of the origin",
-                            collision.name, p_W.x(), p_W.y(), p_W.z(), kMostCoordinate));
-  }
-  triangles.vertices.push_back(p_W);
-}
-
 void add_solid(Triangles& triangles, const Collision& collision) {
-  const TriangleMesh mesh = triangulate(collision.shape);
+  const TriangleMesh mesh = world_mesh(collision);
   const auto first = static_cast<std::uint32_t>(triangles.vertices.size());
-  const std::size_t count = mesh.vertices.size();
-  for (const Eigen::Vector3d& p_C : mesh.vertices) {
-    add_vertex(triangles, collision, collision.X_WC * p_C);
-  }
+  triangles.vertices.insert(triangles.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const auto& [a, b, c] : mesh.triangles) {
-    if (a >= count || b >= count || c >= count) {
-      throw Error(collision.name + ": a triangle names a vertex that is not there");
-    }
     triangles.indices.push_back({first + a, first + b, first + c});
   }
 }

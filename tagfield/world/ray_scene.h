@@ -30,9 +30,9 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// Distance to the first surface from either side [m], or +infinity where nothing is within
-  /// most_m. The ray is taken as its floats say, and all else is to 1e-6 of the distance. A ray that
-  /// begins on a surface may meet it at 0 or miss it; one with a component that is not finite, or
-  /// a `most_m` below 0, meets nothing.
+  /// most_m. The ray is taken as its floats say, and all else is to 1e-6 of the distance. A ray
+  /// that begins on a surface may meet it at 0 or miss it; one with a component that is not finite,
+  /// or a `most_m` below 0, meets nothing.
   [[nodiscard]] float distance(const Ray& ray) const;
   /// Likewise for many rays, by Embree's packets, which is quicker; `distances` becomes as long as
   /// `rays`. May differ from distance() by its rounding errors, and where a ray just meets the rim
