@@ -2,44 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "tagfield/base/error.h"
-#include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
 
-/// A turn, a straight way (negative backwards), a turn.
-struct Parts {
-  double first = 0.0;
-  double way = 0.0;
-  double second = 0.0;
+struct Variances {
+  double heading = 0.0;  ///< [rad²]
+  double way = 0.0;      ///< [m²]
 };
 
-Parts parts_of(const PlanarPose& increment) {
-  Parts parts;
-  parts.way = std::hypot(increment.x, increment.y);
-  // A robot that drives backwards has not turned round twice.
-  if (increment.x < 0.0) parts.way = -parts.way;
-  // The direction of no way at all is none.
-  if (std::abs(parts.way) > 1e-9) {
-    const double sign = parts.way < 0.0 ? -1.0 : 1.0;
-    parts.first = std::atan2(sign * increment.y, sign * increment.x);
-  }
-  parts.second = wrap_to_pi(increment.yaw - parts.first);
-  return parts;
+Variances variances_of(const PlanarPose& increment, const OdometryNoise& noise) {
+  const double way = std::hypot(increment.x, increment.y);
+  const double turn = std::abs(increment.yaw);
+  const auto squared = [](double x) { return x * x; };
+  return {squared(noise.alpha1) * turn + squared(noise.alpha2) * way,
+          squared(noise.alpha3) * way + squared(noise.alpha4) * turn};
 }
 
-/// Variances of the three parts. What driving does to the heading is shared by the two turns.
-Eigen::Vector3d variances_of(const Parts& parts, const OdometryNoise& noise) {
-  const double way = std::abs(parts.way);
-  const auto squared = [](double x) { return x * x; };
-  const double by_driving = 0.5 * squared(noise.alpha2) * way;
-  const double turns = std::abs(parts.first) + std::abs(parts.second);
-  return {squared(noise.alpha1) * std::abs(parts.first) + by_driving,
-          squared(noise.alpha3) * way + squared(noise.alpha4) * turns,
-          squared(noise.alpha1) * std::abs(parts.second) + by_driving};
+/// The chord of an arc has the arc's middle heading. Not taken from x and y, which have no
+/// direction where a robot turns on the spot.
+Eigen::Vector2d middle_heading(const PlanarPose& increment) {
+  return {std::cos(0.5 * increment.yaw), std::sin(0.5 * increment.yaw)};
 }
 
 }  // namespace
@@ -57,22 +44,28 @@ void check(const OdometryNoise& noise) {
 
 PlanarPose noisy_increment(const PlanarPose& increment, const OdometryNoise& noise,
                            RandomStream& stream) {
-  const Parts parts = parts_of(increment);
-  const Eigen::Vector3d sigma = variances_of(parts, noise).cwiseSqrt();
-  const auto [first_draw, way_draw] = standard_normal_pair(stream);
-  const double first = parts.first + sigma.x() * first_draw;
-  const double way = parts.way + sigma.y() * way_draw;
-  const double second = parts.second + sigma.z() * standard_normal(stream);
-  return {way * std::cos(first), way * std::sin(first), first + second};
+  const Variances variances = variances_of(increment, noise);
+  const auto [first_draw, second_draw] = standard_normal_pair(stream);
+  // Correlated by a half.
+  const double sigma = std::sqrt(variances.heading / 3.0);
+  const double first = sigma * first_draw;
+  const double second = sigma * (0.5 * first_draw + std::sqrt(0.75) * second_draw);
+  const double way = std::sqrt(variances.way) * standard_normal(stream);
+  const Eigen::Vector2d p = Eigen::Rotation2Dd(first) * (Eigen::Vector2d(increment.x, increment.y) +
+                                                         way * middle_heading(increment));
+  return {p.x(), p.y(), increment.yaw + first + second};
 }
 
 Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const OdometryNoise& noise) {
-  const Parts parts = parts_of(increment);
-  const double c = std::cos(parts.first);
-  const double s = std::sin(parts.first);
+  const Variances variances = variances_of(increment, noise);
+  const Eigen::Vector2d u = middle_heading(increment);
+  // Of n₁, n_s, n₂.
+  Eigen::Matrix3d Q;
+  Q << variances.heading / 3.0, 0.0, variances.heading / 6.0, 0.0, variances.way, 0.0,
+      variances.heading / 6.0, 0.0, variances.heading / 3.0;
   Eigen::Matrix3d J;
-  J << -parts.way * s, c, 0.0, parts.way * c, s, 0.0, 1.0, 0.0, 1.0;
-  return J * variances_of(parts, noise).asDiagonal() * J.transpose();
+  J << -increment.y, u.x(), 0.0, increment.x, u.y(), 0.0, 1.0, 0.0, 1.0;
+  return J * Q * J.transpose();
 }
 
 }  // namespace tagfield
