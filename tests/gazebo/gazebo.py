@@ -27,7 +27,8 @@ _LOADER.exec_module(experiment)
 
 IN_GAZEBO = TOP / "scripts/in-gazebo"
 RATE_HZ = 15.0
-RECORDED = ("/rfid/reads", "/rfid/truth/antennas", "/rfid/truth/tags", "/rfid/truth/tags_moved")
+EACH_UPDATE = ("/rfid/reads", "/rfid/truth/antennas")
+RECORDED = (*EACH_UPDATE, "/rfid/truth/tags", "/rfid/truth/tags_moved")
 
 
 def require_gazebo(context):
@@ -101,6 +102,31 @@ def remove(time_s, name):
 
 # --- Runs -----------------------------------------------------------------------------------------
 
+class Recorder(experiment.Recorder):
+    """A recorder that loses nothing, and what it has by now."""
+
+    def command(self):
+        return [TOP / "tests/gazebo/recorder.py", self.bag, *self.topics]
+
+    def stamps(self):
+        """(topic, stamp [ns]) of each message so far."""
+        lines = self.process.log.read_text(encoding="utf-8", errors="replace").split("\n")[:-1]
+        pairs = [line.split() for line in lines if line.startswith("/")]
+        return [(topic, int(stamp)) for topic, stamp in pairs]
+
+    def has_reached(self, stamp):
+        """Whether the topics of each update have come to a stamp [ns]."""
+        reached = {topic for topic, at in self.stamps() if at >= stamp}
+        return reached.issuperset(EACH_UPDATE)
+
+    def settle(self):
+        """Waits until nothing has come in for a while."""
+        count = -1
+        while count != len(self.stamps()):
+            count = len(self.stamps())
+            time.sleep(1.0)
+
+
 class Run:
     """A gzserver with a world, and a ROS master, unless there is to be none."""
 
@@ -135,8 +161,7 @@ class Run:
                 self.start_master()
             # Before Gazebo, or the recorder would wait for simulated time to begin.
             if self.with_record:
-                self.recorder = experiment.Recorder(self.bag, RECORDED, ["/rfid/reads"],
-                                                    self.folder, self.env)
+                self.recorder = Recorder(self.bag, RECORDED, RECORDED, self.folder, self.env)
                 self.stack.callback(self.recorder.process.stop)
             options = ["--verbose"] + (["-u"] if self.with_record else [])
             self.server = experiment.Process("gzserver", [IN_GAZEBO, *self.command, *options,
@@ -146,7 +171,7 @@ class Run:
             if self.with_record:
                 experiment.wait_for("connecting the recorder", self.recorder.is_connected,
                                     [self.recorder.process, self.server])
-                self.gz("world", "--pause=0")
+                experiment.unpause(lambda: self.recorder.has_reached(0), self.server, self.env)
         except BaseException:
             self.stack.close()
             raise
@@ -190,9 +215,11 @@ class Run:
         return self.server.process.poll() is None
 
     def finish(self, log, seconds=120.0):
-        """Waits for the schedule's end and closes the bag."""
+        """Waits for the schedule's end and the last update before it, and closes the bag."""
         self.wait_for("the schedule", lambda: "stopped" in read_if_there(log), seconds)
-        time.sleep(1.0)
+        last = int(read_if_there(log).split()[-2]) - int(1.5e9 / RATE_HZ)
+        self.wait_for("the last update", lambda: self.recorder.has_reached(last))
+        self.recorder.settle()
         self.recorder.finish()
         check_equal(self.recorder.lost(), {}, "messages lost by the recorder")
 
@@ -206,6 +233,13 @@ def messages(bag, topic):
     import rosbag  # pylint: disable=import-outside-toplevel
     found = [message for _, message, _ in rosbag.Bag(str(bag)).read_messages(topics=[topic])]
     return sorted(found, key=lambda message: message.header.stamp)
+
+
+def recorded_in(bag):
+    """Wall time from the first message's coming to the last's [s]."""
+    import rosbag  # pylint: disable=import-outside-toplevel
+    with rosbag.Bag(str(bag)) as opened:
+        return opened.get_end_time() - opened.get_start_time()
 
 
 def nanoseconds(stamp):
