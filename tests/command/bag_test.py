@@ -160,16 +160,21 @@ def the_published_plugins_bag_is_read(context):
                             "published").err, "", "warnings where the frequency is given")
 
 
+def files_with_times(folder):
+    """Every file under a folder with its size and when it was written."""
+    return {path: (path.stat().st_size, path.stat().st_mtime_ns) for path in folder.rglob("*")}
+
+
 def expect_complaint(context, arguments, *parts):
-    """Exit code 2, one line with all `parts`, and nothing left behind."""
-    before = files_in(context.folder)
+    """Exit code 2, one line with all `parts`, and nothing written."""
+    before = files_with_times(context.folder)
     result = context.run(*arguments, "--out", context.folder / "never")
     check_equal(result.code, 2, f"{arguments}: exit code")
     lines = result.err.strip().split("\n")
     check_equal(len(lines), 1, f"{arguments}: lines of {result.err!r}")
     for part in ("tagfield: ", *parts):
         check_in(part, lines[0], f"{arguments}: the complaint")
-    check_equal(files_in(context.folder), before, f"{arguments}: the folder")
+    check_equal(files_with_times(context.folder), before, f"{arguments}: the folder")
 
 
 @case

@@ -1,6 +1,8 @@
 """Rosbags from a run's folder, or from messages given one by one, written by Python's rosbag."""
 
+import functools
 import pathlib
+import re
 
 from common import Skip, read_csv
 
@@ -25,19 +27,38 @@ def require_rosbag():
         raise Skip(f"Python's rosbag is not there ({WHY})")
 
 
-def message_types(source):
-    """Classes of the project's own messages, by name: {"tagfield_msgs/TagReads": …}."""
+def message_texts(source):
+    """The text of each message by name, the project's own and those that they hold."""
     texts = {}
     for path in sorted((source / "adapters/ros1").glob("*/msg/*.msg")):
         texts[f"{path.parent.parent.name}/{path.stem}"] = path.read_text(encoding="utf-8")
     for package in ("std_msgs", "geometry_msgs"):
         for path in pathlib.Path(f"/usr/share/{package}/msg").glob("*.msg"):
             texts[f"{package}/{path.stem}"] = path.read_text(encoding="utf-8")
+    return texts
+
+
+def held_by(name, texts):
+    """Names of the messages that a message's fields hold, and theirs, each once."""
+    found = []
+    for kind in re.findall(r"^\s*([A-Z][\w/]*|\w+/\w+)(?:\[\d*\])?\s+\w+", texts[name], re.MULTILINE):
+        package = "std_msgs" if kind == "Header" else name.split("/", maxsplit=1)[0]
+        other = kind if "/" in kind else f"{package}/{kind}"
+        for one in (other, *held_by(other, texts)):
+            if one not in found:
+                found.append(one)
+    return found
+
+
+@functools.lru_cache
+def message_types(source):
+    """Classes of the project's own messages, by name: {"tagfield_msgs/TagReads": …}."""
+    texts = message_texts(source)
     classes = {}
     for name in texts:
         if name.startswith(("tagfield_msgs/", "rfid_sensor/")):
             parts = [texts[name]]
-            parts += [f"MSG: {other}\n{text}" for other, text in texts.items() if other != name]
+            parts += [f"MSG: {other}\n{texts[other]}" for other in held_by(name, texts)]
             whole = f"\n{SEPARATOR}\n".join(parts)
             classes[name] = genpy.dynamic.generate_dynamic(name, whole)[name]
     return classes
