@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "tagfield/laser/deskew.h"
 #include "tagfield/laser/simulated_laser.h"
 #include "tagfield/sdf/load_world.h"
 #include "tagfield/world/triangulate.h"
@@ -208,6 +209,22 @@ void SimulateScanAmongTenObstacles(benchmark::State& state) {
   simulate(state, {}, obstacles);
 }
 
+void Deskew(benchmark::State& state) {
+  const char* path = world_file(state.range(0));
+  if (path == nullptr) return state.SkipWithError("TAGFIELD_AWS_WORLD is not set");
+  const Scene scene = load(path);
+  LaserParameters laser;
+  laser.sweep_s = 0.02;
+  const LaserScan scan = simulate_scan(RayScene(scene), laser, 0, on_circle, nullptr, 1, 2);
+  const auto odometry_at = [](Time time) { return advance({}, {0.45, 0.3}, to_seconds(time)); };
+  std::int64_t count = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(deskewed(scan, odometry_at, laser.X_RL));
+    ++count;
+  }
+  report(state, scene, count * laser.beams);
+}
+
 BENCHMARK(Embree)->Arg(0)->Arg(1)->ArgName("aws");
 BENCHMARK(EmbreeRobust)->Arg(0)->Arg(1)->ArgName("aws");
 BENCHMARK(RaySceneOneByOne)->Arg(0)->Arg(1)->ArgName("aws");
@@ -215,6 +232,7 @@ BENCHMARK(RayScenePackets)->Arg(0)->Arg(1)->ArgName("aws");
 BENCHMARK(SimulateScan)->Arg(0)->Arg(1)->ArgName("aws");
 BENCHMARK(SimulateScanInASweep)->Arg(0)->Arg(1)->ArgName("aws");
 BENCHMARK(SimulateScanAmongTenObstacles)->Arg(0)->Arg(1)->ArgName("aws");
+BENCHMARK(Deskew)->Arg(0)->Arg(1)->ArgName("aws");
 
 }  // namespace
 }  // namespace tagfield
