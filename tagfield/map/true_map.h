@@ -16,10 +16,11 @@ namespace tagfield {
 /// on free cells, at a side or a corner, stay occupied, since no laser sees the others.
 ///
 /// The grid covers all surfaces within `reach_m` of the start, along x and y each, by a margin of
-/// 1 m, and nothing beyond the reach is free; the borders of its cells are whole multiples of the resolution. A surface on such a border
-/// is in the cell of greater x or y. A solid whose underside is at `z_m` is not cut, one whose top
-/// is there is. Throws Error on a start that is not finite or in a cell with a surface, on a
-/// resolution or reach that is not positive, and on more than 4e8 cells.
+/// 1 m, and nothing beyond the reach is free; the borders of its cells are whole multiples of the
+/// resolution. A surface on such a border is in the cell of greater x or y. A solid whose underside
+/// is at `z_m` is not cut, one whose top is there is. Throws Error on a start that is not finite or
+/// in a cell with a surface, on a resolution or reach that is not positive, and on more than 4e8
+/// cells.
 OccupancyGrid true_map(const Scene& scene, double z_m, const Eigen::Vector2d& start,
                        double resolution_m, double reach_m = 100.0);
 
