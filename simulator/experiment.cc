@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/map/true_map.h"
 
 namespace tagfield {
 namespace {
@@ -104,6 +106,126 @@ PoseErrorSummary pose_error_of(const Scenario& scenario, const std::vector<SeedR
   return summary;
 }
 
+void finish(const Simulation& simulation, SeedRun& run) {
+  run.complete = simulation.finished();
+  run.simulated_s = to_seconds(simulation.now());
+  run.path_length_m = simulation.travelled_m();
+}
+
+/// Of the whole of a run by laser, mapping has this share on the progress bar.
+constexpr double kMappingShare = 0.7;
+/// A guess, for the bar: a hall takes some minutes to map.
+constexpr double kUsualMapping_s = 240.0;
+
+/// The map to drive by, and where the robot stands on it.
+SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                     const NavigationWorld& world, NavigationRun& navigation) {
+  const RobotSpec& robot = mapping_robot(scenario);
+  if (world.given_map) {
+    navigation.map = *world.given_map;
+    return {&world, &navigation.map, robot.start, placed_at(robot.start)};
+  }
+  const auto on_progress = [&](double simulated_s) {
+    if (!control.on_progress) return;
+    control.on_progress(kMappingShare * std::min(simulated_s / kUsualMapping_s, 1.0));
+  };
+  navigation.survey = survey(scenario.navigation, world, robot, scenario.time_step_s, seed,
+                             control.threads, control.stop, on_progress);
+  navigation.map = navigation.survey->map;
+  return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
+}
+
+/// Watches how well the robots know their poses, and how near they come to things.
+class NavigationWatch {
+ public:
+  explicit NavigationWatch(const NavigationWorld& world) : world_(world) {}
+
+  void look(const Simulation& simulation, NavigationRun& navigation) {
+    if (to_seconds(simulation.now() - last_) < kInterval) return;
+    last_ = simulation.now();
+    const Obstacles obstacles = obstacles_at(world_.laser.obstacles, last_);
+    for (const Robot& robot : simulation.robots()) {
+      if (robot.self_driver() == nullptr) continue;
+      const RigidTransform truth = robot.true_pose(0.0);
+      const RigidTransform belief = robot.believed_pose(0.0);
+      const PlanarPose pose{truth.translation.x(), truth.translation.y(), yaw_of(truth.rotation)};
+      closest_ = std::min(closest_, world_.clearance.distance(pose, obstacles));
+      navigation.position_errors_m.push_back(
+          (truth.translation - belief.translation).head<2>().norm());
+      navigation.yaw_errors_rad.push_back(
+          std::abs(wrap_to_pi(yaw_of(belief.rotation) - pose.yaw)));
+    }
+    navigation.closest_m = closest_;
+  }
+
+ private:
+  static constexpr double kInterval = 0.1;  ///< [s]
+  const NavigationWorld& world_;
+  Time last_ = Time(-std::chrono::hours(1));
+  double closest_ = 1e9;
+};
+
+SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed,
+                            const RunControl& control, const NavigationWorld& world) {
+  SeedRun run;
+  run.seed = seed;
+  NavigationRun& navigation = run.navigation.emplace();
+  const SelfDriving driving = find_map(scenario, seed, control, world, navigation);
+  Simulation simulation(scenario, driving, seed);
+  NavigationWatch watch(world);
+  const Pace pace(scenario.real_time);
+  while (!simulation.finished() && !stopped(control)) {
+    simulation.step(run.recording);
+    watch.look(simulation, navigation);
+    if (control.on_progress) {
+      control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
+    }
+    pace.wait_for(simulation.now());
+  }
+  for (const Robot& robot : simulation.robots()) {
+    if (robot.self_driver() == nullptr) continue;
+    const std::vector<GoalOutcome>& goals = robot.self_driver()->outcomes();
+    navigation.goals.insert(navigation.goals.end(), goals.begin(), goals.end());
+    navigation.times_lost += robot.self_driver()->localizer().times_lost();
+  }
+  finish(simulation, run);
+  return run;
+}
+
+NavigationSummary navigation_of(const std::vector<SeedRun>& runs, const NavigationWorld& world) {
+  NavigationSummary summary;
+  std::vector<double> positions;
+  std::vector<double> yaws;
+  bool first = true;
+  for (const SeedRun& run : runs) {
+    const NavigationRun& navigation = *run.navigation;
+    const MapComparison map = compare_maps(navigation.map, world.true_map);
+    const auto least = [&](double& kept, double value) { kept = first ? value : std::min(kept, value); };
+    const auto most = [&](double& kept, double value) { kept = first ? value : std::max(kept, value); };
+    least(summary.walls_found, map.found_share);
+    most(summary.walls_false, map.false_share);
+    most(summary.walls_double, map.double_wall_share);
+    least(summary.floor_known, map.known_share);
+    least(summary.closest_m, navigation.closest_m);
+    if (first && navigation.survey) {
+      summary.mapping_path_m = navigation.survey->path_length_m;
+      summary.mapping_s = navigation.survey->simulated_s;
+    }
+    summary.goals += navigation.goals.size();
+    for (const GoalOutcome& goal : navigation.goals) {
+      if (goal.state == DriveState::kReached) ++summary.goals_reached;
+    }
+    summary.times_lost += static_cast<std::size_t>(navigation.times_lost);
+    positions.insert(positions.end(), navigation.position_errors_m.begin(),
+                     navigation.position_errors_m.end());
+    yaws.insert(yaws.end(), navigation.yaw_errors_rad.begin(), navigation.yaw_errors_rad.end());
+    first = false;
+  }
+  summary.position_error_m = statistics(positions);
+  summary.yaw_error_rad = statistics(yaws);
+  return summary;
+}
+
 }  // namespace
 
 TagHeights known_heights(const Scenario& scenario) {
@@ -131,7 +253,12 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
   return options;
 }
 
-SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
+SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                 const NavigationWorld* world) {
+  if (scenario.pose.source == PoseSource::kSlam) {
+    if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
+    return simulate_navigation(scenario, seed, control, *world);
+  }
   SeedRun run;
   run.seed = seed;
   Simulation simulation(scenario, seed);
@@ -141,9 +268,7 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
     if (control.on_progress) control.on_progress(simulation.progress());
     pace.wait_for(simulation.now());
   }
-  run.complete = simulation.finished();
-  run.simulated_s = to_seconds(simulation.now());
-  run.path_length_m = simulation.travelled_m();
+  finish(simulation, run);
   return run;
 }
 
@@ -160,7 +285,8 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
 }
 
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
-                               const RunControl& control, Diagnostics& diagnostics) {
+                               const RunControl& control, Diagnostics& diagnostics,
+                               const NavigationWorld* world) {
   std::vector<SeedRun> runs(count);
   std::vector<Diagnostics> warnings(count);
   std::vector<char> begun(count, 0);
@@ -168,12 +294,15 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   double finished = 0.0;
   // One seed alone shows how far it is; of several the finished ones are counted.
   RunControl of_one = control;
-  if (count > 1) of_one.on_progress = nullptr;
+  if (count > 1) {
+    of_one.on_progress = nullptr;
+    of_one.threads = 1;
+  }
   const int threads_inside = count > 1 ? 1 : control.threads;
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (i > 0 && stopped(control)) return;
     begun[i] = 1;
-    runs[i] = simulate(scenario, first + i, of_one);
+    runs[i] = simulate(scenario, first + i, of_one, world);
     localize(scenario, runs[i], threads_inside, warnings[i]);
     if (i > 0) runs[i].recording = {};
     const std::lock_guard lock(progress_mutex);
@@ -190,7 +319,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
 }
 
 Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
-                  const Diagnostics& diagnostics) {
+                  const Diagnostics& diagnostics, const NavigationWorld* world) {
   const SeedRun& first = runs.front();
   Summary summary;
   summary.scenario = scenario.name;
@@ -212,6 +341,7 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   if (scenario.pose.source != PoseSource::kTrue) {
     summary.pose_error = pose_error_of(scenario, runs);
   }
+  if (world != nullptr && first.navigation) summary.navigation = navigation_of(runs, *world);
   summary.warnings = diagnostics.warnings();
   return summary;
 }

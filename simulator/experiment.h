@@ -5,10 +5,14 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "simulator/navigation_world.h"
 #include "simulator/scenario.h"
+#include "simulator/self_driver.h"
 #include "simulator/simulation.h"
+#include "simulator/survey.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/report/summary.h"
 
@@ -21,6 +25,17 @@ struct RunControl {
   std::function<void(double share)> on_progress;  ///< Called now and then with 0 … 1, or empty.
 };
 
+/// How robots found their way in one run.
+struct NavigationRun {
+  std::optional<Survey> survey;  ///< None where the map was given.
+  OccupancyGrid map;             ///< Driven by.
+  std::vector<GoalOutcome> goals;
+  std::vector<double> position_errors_m;  ///< Of the belief at 10 Hz,
+  std::vector<double> yaw_errors_rad;     ///< absolute.
+  double closest_m = 0.0;                 ///< Least distance between a robot's rim and anything.
+  int times_lost = 0;
+};
+
 /// One seed's run.
 struct SeedRun {
   std::uint64_t seed = 0;
@@ -28,14 +43,18 @@ struct SeedRun {
   double simulated_s = 0.0;
   double path_length_m = 0.0;  ///< Driven by all robots.
   Recording recording;
+  std::optional<NavigationRun> navigation;  ///< Where robots find their way by themselves.
   std::vector<TagEstimate> estimates;  ///< In the scenario's order of tags.
   std::vector<TagOutcome> outcomes;    ///< Likewise.
   /// Errors of the same reads located with the true poses; empty where those are believed anyway.
   std::vector<double> errors_with_true_pose_m;
 };
 
-/// Simulates one seed, in step with real time if the scenario asks for it.
-SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control);
+/// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots that
+/// find their way by themselves, and may be null where none does: these map it first, unless a map is
+/// given.
+SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                 const NavigationWorld* world = nullptr);
 
 /// Locates the tags from the run's reads and believed poses, and fills in estimates and outcomes.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
@@ -43,7 +62,8 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
 /// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of
 /// the first only. Seeds not begun when `control.stop` was set are left out.
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
-                               const RunControl& control, Diagnostics& diagnostics);
+                               const RunControl& control, Diagnostics& diagnostics,
+                               const NavigationWorld* world = nullptr);
 
 /// What is known of the tags' heights in this scenario, for localization.
 TagHeights known_heights(const Scenario& scenario);
@@ -53,6 +73,6 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads);
 
 /// The numbers of all runs. `wall_s` is how long they took.
 Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
-                  const Diagnostics& diagnostics);
+                  const Diagnostics& diagnostics, const NavigationWorld* world = nullptr);
 
 }  // namespace tagfield

@@ -23,6 +23,8 @@ std::string to_string(PoseSource source) {
       return "noisy";
     case PoseSource::kOdometry:
       return "odometry";
+    case PoseSource::kSlam:
+      return "slam";
   }
   return "";
 }

@@ -1,6 +1,6 @@
 /// @file
-/// What a robot believes of its own pose: the truth, the truth with a stated error, or what its
-/// wheels tell.
+/// What a robot believes of its own pose: the truth, the truth with a stated error, what its wheels
+/// tell, or what it finds by laser and map.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace tagfield {
 
-enum class PoseSource { kTrue, kNoisy, kOdometry };
+enum class PoseSource { kTrue, kNoisy, kOdometry, kSlam };
 
-/// "true", "noisy", "odometry".
+/// "true", "noisy", "odometry", "slam".
 std::string to_string(PoseSource source);
 
 struct PoseBelief {

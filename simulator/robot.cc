@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulator/self_driver.h"
 #include "tagfield/base/random.h"
 
 namespace tagfield {
@@ -17,14 +18,30 @@ Robot::Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed
   if (belief_.source == PoseSource::kNoisy) error_end_ = first_pose_error(belief_, seed_, key_);
 }
 
-void Robot::step(double seconds) {
+Robot::Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed)
+    : Robot(spec, PoseBelief{}, seed) {
+  belief_.source = PoseSource::kSlam;
+  self_driver_ = std::move(driver);
+}
+
+Robot::~Robot() = default;
+Robot::Robot(Robot&&) noexcept = default;
+Robot& Robot::operator=(Robot&&) noexcept = default;
+
+bool Robot::finished() const {
+  return self_driver_ ? self_driver_->finished() : follower_.finished();
+}
+
+void Robot::step(Time now, double seconds) {
   begin_ = advance(begin_, velocity_, step_seconds_);
   odometry_ = advance(odometry_, measured_, step_seconds_);
   error_begin_ = error_end_;
   step_seconds_ = seconds;
 
   // Commands go through the wheels, which is all that a skid-steered robot has.
-  const WheelSpeeds wheels = wheel_speeds(spec_.drive, follower_.next(begin_, seconds));
+  const BodyVelocity wanted = self_driver_ ? self_driver_->step(begin_, now, seconds)
+                                           : follower_.next(begin_, seconds);
+  const WheelSpeeds wheels = wheel_speeds(spec_.drive, wanted);
   velocity_ = body_velocity(spec_.drive, wheels);
   travelled_m_ += std::abs(velocity_.forward) * seconds;
   if (belief_.source == PoseSource::kOdometry) {
@@ -49,6 +66,7 @@ PoseError Robot::error_at(double seconds) const {
 }
 
 RigidTransform Robot::believed_pose(double seconds) const {
+  if (self_driver_) return to_transform(self_driver_->believed(seconds).pose_M);
   if (belief_.source == PoseSource::kOdometry) {
     return to_transform(advance(odometry_, measured_, seconds));
   }

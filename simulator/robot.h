@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "simulator/pose_error.h"
 #include "tagfield/base/error.h"
+#include "tagfield/base/time.h"
 #include "tagfield/motion/path_follower.h"
 #include "tagfield/motion/unicycle.h"
 #include "tagfield/poses/rigid_transform.h"
@@ -24,21 +26,31 @@ struct RobotSpec {
   Location location;                       ///< Where it was written, for messages.
 };
 
+class SelfDriver;
+
 /// One robot during one time step after another. Frame R is its base on the floor, x forward.
 class Robot {
  public:
   Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
+  /// Finds its way by itself, from spec.start on.
+  Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed);
+  ~Robot();
+  Robot(Robot&&) noexcept;
+  Robot& operator=(Robot&&) noexcept;
 
-  /// Goes one time step on; true_pose and believed_pose then speak of that step.
-  void step(double seconds);
+  /// Goes one time step on, which begins at `now`; true_pose and believed_pose then speak of that
+  /// step.
+  void step(Time now, double seconds);
 
   /// X_WR at `seconds` after the current step's beginning, between 0 and its length.
   [[nodiscard]] RigidTransform true_pose(double seconds) const;
   [[nodiscard]] RigidTransform believed_pose(double seconds) const;
 
   [[nodiscard]] const std::string& name() const { return spec_.name; }
-  /// Whether it stands at its last waypoint.
-  [[nodiscard]] bool finished() const { return follower_.finished(); }
+  /// Whether it stands at its last waypoint, or has given it up.
+  [[nodiscard]] bool finished() const;
+  /// None where it follows its waypoints with its eyes shut.
+  [[nodiscard]] const SelfDriver* self_driver() const { return self_driver_.get(); }
   /// Way driven up to the current step's end [m].
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
 
@@ -50,6 +62,7 @@ class Robot {
   std::uint64_t seed_;
   std::uint64_t key_;
   PathFollower follower_;
+  std::unique_ptr<SelfDriver> self_driver_;
 
   std::uint64_t steps_ = 0;
   double step_seconds_ = 0.0;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/navigation_spec.h"
+#include "simulator/obstacle.h"
 #include "simulator/pose_error.h"
 #include "simulator/robot.h"
 #include "tagfield/base/error.h"
@@ -74,6 +76,8 @@ struct Scenario {
   double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
   std::vector<RobotSpec> robots;
   PoseBelief pose;
+  NavigationSpec navigation;  ///< For PoseSource::kSlam.
+  std::vector<ObstacleSpec> obstacles;
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;
   LocalizationSpec localization;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "simulator/internal/navigation_yaml.h"
 #include "simulator/internal/yaml_map.h"
+#include "simulator/internal/yaml_values.h"
 #include "simulator/placements.h"
 #include "simulator/recorded_motion.h"
 #include "simulator/tag_table.h"
@@ -19,49 +21,6 @@ namespace {
 
 constexpr NumberRange kPositive = NumberRange::kPositive;
 constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
-
-/// `word` as one of `choices`; throws Error with the nearest.
-std::size_t choice(const YamlValue& value, const std::vector<std::string>& choices) {
-  const std::string word = value.text();
-  const auto found = std::find(choices.begin(), choices.end(), word);
-  if (found == choices.end()) {
-    value.fail(fmt::format("is '{}', which is not known{}", word, suggestion(word, choices)));
-  }
-  return static_cast<std::size_t>(found - choices.begin());
-}
-
-/// A path as the user means it: from the file relative to the file, from --set to the current
-/// folder.
-std::string resolve_path(const YamlValue& value) {
-  const fs::path given = value.text();
-  const bool from_file = value.location().file == value.file();
-  if (given.is_absolute() || !from_file) return given.string();
-  return (fs::path(value.file()).parent_path() / given).lexically_normal().string();
-}
-
-/// Seconds that the simulation's clock can hold.
-double seconds_of(const YamlValue& value, NumberRange range) {
-  const double seconds = value.number(range);
-  try {
-    duration_from_seconds(seconds);
-  } catch (const Error& error) {
-    value.fail(error.what());
-  }
-  return seconds;
-}
-
-Eigen::Vector3d position_of(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(3, 3);
-  return {n[0], n[1], n[2]};
-}
-
-/// [x, y, z] or [x, y, z, roll, pitch, yaw], as in SDF.
-RigidTransform pose_of(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(3, 6);
-  if (n.size() == 3) return from_translation({n[0], n[1], n[2]});
-  if (n.size() != 6) value.fail("must be [x, y, z] or [x, y, z, roll, pitch, yaw]");
-  return from_xyz_rpy({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
-}
 
 WorldSpec world_of(YamlMap map) {
   WorldSpec world;
@@ -104,8 +63,8 @@ PoseBelief belief_of(YamlMap map) {
   PoseBelief belief;
   if (map.has("source")) {
     constexpr PoseSource kSources[] = {PoseSource::kTrue, PoseSource::kNoisy,
-                                       PoseSource::kOdometry};
-    belief.source = kSources[choice(map.at("source"), {"true", "noisy", "odometry"})];
+                                       PoseSource::kOdometry, PoseSource::kSlam};
+    belief.source = kSources[choice(map.at("source"), {"true", "noisy", "odometry", "slam"})];
   }
   belief.sigma_m = map.number("sigma_m", belief.sigma_m, kNotNegative);
   belief.yaw_sigma_rad = radians(map.number("yaw_sigma_deg", 0.0, kNotNegative));
@@ -174,23 +133,6 @@ AntennaSpec antenna_of(YamlMap map) {
     map.self().fail(fmt::format("('{}'): {}", parameters.name, error.what()));
   }
   return antenna;
-}
-
-/// Rows [t, x, y, z].
-Trajectory trajectory_of(const YamlValue& value) {
-  Trajectory trajectory;
-  for (const YamlValue& row : value.list()) {
-    const std::vector<double> n = row.numbers(4, 4);
-    const double seconds = seconds_of(row.list().front(), NumberRange::kAny);
-    trajectory.push_back({time_from_seconds(seconds), from_translation({n[1], n[2], n[3]})});
-  }
-  if (trajectory.empty()) value.fail("must have at least one row [t, x, y, z]");
-  try {
-    require_rising_stamps(trajectory);
-  } catch (const Error& error) {
-    value.fail(error.what());
-  }
-  return trajectory;
 }
 
 TagSpec tag_of(YamlMap map) {
@@ -273,6 +215,18 @@ Scenario scenario_of(YamlMap map) {
   scenario.real_time = map.number("real_time", scenario.real_time, kNotNegative);
   if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")));
   if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
+  if (map.has("navigation")) {
+    const YamlValue navigation = map.at("navigation");
+    const PoseSource source = read_navigation(navigation, scenario.navigation);
+    if (map.has("pose") && map.at("pose").node()["source"] && source != scenario.pose.source) {
+      navigation.fail(fmt::format("is {}, but pose.source is {}", to_string(source),
+                                  to_string(scenario.pose.source)));
+    }
+    scenario.pose.source = source;
+  }
+  for (const YamlValue& obstacle : map.list("obstacles")) {
+    scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle)));
+  }
   if (map.has("localization")) {
     scenario.localization = localization_of(YamlMap(map.at("localization")));
   }

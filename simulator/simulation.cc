@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "simulator/recorded_motion.h"
+#include "simulator/self_driver.h"
+#include "tagfield/base/random.h"
 
 namespace tagfield {
 namespace {
@@ -47,7 +49,31 @@ std::optional<Time> end_of(const Scenario& scenario) {
   return std::nullopt;
 }
 
+/// A robot that knows about where it is put.
+constexpr double kPlacedSigma_m = 0.02;
+constexpr double kPlacedSigma_rad = 0.01;
+
+Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDriving& driving,
+                         bool first, std::uint64_t seed) {
+  const std::vector<PlanarPose> goals = goals_at(robot.start, robot.waypoints);
+  PoseEstimate start = placed_at(robot.start);
+  if (first) {
+    robot.start = driving.true_start;
+    start = driving.start;
+  }
+  auto driver = std::make_unique<SelfDriver>(scenario.navigation, robot.style.speed_m_s,
+                                             *driving.world, *driving.map, start, goals, seed,
+                                             stream_key(robot.name));
+  return {robot, std::move(driver), seed};
+}
+
 }  // namespace
+
+PoseEstimate placed_at(const PlanarPose& pose) {
+  return {pose, Eigen::Vector3d(kPlacedSigma_m * kPlacedSigma_m, kPlacedSigma_m * kPlacedSigma_m,
+                                kPlacedSigma_rad * kPlacedSigma_rad)
+                    .asDiagonal()};
+}
 
 double planned_length(const RobotSpec& robot) {
   double length = 0.0;
@@ -60,6 +86,12 @@ double planned_length(const RobotSpec& robot) {
 }
 
 Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
+    : Simulation(scenario, nullptr, seed) {}
+
+Simulation::Simulation(const Scenario& scenario, const SelfDriving& driving, std::uint64_t seed)
+    : Simulation(scenario, &driving, seed) {}
+
+Simulation::Simulation(const Scenario& scenario, const SelfDriving* driving, std::uint64_t seed)
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
       end_(end_of(scenario)),
@@ -69,7 +101,11 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
     if (robot_named(robot.name) != nullptr) {
       fail(robot.location, fmt::format("a second robot is called '{}'", robot.name));
     }
-    robots_.emplace_back(robot, scenario.pose, seed_);
+    if (driving != nullptr && !robot.waypoints.empty()) {
+      robots_.push_back(self_driving_robot(scenario, robot, *driving, way_to_go_m_ == 0.0, seed_));
+    } else {
+      robots_.emplace_back(robot, scenario.pose, seed_);
+    }
     way_to_go_m_ += planned_length(robot);
   }
   for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
@@ -199,7 +235,7 @@ void Simulation::step(Recording& recording) {
 }
 
 void Simulation::step_robots() {
-  for (Robot& robot : robots_) robot.step(to_seconds(time_step_));
+  for (Robot& robot : robots_) robot.step(step_begin_, to_seconds(time_step_));
 }
 
 std::vector<Time> Simulation::stamps_in_step(const AntennaSpec& antenna) const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/navigation_world.h"
 #include "simulator/robot.h"
 #include "simulator/scenario.h"
 #include "tagfield/reader/tag_population.h"
@@ -22,6 +23,14 @@ struct Recording {
   Truth truth;
 };
 
+/// What a robot that finds its way by itself begins with.
+struct SelfDriving {
+  const NavigationWorld* world = nullptr;
+  const OccupancyGrid* map = nullptr;
+  PlanarPose true_start;  ///< Of the first robot with waypoints; others begin where they are put.
+  PoseEstimate start;     ///< What that robot believes of it.
+};
+
 /// Runs a scenario step by step. Tags and antennas can be added and removed between any two steps.
 /// The same scenario and seed give the same recording.
 class Simulation {
@@ -29,6 +38,8 @@ class Simulation {
   /// Throws Error on a scenario that can't be simulated: an ID used twice, an unknown robot, a
   /// parameter out of range.
   Simulation(const Scenario& scenario, std::uint64_t seed);
+  /// Robots with waypoints drive to them by themselves. What `driving` points to must outlive this.
+  Simulation(const Scenario& scenario, const SelfDriving& driving, std::uint64_t seed);
 
   /// Goes on by one time step and appends to `recording` what came of it. Reads are stamped with
   /// the time of their antenna's update, wherever in the step that falls.
@@ -42,6 +53,7 @@ class Simulation {
   [[nodiscard]] double progress() const;
   /// Way driven by all robots [m].
   [[nodiscard]] double travelled_m() const;
+  [[nodiscard]] const std::vector<Robot>& robots() const { return robots_; }
 
   /// Adds a tag now (its `appears` does not matter). Throws Error if the ID is present, or its
   /// robot unknown.
@@ -60,6 +72,7 @@ class Simulation {
     std::size_t antenna = 0;
   };
 
+  Simulation(const Scenario& scenario, const SelfDriving* driving, std::uint64_t seed);
   void step_robots();
   void plan_appearances(const std::vector<TagSpec>& tags);
   [[nodiscard]] std::vector<Time> stamps_in_step(const AntennaSpec& antenna) const;
@@ -95,6 +108,9 @@ class Simulation {
   std::vector<TagReply> replies_;                           ///< Kept to save allocations.
   Time moved_to_ = Time::min();
 };
+
+/// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
+PoseEstimate placed_at(const PlanarPose& pose);
 
 /// Length of the robot's path over its waypoints, corners not rounded [m].
 double planned_length(const RobotSpec& robot);

@@ -12,6 +12,7 @@
 #include "simulator/experiment.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
+#include "tagfield/map/map_file.h"
 #include "tagfield/report/page.h"
 #include "tagfield/stream/files.h"
 #include "tagfield/stream/poses_csv.h"
@@ -52,18 +53,34 @@ std::string folder_name(const std::string& name) {
   return folder;
 }
 
+std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
+  std::vector<AntennaPose> poses;
+  for (const StampedPose& pose : path) poses.push_back({pose.stamp, "robot", pose.X_WB});
+  return poses;
+}
+
+/// The map, and the ways of the robot that made it: believed and true.
+void stage_navigation(const NavigationRun& navigation, StagedFolder& folder) {
+  folder.add("map.pgm", map_to_pgm(navigation.map));
+  folder.add("map.yaml", map_to_yaml(navigation.map, "map.pgm"));
+  if (!navigation.survey) return;
+  folder.add("mapping_path.csv", poses_to_csv(named(navigation.survey->believed_path)));
+  folder.add("truth/mapping_path.csv", poses_to_csv(named(navigation.survey->true_path)));
+}
+
 void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder& folder) {
   folder.add("reads.csv", reads_to_csv(run.recording.reads));
   folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
   folder.add("estimates.csv", estimates_to_csv(run.estimates));
   const TagHeights heights = known_heights(loaded.scenario);
   if (!heights.of_tag.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights.of_tag));
+  if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_truth(run.recording.truth, folder);
   stage_top_view(loaded, folder);
 }
 
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,
-                                       Diagnostics& diagnostics) {
+                                       const NavigationWorld* world, Diagnostics& diagnostics) {
   ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   RunControl control;
   control.threads = arguments.threads;
@@ -71,7 +88,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scen
   control.on_progress = [&bar](double share) { bar.show(share); };
   catch_interrupts();
   return run_seeds(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control,
-                   diagnostics);
+                   diagnostics, world);
 }
 
 void print_result(const Summary& summary, const std::string& out, bool page) {
@@ -95,18 +112,24 @@ int run(const RunArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   StagedFolder folder(out);
+  std::optional<NavigationWorld> world;
+  if (scenario.pose.source == PoseSource::kSlam) {
+    world = navigation_world(scenario, loaded.scene, diagnostics);
+  }
+  const NavigationWorld* const ways = world ? &*world : nullptr;
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, diagnostics);
+  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, ways, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 
-  Summary summary = summarize(scenario, runs, wall_s, diagnostics);
+  Summary summary = summarize(scenario, runs, wall_s, diagnostics, ways);
   summary.complete = summary.complete && runs.size() == arguments.seeds;
   print_warnings(diagnostics);
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
-  folder.commit({"tag_heights.csv", "top_view.json", "report.html", "figures"});
+  folder.commit({"tag_heights.csv", "top_view.json", "map.pgm", "map.yaml", "mapping_path.csv",
+                 "truth/mapping_path.csv", "report.html", "figures"});
   if (!arguments.no_page) write_report(out);
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;

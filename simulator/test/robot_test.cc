@@ -15,13 +15,13 @@ RobotSpec l_shaped_drive() {
 }
 
 void drive_to_the_end(Robot& robot) {
-  for (int i = 0; i < 100'000 && !robot.finished(); ++i) robot.step(0.01);
+  for (int i = 0; i < 100'000 && !robot.finished(); ++i) robot.step({}, 0.01);
   ASSERT_TRUE(robot.finished());
 }
 
 TEST(Robot, KnowsItsTruePoseBetweenSteps) {
   Robot robot(l_shaped_drive(), {}, 1);
-  for (int i = 0; i < 50; ++i) robot.step(0.01);
+  for (int i = 0; i < 50; ++i) robot.step({}, 0.01);
   // Straight ahead at 0.3 m/s for 49 whole steps and half of the fiftieth.
   EXPECT_NEAR(robot.true_pose(0.005).translation.x(), 0.3 * 0.495, 1e-9);
   EXPECT_NEAR(robot.travelled_m(), 0.3 * 0.5, 1e-9);
@@ -59,10 +59,10 @@ TEST(Robot, NoisyBeliefIsContinuous) {
   belief.source = PoseSource::kNoisy;
   belief.sigma_m = 0.05;
   Robot robot(l_shaped_drive(), belief, 3);
-  robot.step(0.01);
+  robot.step({}, 0.01);
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d end = robot.believed_pose(0.01).translation;
-    robot.step(0.01);
+    robot.step({}, 0.01);
     EXPECT_LT((robot.believed_pose(0.0).translation - end).norm(), 1e-9);
   }
 }

@@ -44,6 +44,22 @@ Json compared_pose_json(const std::optional<ComparedPose>& compared) {
           {"located", compared->located}};
 }
 
+Json navigation_json(const std::optional<NavigationSummary>& navigation) {
+  if (!navigation) return nullptr;
+  return {{"walls_found", number(navigation->walls_found)},
+          {"walls_false", number(navigation->walls_false)},
+          {"walls_double", number(navigation->walls_double)},
+          {"floor_known", number(navigation->floor_known)},
+          {"mapping_path_m", number(navigation->mapping_path_m)},
+          {"mapping_s", number(navigation->mapping_s)},
+          {"position_error_m", statistics_json(navigation->position_error_m)},
+          {"yaw_error_rad", statistics_json(navigation->yaw_error_rad)},
+          {"goals", navigation->goals},
+          {"goals_reached", navigation->goals_reached},
+          {"closest_m", number(navigation->closest_m)},
+          {"times_lost", navigation->times_lost}};
+}
+
 /// One property of each candidate, best first.
 template <typename Property>
 Json of_each(const std::vector<Candidate>& candidates, Property property) {
@@ -94,6 +110,7 @@ void put_run(Json& json, const Summary& summary) {
   json["real_time_factor"] = number(summary.real_time_factor);
   json["pose_error"] = pose_error_json(summary.pose_error);
   json["compared_pose"] = compared_pose_json(summary.compared_pose);
+  json["navigation"] = navigation_json(summary.navigation);
 }
 
 /// A figure of the run; null, that is unknown, reads as 0.
@@ -132,6 +149,27 @@ std::optional<ComparedPose> compared_pose_at(const JsonPlace& top) {
   result.position_rms_m = number_or_zero(member(place, "position_rms_m"));
   result.error_m = statistics_at(member(place, "error_m"));
   result.located = whole_at(member(place, "located"));
+  return result;
+}
+
+/// As compared_pose_at().
+std::optional<NavigationSummary> navigation_at(const JsonPlace& top) {
+  if (!top.value->contains("navigation")) return std::nullopt;
+  const JsonPlace place = member(top, "navigation");
+  if (is_null(place)) return std::nullopt;
+  NavigationSummary result;
+  result.walls_found = number_or_zero(member(place, "walls_found"));
+  result.walls_false = number_or_zero(member(place, "walls_false"));
+  result.walls_double = number_or_zero(member(place, "walls_double"));
+  result.floor_known = number_or_zero(member(place, "floor_known"));
+  result.mapping_path_m = number_or_zero(member(place, "mapping_path_m"));
+  result.mapping_s = number_or_zero(member(place, "mapping_s"));
+  result.position_error_m = statistics_at(member(place, "position_error_m"));
+  result.yaw_error_rad = statistics_at(member(place, "yaw_error_rad"));
+  result.goals = whole_at(member(place, "goals"));
+  result.goals_reached = whole_at(member(place, "goals_reached"));
+  result.closest_m = number_or_zero(member(place, "closest_m"));
+  result.times_lost = whole_at(member(place, "times_lost"));
   return result;
 }
 
@@ -194,6 +232,7 @@ void take_run(const JsonPlace& top, Summary& summary) {
   summary.real_time_factor = number_or_zero(member(top, "real_time_factor"));
   summary.pose_error = pose_error_at(member(top, "pose_error"));
   summary.compared_pose = compared_pose_at(top);
+  summary.navigation = navigation_at(top);
 }
 
 }  // namespace

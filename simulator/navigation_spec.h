@@ -1,0 +1,29 @@
+/// @file
+/// How a robot finds its way by itself, as a plain struct.
+#pragma once
+
+#include <string>
+
+#include "navigation/goal_driver.h"
+#include "navigation/grid_mapper.h"
+#include "navigation/monte_carlo_localizer.h"
+#include "tagfield/laser/simulated_laser.h"
+#include "tagfield/motion/odometry_noise.h"
+
+namespace tagfield {
+
+struct NavigationSpec {
+  std::string map;  ///< A map's YAML file to drive by; "" to make one first.
+  /// Whether what is too low for the laser to see, but not for the robot to hit, is known to the
+  /// driver from the world's file, as from a floor plan.
+  bool keep_out = true;
+  LaserParameters laser;
+  OdometryNoise odometry;
+  MapperSettings mapper;
+  LocalizerSettings localizer;
+  GoalDriverSettings driver;
+  double mapping_speed_m_s = 0.5;
+  double mapping_limit_s = 1800.0;  ///< Simulated time after which mapping ends, whatever is left.
+};
+
+}  // namespace tagfield

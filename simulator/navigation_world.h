@@ -1,0 +1,40 @@
+/// @file
+/// A world made ready for robots that find their way by themselves.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "simulator/navigation_spec.h"
+#include "simulator/robot_clearance.h"
+#include "simulator/robot_senses.h"
+#include "simulator/scenario.h"
+#include "tagfield/map/occupancy_grid.h"
+#include "tagfield/world/scene.h"
+#include "tagfield/world/top_view.h"
+
+namespace tagfield {
+
+/// May be shared by several runs at once. The map's frame M is the world's W, since a run begins at
+/// a known pose.
+struct NavigationWorld {
+  LaserWorld laser;
+  std::vector<Silhouette> low_things;  ///< What the laser does not see, for the driver.
+  std::optional<OccupancyGrid> given_map;  ///< Where the scenario names one.
+  OccupancyGrid true_map;  ///< At the laser's height, to compare with.
+  RobotClearance clearance;
+};
+
+/// Throws Error where the scenario has no world, no robot that drives, or a robot in a wall, and on
+/// a map that can't be read.
+NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
+                                 Diagnostics& diagnostics);
+
+/// The robot that makes the map: the first with waypoints. Throws Error if there is none.
+const RobotSpec& mapping_robot(const Scenario& scenario);
+
+/// The map that a robot drives by, as opposed to that it localizes on.
+OccupancyGrid driving_map(const OccupancyGrid& map, const NavigationWorld& world);
+
+}  // namespace tagfield
