@@ -8,8 +8,8 @@
 namespace tagfield {
 namespace {
 
-/// What is lower than a robot's wheels roll over is no obstacle [m].
-constexpr double kThreshold = 0.02;
+/// What is lower is a floor, or its unevenness, which a P3-AT's wheels roll over [m].
+constexpr double kThreshold = 0.06;
 
 }  // namespace
 

@@ -11,8 +11,8 @@ namespace tagfield {
 namespace {
 
 constexpr double kResolution = 0.02;
-/// What a wheel rolls over [m].
-constexpr double kThreshold = 0.02;
+/// What a P3-AT's wheels roll over [m].
+constexpr double kThreshold = 0.06;
 constexpr double kMost = 2.0;
 constexpr double kRimSpacing = 0.04;
 
