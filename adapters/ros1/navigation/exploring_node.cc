@@ -1,0 +1,248 @@
+// In C++17, which is the newest that the headers of Debian's and Noetic's messages compile with.
+#include <actionlib_msgs/GoalStatusArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <std_msgs/Bool.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "adapters/ros1/navigation/believed_pose.h"
+#include "adapters/ros1/navigation/frame_listener.h"
+#include "adapters/ros1/navigation/navigation_messages.h"
+#include "adapters/ros1/navigation/node_parameters.h"
+#include "adapters/ros1/navigation/nodes.h"
+#include "navigation/frontiers.h"
+
+namespace tagfield {
+namespace {
+
+using actionlib_msgs::GoalStatus;
+
+constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
+constexpr double kRate = 20.0;
+/// How often the way is thought over, by the map as it is then [s].
+constexpr double kPlanningInterval = 1.0;
+/// A goal that is no frontier any more by this much is given up for another [m].
+constexpr double kSameFrontier = 1.0;
+
+Eigen::Vector2d position_of(const PlanarPose& pose) { return {pose.x, pose.y}; }
+
+/// Where the robot stands as it begins there is nothing in its way, whatever its laser can't see.
+void clear_start(OccupancyGrid& map, const PlanarPose& start, double radius_m) {
+  const Eigen::Vector2i middle = map.cell_of(position_of(start));
+  const int reach = static_cast<int>(std::ceil(radius_m / map.resolution_m));
+  for (int y = middle.y() - reach; y <= middle.y() + reach; ++y) {
+    for (int x = middle.x() - reach; x <= middle.x() + reach; ++x) {
+      const bool is_inside = (map.centre_of(x, y) - position_of(start)).norm() <= radius_m;
+      if (is_inside && map.contains(x, y) && map.at(x, y) < 0) map.cells[map.index(x, y)] = 0;
+    }
+  }
+}
+
+class ExploringNode {
+ public:
+  ExploringNode();
+
+ private:
+  enum class Phase { kWaiting, kLookingAround, kExploring, kGoingHome, kFinished };
+
+  static FrameNames frame_names(const NodeParameters& parameters);
+  static FrontierOptions frontier_options(const NodeParameters& parameters);
+  void on_map(const nav_msgs::OccupancyGrid& message);
+  void on_status(const actionlib_msgs::GoalStatusArray& message);
+  void on_tick();
+  void wait();
+  void look_around();
+  void think(const PlanarPose& pose_M);
+  void choose(const PlanarPose& pose_M);
+  void send_goal(const PlanarPose& goal_M);
+  void leave_goal();
+  void turn(double rad_s);
+  void finish();
+  void begin_anew();
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_{"~"};
+  NodeParameters parameters_{private_};
+  FrameNames names_ = frame_names(parameters_);
+  FrontierOptions options_ = frontier_options(parameters_);
+  double turn_rad_s_ = parameters_.positive("turn_speed", 0.7);
+  bool exits_ = parameters_.flag("exit", false);
+  Phase phase_ = Phase::kWaiting;
+  std::optional<OccupancyGrid> map_;
+  PlanarPose start_M_;
+  double turned_rad_ = 0.0;
+  double last_yaw_ = 0.0;
+  std::vector<Eigen::Vector2d> given_up_;
+  std::optional<PlanarPose> goal_M_;
+  ros::Time goal_sent_;
+  bool is_left_ = false;  ///< Whether the goal has come to an end.
+  ros::Time thought_;
+  TimeWatch time_;
+  ros::Publisher command_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  ros::Publisher goal_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 10);
+  ros::Publisher finished_ = node_.advertise<std_msgs::Bool>("exploration_finished", 1, true);
+  FrameListener frames_{node_, [] {}};
+  BelievedPose believed_{frames_, names_, parameters_.positive("pose_timeout", 1.0)};
+  ros::Subscriber map_subscriber_;
+  ros::Subscriber status_;
+  ros::Timer timer_;
+};
+
+ExploringNode::ExploringNode() {
+  const auto map = [this](const nav_msgs::OccupancyGrid::ConstPtr& m) { on_map(*m); };
+  using Statuses = actionlib_msgs::GoalStatusArray;
+  const auto status = [this](const Statuses::ConstPtr& m) { on_status(*m); };
+  map_subscriber_ = node_.subscribe<nav_msgs::OccupancyGrid>("map", 1, map);
+  status_ = node_.subscribe<Statuses>("move_base/status", 10, status);
+  timer_ =
+      node_.createTimer(ros::Duration(1.0 / kRate), [this](const ros::TimerEvent&) { on_tick(); });
+}
+
+FrameNames ExploringNode::frame_names(const NodeParameters& parameters) {
+  return {parameters.text("global_frame", "map"), parameters.text("odom_frame", "odom"),
+          parameters.text("robot_base_frame", "base_link")};
+}
+
+FrontierOptions ExploringNode::frontier_options(const NodeParameters& parameters) {
+  FrontierOptions options;
+  options.radius_m = parameters.positive("radius", options.radius_m);
+  options.margin_m = parameters.positive("margin", options.margin_m);
+  options.least_size_m = parameters.positive("min_frontier_size", options.least_size_m);
+  options.sight_m = parameters.positive("sight", options.sight_m);
+  return options;
+}
+
+void ExploringNode::on_map(const nav_msgs::OccupancyGrid& message) {
+  try {
+    map_ = grid_of(message);
+  } catch (const Error& error) {
+    ROS_ERROR("%s; not taken", error.what());
+  }
+}
+
+void ExploringNode::on_status(const actionlib_msgs::GoalStatusArray& message) {
+  if (!goal_M_) return;
+  for (const GoalStatus& status : message.status_list) {
+    if (status.goal_id.stamp < goal_sent_) continue;
+    is_left_ = status.status != GoalStatus::PENDING && status.status != GoalStatus::ACTIVE;
+    if (!is_left_ || status.status == GoalStatus::SUCCEEDED) continue;
+    ROS_INFO_THROTTLE(1.0, "(%.2f, %.2f) is not reached: %s", goal_M_->x, goal_M_->y,
+                      status.text.c_str());
+  }
+}
+
+void ExploringNode::begin_anew() {
+  ROS_WARN("time went back: exploring begins anew");
+  frames_.forget();
+  map_.reset();
+  given_up_.clear();
+  goal_M_.reset();
+  is_left_ = false;
+  thought_ = {};
+  phase_ = Phase::kWaiting;
+}
+
+void ExploringNode::on_tick() {
+  if (time_.went_back()) begin_anew();
+  if (phase_ == Phase::kWaiting) return wait();
+  if (phase_ == Phase::kLookingAround) return look_around();
+  if (phase_ == Phase::kFinished || !map_) return;
+  const bool is_due = (ros::Time::now() - thought_).toSec() >= kPlanningInterval;
+  const std::optional<PlanarPose> pose_M = believed_.now();
+  if (pose_M && (is_due || is_left_)) think(*pose_M);
+}
+
+void ExploringNode::wait() {
+  const std::optional<PlanarPose> pose_M = believed_.now();
+  const std::optional<PlanarPose> odometry = believed_.odometry();
+  if (!pose_M || !odometry || !map_) {
+    ROS_INFO_THROTTLE(5.0, "exploring: waits for a map and the robot's place on it");
+    return;
+  }
+  start_M_ = *pose_M;
+  last_yaw_ = odometry->yaw;
+  turned_rad_ = 0.0;
+  phase_ = Phase::kLookingAround;
+}
+
+void ExploringNode::turn(double rad_s) {
+  geometry_msgs::Twist command;
+  command.angular.z = rad_s;
+  command_.publish(command);
+}
+
+void ExploringNode::look_around() {
+  const std::optional<PlanarPose> odometry = believed_.odometry();
+  if (!odometry) return;
+  turned_rad_ += std::abs(std::remainder(odometry->yaw - last_yaw_, kFullTurn));
+  last_yaw_ = odometry->yaw;
+  const bool is_done = turned_rad_ >= kFullTurn;
+  turn(is_done ? 0.0 : turn_rad_s_);
+  if (is_done) phase_ = Phase::kExploring;
+}
+
+/// Takes up the map as it is now, and a new goal where there is none or it is of no use any more.
+void ExploringNode::think(const PlanarPose& pose_M) {
+  thought_ = ros::Time::now();
+  if (is_left_) leave_goal();
+  if (phase_ == Phase::kExploring) choose(pose_M);
+}
+
+void ExploringNode::choose(const PlanarPose& pose_M) {
+  OccupancyGrid map = *map_;
+  clear_start(map, start_M_, options_.radius_m + 2.0 * options_.margin_m);
+  const std::vector<Frontier> open = frontiers(map, pose_M, given_up_, options_);
+  if (open.empty()) {
+    ROS_INFO("exploring: nothing is left to see, goes back to its start");
+    phase_ = Phase::kGoingHome;
+    return send_goal(start_M_);
+  }
+  const auto is_same = [this](const Frontier& frontier) {
+    return (position_of(frontier.goal) - position_of(*goal_M_)).norm() < kSameFrontier;
+  };
+  const bool is_still_open = goal_M_ && std::any_of(open.begin(), open.end(), is_same);
+  if (!is_still_open) send_goal(open.front().goal);
+}
+
+void ExploringNode::send_goal(const PlanarPose& goal_M) {
+  goal_M_ = goal_M;
+  goal_sent_ = ros::Time::now();
+  is_left_ = false;
+  geometry_msgs::PoseStamped message;
+  message.header.frame_id = names_.map;
+  message.header.stamp = goal_sent_;
+  message.pose = planar_message(goal_M);
+  goal_.publish(message);
+}
+
+void ExploringNode::leave_goal() {
+  is_left_ = false;
+  // Also a place that was reached and still shows as a frontier has nothing more to show.
+  given_up_.push_back(position_of(*goal_M_));
+  goal_M_.reset();
+  if (phase_ == Phase::kGoingHome) finish();
+}
+
+void ExploringNode::finish() {
+  phase_ = Phase::kFinished;
+  ROS_INFO("exploring: finished");
+  std_msgs::Bool message;
+  message.data = 1;
+  finished_.publish(message);
+  if (!exits_) return;
+  ros::WallDuration(1.0).sleep();  // Whoever listens gets it.
+  ros::shutdown();
+}
+
+}  // namespace
+
+int run_exploring(int argc, char** argv) {
+  ros::init(argc, argv, "exploring");
+  return run_node([] { return std::make_unique<ExploringNode>(); });
+}
+
+}  // namespace tagfield
