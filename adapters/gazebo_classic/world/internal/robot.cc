@@ -37,12 +37,13 @@ XMLElement* require(XMLElement* found, const std::string& model_file, const std:
   return found;
 }
 
-void set_way(XMLElement* plugin, const RobotSpec& robot) {
+/// A robot that finds its way by itself gets no way: nodes drive it by cmd_vel.
+void set_way(XMLElement* plugin, const RobotSpec& robot, bool finds_way) {
   set(plugin, "speed", fmt::format("{}", robot.style.speed_m_s));
   set(plugin, "look_ahead", fmt::format("{}", robot.style.look_ahead_m));
   set(plugin, "max_turn", fmt::format("{}", robot.style.most_turn_rad_s));
   if (XMLElement* const old = plugin->FirstChildElement("path")) plugin->DeleteChild(old);
-  if (robot.waypoints.empty()) return;
+  if (robot.waypoints.empty() || finds_way) return;
   XMLElement* const path = add(plugin, "path");
   for (const Eigen::Vector2d& waypoint : robot.waypoints) {
     add(path, "waypoint", fmt::format("{} {}", waypoint.x(), waypoint.y()));
@@ -92,8 +93,10 @@ void add_robot(Builder& builder, const RobotSpec& robot, const std::string& mode
   carrier.model = model;
   carrier.link = require(child_with(model, "link", "name", kBaseLink), model_file,
                          fmt::format("link '{}'", kBaseLink));
-  set_way(plugin, robot);
-  set(plugin, "odom_parent_frame", "world");
+  const bool finds_way = builder.scenario.pose.source == PoseSource::kSlam;
+  set_way(plugin, robot, finds_way);
+  // Otherwise whatever localizes tells where odom is, on the map.
+  if (!finds_way) set(plugin, "odom_parent_frame", "world");
   if (builder.scenario.robots.size() > 1) {
     tell_apart(model, plugin, carrier.link, model->Attribute("name"));
   }

@@ -181,6 +181,18 @@ std::string child_text(const XMLElement* element, const char* name) {
   return child == nullptr ? "not given" : child->GetText();
 }
 
+TEST(GazeboWorld, ARobotThatFindsItsWayHasNoneAndItsOdometryNoParent) {
+  Diagnostics diagnostics;
+  const std::string path =
+      fmt::format("{}/scenarios/paper_warehouse_slam.yaml", TAGFIELD_SOURCE_DIR);
+  tinyxml2::XMLDocument document;
+  document.Parse(world_text(path, diagnostics).c_str());
+  const XMLElement* const drive =
+      plugin_of(model_called(document, "p3at"), "libTagfieldRobotPlugin.so");
+  EXPECT_EQ(drive->FirstChildElement("path"), nullptr);
+  EXPECT_EQ(drive->FirstChildElement("odom_parent_frame"), nullptr);
+}
+
 TEST(GazeboWorld, RobotsHaveTheirWayAndLiftsTheirJoints) {
   Diagnostics diagnostics;
   tinyxml2::XMLDocument document;
