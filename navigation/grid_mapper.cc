@@ -31,6 +31,19 @@ Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& in
   return covariance.inverse();
 }
 
+/// When polishing, the map alone is to say where a scan was.
+Eigen::Matrix3d loose_information() {
+  return Eigen::Vector3d(1.0 / (0.1 * 0.1), 1.0 / (0.1 * 0.1), 1.0 / (0.05 * 0.05)).asDiagonal();
+}
+
+/// The map is good by then: what is far from its surfaces is something else.
+MatchOptions polishing(MatchOptions options) {
+  options.search_cells = 2;
+  options.outlier_m = 0.03;
+  options.trust = 1.0;
+  return options;
+}
+
 /// A draw of N(match.pose, match.information⁻¹).
 PlanarPose drawn_near(const ScanMatch& match, RandomStream& stream) {
   const auto [a, b] = standard_normal_pair(stream);
@@ -46,7 +59,7 @@ PlanarPose drawn_near(const ScanMatch& match, RandomStream& stream) {
 GridMapper::GridMapper(const MapperSettings& settings, const RigidTransform& X_RL,
                        const PlanarPose& start_M, std::uint64_t seed)
     : settings_(settings), X_RL_(X_RL), seed_(seed) {
-  const Particle first{start_M, HitGrid(settings.resolution_m), 0.0, 0.0};
+  const Particle first{start_M, HitGrid(settings.resolution_m), {}, 0.0, 0.0};
   particles_.assign(static_cast<std::size_t>(std::max(settings.particles, 1)), first);
 }
 
@@ -57,12 +70,14 @@ bool GridMapper::has_moved(const PlanarPose& increment) const {
 
 bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const PlanarPose increment = updates_ == 0 ? PlanarPose{} : between(odometry_, odometry);
-  if (updates_ > 0 && !has_moved(increment)) return false;
+  const bool moved = has_moved(increment);
+  if (!moved && updates_ >= static_cast<std::uint64_t>(settings_.first_scans)) return false;
   const ScanPoints points = scan_points(scan, X_RL_, settings_.most_clear_m);
   if (points.ends_R.empty()) return false;
   const std::vector<Eigen::Vector2d> to_match = thinned(points.ends_R, settings_.point_spacing_m);
   parallel_for(particles_.size(), settings_.threads,
                [&](std::size_t i) { advance(particles_[i], i, increment, to_match, points); });
+  scans_.push_back(points);
   odometry_ = odometry;
   ++updates_;
   normalize_weights();
@@ -72,7 +87,8 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
 
 void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose& increment,
                          const std::vector<Eigen::Vector2d>& points, const ScanPoints& scan) const {
-  if (updates_ > 0) {
+  // Standing at the start, all know where they are.
+  if (has_moved(increment)) {
     const PlanarPose expected = compose(particle.pose_M, increment);
     const Eigen::Matrix3d prior = prior_information(particle.pose_M, increment, settings_.odometry);
     const ScanMatch match =
@@ -86,6 +102,35 @@ void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose
     particle.score += evidence;
   }
   particle.map.insert(scan, particle.pose_M);
+  particle.path_M.push_back(particle.pose_M);
+}
+
+void GridMapper::polish(int sweeps) {
+  if (updates_ == 0) return;
+  Particle kept = best();
+  const PlanarPose first = kept.path_M.front();
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    std::vector<PlanarPose> path = kept.path_M;
+    parallel_for(path.size(), settings_.threads, [&](std::size_t i) {
+      const auto points = thinned(scans_[i].ends_R, settings_.point_spacing_m);
+      path[i] = match_scan(kept.map, points, path[i], path[i], loose_information(),
+                           polishing(settings_.match))
+                    .pose_M;
+    });
+    // What is common to all is not seen by the map: the first scan says where it is.
+    const PlanarPose back = compose(first, between(path.front(), {}));
+    HitGrid map(settings_.resolution_m);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      path[i] = compose(back, path[i]);
+      map.insert(scans_[i], path[i]);
+    }
+    kept.map = std::move(map);
+    kept.path_M = std::move(path);
+  }
+  kept.pose_M = kept.path_M.back();
+  kept.log_weight = 0.0;
+  particles_.assign(particles_.size(), kept);
+  normalize_weights();
 }
 
 void GridMapper::normalize_weights() {

@@ -17,12 +17,13 @@ namespace tagfield {
 
 struct MapperSettings {
   double resolution_m = 0.05;
-  int particles = 15;
+  int particles = 10;
   OdometryNoise odometry;           ///< What the wheels are believed to err.
   double update_distance_m = 0.15;  ///< A scan is entered after so much driving,
   double update_turn_rad = 0.1;     ///< or turning.
+  int first_scans = 15;             ///< Entered before it moves, so that the map begins sharp.
   double most_clear_m = 15.0;       ///< How far a beam that met nothing clears the map.
-  double point_spacing_m = 0.04;    ///< Of the points that are matched.
+  double point_spacing_m = 0.06;    ///< Of the points that are matched.
   MatchOptions match;
   int threads = 1;  ///< The map does not depend on it.
 };
@@ -42,6 +43,12 @@ class GridMapper {
   /// without any return are passed over.
   bool update(const LaserScan& scan, const PlanarPose& odometry);
 
+  /// Goes over the whole drive once more: leaves the best particle alone, and fits each of its
+  /// scans anew to the map that all of them make, `sweeps` times. Early scans then profit from late
+  /// ones, which a filter's don't. The first scan stays where it is. To be done when the drive is
+  /// over; it can go on afterwards.
+  void polish(int sweeps = 4);
+
   /// Of the best particle, moved on by what the odometry has told since its last scan.
   [[nodiscard]] PlanarPose pose_at(const PlanarPose& odometry) const;
   /// Of the best particle.
@@ -55,6 +62,7 @@ class GridMapper {
   struct Particle {
     PlanarPose pose_M;
     HitGrid map;
+    std::vector<PlanarPose> path_M;  ///< At each entered scan.
     double log_weight = 0.0;
     double score = 0.0;  ///< Sum of the log weights of its whole ancestry.
   };
@@ -70,7 +78,8 @@ class GridMapper {
   RigidTransform X_RL_;
   std::uint64_t seed_;
   std::vector<Particle> particles_;
-  PlanarPose odometry_;  ///< At the last entered scan.
+  std::vector<ScanPoints> scans_;  ///< All that were entered.
+  PlanarPose odometry_;            ///< At the last entered scan.
   std::uint64_t updates_ = 0;
 };
 

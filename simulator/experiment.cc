@@ -152,8 +152,7 @@ class NavigationWatch {
       closest_ = std::min(closest_, world_.clearance.distance(pose, obstacles));
       navigation.position_errors_m.push_back(
           (truth.translation - belief.translation).head<2>().norm());
-      navigation.yaw_errors_rad.push_back(
-          std::abs(wrap_to_pi(yaw_of(belief.rotation) - pose.yaw)));
+      navigation.yaw_errors_rad.push_back(std::abs(wrap_to_pi(yaw_of(belief.rotation) - pose.yaw)));
     }
     navigation.closest_m = closest_;
   }
@@ -165,8 +164,8 @@ class NavigationWatch {
   double closest_ = 1e9;
 };
 
-SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed,
-                            const RunControl& control, const NavigationWorld& world) {
+SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                            const NavigationWorld& world) {
   SeedRun run;
   run.seed = seed;
   NavigationRun& navigation = run.navigation.emplace();
@@ -200,8 +199,12 @@ NavigationSummary navigation_of(const std::vector<SeedRun>& runs, const Navigati
   for (const SeedRun& run : runs) {
     const NavigationRun& navigation = *run.navigation;
     const MapComparison map = compare_maps(navigation.map, world.true_map);
-    const auto least = [&](double& kept, double value) { kept = first ? value : std::min(kept, value); };
-    const auto most = [&](double& kept, double value) { kept = first ? value : std::max(kept, value); };
+    const auto least = [&](double& kept, double value) {
+      kept = first ? value : std::min(kept, value);
+    };
+    const auto most = [&](double& kept, double value) {
+      kept = first ? value : std::max(kept, value);
+    };
     least(summary.walls_found, map.found_share);
     most(summary.walls_false, map.false_share);
     most(summary.walls_double, map.double_wall_share);

@@ -44,15 +44,15 @@ struct SeedRun {
   double path_length_m = 0.0;  ///< Driven by all robots.
   Recording recording;
   std::optional<NavigationRun> navigation;  ///< Where robots find their way by themselves.
-  std::vector<TagEstimate> estimates;  ///< In the scenario's order of tags.
-  std::vector<TagOutcome> outcomes;    ///< Likewise.
+  std::vector<TagEstimate> estimates;       ///< In the scenario's order of tags.
+  std::vector<TagOutcome> outcomes;         ///< Likewise.
   /// Errors of the same reads located with the true poses; empty where those are believed anyway.
   std::vector<double> errors_with_true_pose_m;
 };
 
-/// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots that
-/// find their way by themselves, and may be null where none does: these map it first, unless a map is
-/// given.
+/// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots
+/// that find their way by themselves, and may be null where none does: these map it first, unless a
+/// map is given.
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world = nullptr);
 

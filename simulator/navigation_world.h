@@ -20,9 +20,9 @@ namespace tagfield {
 /// a known pose.
 struct NavigationWorld {
   LaserWorld laser;
-  std::vector<Silhouette> low_things;  ///< What the laser does not see, for the driver.
+  std::vector<Silhouette> low_things;      ///< What the laser does not see, for the driver.
   std::optional<OccupancyGrid> given_map;  ///< Where the scenario names one.
-  OccupancyGrid true_map;  ///< At the laser's height, to compare with.
+  OccupancyGrid true_map;                  ///< At the laser's height, to compare with.
   RobotClearance clearance;
 };
 

@@ -17,8 +17,8 @@ namespace tagfield {
 /// Taller than a robot's laser; seen from above a disc, or a rectangle.
 struct ObstacleSpec {
   std::string name;
-  double radius_m = 0.0;                                 ///< 0 for a rectangle.
-  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();      ///< Of the rectangle.
+  double radius_m = 0.0;                             ///< 0 for a rectangle.
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< Of the rectangle.
   double yaw_rad = 0.0;
   /// Where its middle is, x and y; one position for one that stands. Before the first and after
   /// the last it stays where that is.

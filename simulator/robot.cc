@@ -39,8 +39,8 @@ void Robot::step(Time now, double seconds) {
   step_seconds_ = seconds;
 
   // Commands go through the wheels, which is all that a skid-steered robot has.
-  const BodyVelocity wanted = self_driver_ ? self_driver_->step(begin_, now, seconds)
-                                           : follower_.next(begin_, seconds);
+  const BodyVelocity wanted =
+      self_driver_ ? self_driver_->step(begin_, now, seconds) : follower_.next(begin_, seconds);
   const WheelSpeeds wheels = wheel_speeds(spec_.drive, wanted);
   velocity_ = body_velocity(spec_.drive, wheels);
   travelled_m_ += std::abs(velocity_.forward) * seconds;

@@ -65,13 +65,12 @@ PlanarPose RobotSenses::odometry(double seconds) const {
 SensedScan RobotSenses::scan(std::int64_t number) const {
   const auto pose_at = [this](Time stamp) { return to_transform(true_pose_at(stamp)); };
   const auto obstacles = [this](Time stamp) { return obstacles_at(world_.obstacles, stamp); };
-  const LaserScan raw =
-      simulate_scan(*world_.rays, laser_, number, pose_at,
-                    world_.obstacles.empty() ? nullptr
-                                             : std::function<Obstacles(Time)>(obstacles),
-                    seed_, key_);
+  const LaserScan raw = simulate_scan(
+      *world_.rays, laser_, number, pose_at,
+      world_.obstacles.empty() ? nullptr : std::function<Obstacles(Time)>(obstacles), seed_, key_);
   SensedScan sensed;
-  sensed.scan = deskewed(raw, [this](Time stamp) { return odometry_at(stamp); }, laser_.X_RL);
+  sensed.scan = deskewed(
+      raw, [this](Time stamp) { return odometry_at(stamp); }, laser_.X_RL);
   sensed.odometry = odometry_at(sensed.scan.stamp);
   return sensed;
 }

@@ -36,8 +36,8 @@ class RobotSenses {
   RobotSenses(const LaserWorld& world, const LaserParameters& laser, const OdometryNoise& noise,
               std::uint64_t seed, std::uint64_t key);
 
-  /// The robot moves from `begin_W` at `now` with `velocity` for `seconds`. Gives the scans that end
-  /// in this step.
+  /// The robot moves from `begin_W` at `now` with `velocity` for `seconds`. Gives the scans that
+  /// end in this step.
   std::vector<SensedScan> step(const PlanarPose& begin_W, const BodyVelocity& velocity, Time now,
                                double seconds);
 

@@ -62,8 +62,8 @@ RobotSpec robot_of(YamlMap map) {
 PoseBelief belief_of(YamlMap map) {
   PoseBelief belief;
   if (map.has("source")) {
-    constexpr PoseSource kSources[] = {PoseSource::kTrue, PoseSource::kNoisy,
-                                       PoseSource::kOdometry, PoseSource::kSlam};
+    constexpr PoseSource kSources[] = {PoseSource::kTrue, PoseSource::kNoisy, PoseSource::kOdometry,
+                                       PoseSource::kSlam};
     belief.source = kSources[choice(map.at("source"), {"true", "noisy", "odometry", "slam"})];
   }
   belief.sigma_m = map.number("sigma_m", belief.sigma_m, kNotNegative);

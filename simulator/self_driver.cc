@@ -61,8 +61,7 @@ void SelfDriver::look_after_goals(const PlanarPose& begin_W, const PlanarPose& p
 BodyVelocity SelfDriver::step(const PlanarPose& begin_W, Time now, double seconds) {
   const PlanarPose pose_M = believed(senses_.present_seconds()).pose_M;
   look_after_goals(begin_W, pose_M, now);
-  const BodyVelocity wanted =
-      finished() ? BodyVelocity{} : driver_.next(pose_M, velocity_, now);
+  const BodyVelocity wanted = finished() ? BodyVelocity{} : driver_.next(pose_M, velocity_, now);
   velocity_ = limited(wanted, velocity_, settings_.limits, seconds);
   for (const SensedScan& sensed : senses_.step(begin_W, velocity_, now, seconds)) {
     localizer_.update(sensed.scan, sensed.odometry);

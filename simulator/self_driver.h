@@ -19,9 +19,9 @@ namespace tagfield {
 struct GoalOutcome {
   PlanarPose goal_M;
   DriveState state = DriveState::kIdle;
-  std::string reason;      ///< Where it was not reached.
-  PlanarPose truth_W;      ///< Where the robot was at the end.
-  double seconds = 0.0;    ///< From when it was given.
+  std::string reason;    ///< Where it was not reached.
+  PlanarPose truth_W;    ///< Where the robot was at the end.
+  double seconds = 0.0;  ///< From when it was given.
 };
 
 class SelfDriver {
@@ -58,6 +58,7 @@ class SelfDriver {
 };
 
 /// Goals at the waypoints, each looking along the way that led there.
-std::vector<PlanarPose> goals_at(const PlanarPose& start, const std::vector<Eigen::Vector2d>& waypoints);
+std::vector<PlanarPose> goals_at(const PlanarPose& start,
+                                 const std::vector<Eigen::Vector2d>& waypoints);
 
 }  // namespace tagfield

@@ -61,9 +61,9 @@ Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDr
     robot.start = driving.true_start;
     start = driving.start;
   }
-  auto driver = std::make_unique<SelfDriver>(scenario.navigation, robot.style.speed_m_s,
-                                             *driving.world, *driving.map, start, goals, seed,
-                                             stream_key(robot.name));
+  auto driver =
+      std::make_unique<SelfDriver>(scenario.navigation, robot.style.speed_m_s, *driving.world,
+                                   *driving.map, start, goals, seed, stream_key(robot.name));
   return {robot, std::move(driver), seed};
 }
 

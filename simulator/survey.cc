@@ -22,8 +22,11 @@ constexpr double kPathInterval = 0.1;
 /// Believed spread of the pose that the mapping ends with: of the map's own making.
 constexpr double kEndSigma_m = 0.02;
 constexpr double kEndSigma_rad = 0.01;
-/// The robot first looks around: a full turn at this speed [rad/s].
+/// The robot first stands still for so long [s], so that its first look is sharp, and then looks
+/// around: a full turn at this speed [rad/s].
+constexpr double kStandStill = 0.7;
 constexpr double kLookAround = 0.7;
+constexpr int kPolishing = 3;
 
 /// Where the robot stands as it begins there is nothing in its way, whatever its laser can't see.
 void clear_start(OccupancyGrid& map, const PlanarPose& start, double radius_m) {
@@ -69,10 +72,7 @@ class Surveyor {
       last_path_ = now_;
     }
     if (turned_ >= kTwoPi) think(believed);
-    const BodyVelocity wanted = turned_ < kTwoPi ? BodyVelocity{0.0, kLookAround}
-                                : has_goal_      ? driver_.next(believed, velocity_, now_)
-                                                 : BodyVelocity{};
-    velocity_ = limited(wanted, velocity_, navigation_.driver.limits, seconds);
+    velocity_ = limited(wanted(believed), velocity_, navigation_.driver.limits, seconds);
     for (const SensedScan& sensed : senses_.step(truth_, velocity_, now_, seconds)) {
       mapper_.update(sensed.scan, sensed.odometry);
       driver_.see(sensed.scan, mapper_.pose_at(sensed.odometry));
@@ -87,6 +87,7 @@ class Surveyor {
   [[nodiscard]] double seconds() const { return to_seconds(now_); }
 
   Survey result() {
+    mapper_.polish(kPolishing);
     survey_.map = mapper_.map();
     survey_.end.pose_M = mapper_.pose_at(senses_.odometry(senses_.present_seconds()));
     survey_.end.covariance = Eigen::Vector3d(kEndSigma_m * kEndSigma_m, kEndSigma_m * kEndSigma_m,
@@ -122,6 +123,12 @@ class Surveyor {
           return (position_of(frontier.goal) - position_of(goal_)).norm() < 1.0;
         });
     if (!still_open) set_goal(open.front().goal, believed);
+  }
+
+  BodyVelocity wanted(const PlanarPose& believed) {
+    if (seconds() < kStandStill) return {};
+    if (turned_ < kTwoPi) return {0.0, kLookAround};
+    return has_goal_ ? driver_.next(believed, velocity_, now_) : BodyVelocity{};
   }
 
   [[nodiscard]] FrontierOptions options() const {

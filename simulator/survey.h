@@ -17,13 +17,13 @@ namespace tagfield {
 
 struct Survey {
   OccupancyGrid map;
-  PoseEstimate end;           ///< Where the robot believes to be in the end: near to its start.
+  PoseEstimate end;  ///< Where the robot believes to be in the end: near to its start.
   PlanarPose true_end_W;
   std::vector<StampedPose> true_path;      ///< X_WR at 10 Hz,
   std::vector<StampedPose> believed_path;  ///< and as the robot believed at the time.
   double path_length_m = 0.0;
   double simulated_s = 0.0;
-  bool complete = true;  ///< False where it was stopped, or ended by its time limit.
+  bool complete = true;               ///< False where it was stopped, or ended by its time limit.
   std::vector<std::string> given_up;  ///< Places that it could not reach, and why.
 };
 
@@ -31,6 +31,7 @@ struct Survey {
 /// robot.start on.
 Survey survey(const NavigationSpec& navigation, const NavigationWorld& world,
               const RobotSpec& robot, double time_step_s, std::uint64_t seed, int threads,
-              const std::atomic<bool>* stop, const std::function<void(double simulated_s)>& on_progress);
+              const std::atomic<bool>* stop,
+              const std::function<void(double simulated_s)>& on_progress);
 
 }  // namespace tagfield

@@ -41,8 +41,7 @@ LaserParameters laser_of(YamlMap map) {
   LaserParameters laser;
   laser.beams = count_of(map, "beams", laser.beams, 2, 100'000);
   constexpr double kDegree = radians(1.0);
-  laser.first_angle_rad =
-      radians(map.number("first_angle_deg", laser.first_angle_rad / kDegree));
+  laser.first_angle_rad = radians(map.number("first_angle_deg", laser.first_angle_rad / kDegree));
   laser.last_angle_rad = radians(map.number("last_angle_deg", laser.last_angle_rad / kDegree));
   laser.least_range_m = map.number("least_range_m", laser.least_range_m, kNotNegative);
   laser.most_range_m = map.number("most_range_m", laser.most_range_m, kPositive);

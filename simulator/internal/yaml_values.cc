@@ -53,7 +53,8 @@ Trajectory trajectory_of(const YamlValue& value, std::size_t columns) {
   for (const YamlValue& row : value.list()) {
     const std::vector<double> n = row.numbers(columns, columns);
     const double seconds = seconds_of(row.list().front(), NumberRange::kAny);
-    trajectory.push_back({time_from_seconds(seconds), from_translation({n[1], n[2], columns > 3 ? n[3] : 0.0})});
+    trajectory.push_back(
+        {time_from_seconds(seconds), from_translation({n[1], n[2], columns > 3 ? n[3] : 0.0})});
   }
   if (trajectory.empty()) value.fail("must have at least one row [t, x, y, ...]");
   try {
