@@ -83,8 +83,8 @@ struct GoalDriver::Impl {
   DriveWatch watch;
   std::optional<Time> decided;  ///< When the command was.
   BodyVelocity command;
-  std::optional<Manoeuvre> manoeuvre;
-  Decision::Hindrance hindrance = Decision::Hindrance::kNone;
+  std::optional<Decision> last;
+  Hindrance hindrance = Hindrance::kNone;
   std::optional<Time> blocked_since;
   std::optional<Eigen::Vector2d> block_M;  ///< Where something stands in the way.
   Time planned;
@@ -100,7 +100,7 @@ void GoalDriver::Impl::end(DriveState how, const std::string& why) {
   reason = why;
   way.clear();
   pursuit.reset();
-  manoeuvre.reset();
+  last.reset();
   decided.reset();
   command = {};
 }
@@ -134,7 +134,7 @@ bool GoalDriver::Impl::has_arrived(const PlanarPose& pose_M) const {
   if (distance < kAim * settings.goal_tolerance_m) return true;
   const Eigen::Vector2d heading(std::cos(pose_M.yaw), std::sin(pose_M.yaw));
   const bool is_past = to_goal.dot(heading) <= 0.0;
-  const bool is_held = hindrance != Decision::Hindrance::kNone;
+  const bool is_held = hindrance != Hindrance::kNone;
   return distance < kNearlyThere * settings.goal_tolerance_m && (is_past || is_held);
 }
 
@@ -230,7 +230,7 @@ BodyVelocity GoalDriver::Impl::stop(const BodyVelocity& velocity, const std::str
     end(DriveState::kFailed, why);
     return {};
   }
-  manoeuvre.reset();
+  last.reset();
   return limited({}, velocity, settings.limits, local.period_s);
 }
 
@@ -245,12 +245,12 @@ BodyVelocity GoalDriver::Impl::drive(const PlanarPose& pose_M, const BodyVelocit
       senses.window(pose_M, window_half(local),
                     local.size.least_m() + local.size.clearance_m + senses.map().resolution_m);
   const Decision decision =
-      decide(pose_M, velocity, aim, senses.surroundings(window, now), manoeuvre, local);
-  manoeuvre = decision.manoeuvre;
+      decide(pose_M, velocity, aim, senses.surroundings(window, now), last, local);
+  last = decision;
   hindrance = decision.hindrance;
   if (phase == Phase::kFollow || phase == Phase::kFinalTurn) {
     watch.update(remaining_m(pose_M), now);
-    if (hindrance == Decision::Hindrance::kMoving) watch.tried(now);
+    if (hindrance == Hindrance::kMoving) watch.tried(now);
     if (watch.stuck_s(now) > kStuckFor) try_something_else(pose_M, now);
   }
   return decision.command;
@@ -265,7 +265,7 @@ BodyVelocity GoalDriver::Impl::decide_now(const PlanarPose& pose_M, const BodyVe
   if (watch.waited_s(now) <= settings.patience_s) return drive(pose_M, velocity, now);
   const std::string goal = fmt::format("goal ({:.2f}, {:.2f})", goal_M.x, goal_M.y);
   std::string why = fmt::format("no nearer for {:.0f} s", settings.patience_s);
-  if (hindrance == Decision::Hindrance::kMoving) {
+  if (hindrance == Hindrance::kMoving) {
     why = "somebody keeps moving in the way";
   } else if (block_M) {
     why = fmt::format("what is not on the map stands in the way at ({:.2f}, {:.2f})", block_M->x(),
@@ -296,7 +296,7 @@ void GoalDriver::set_goal(const PlanarPose& goal_M, const PlanarPose& pose_M, Ti
   self.state = DriveState::kDriving;
   self.phase = Phase::kFollow;
   self.attempts = 0;
-  self.hindrance = Decision::Hindrance::kNone;
+  self.hindrance = Hindrance::kNone;
   self.last_yaw = pose_M.yaw;
   self.pursuit->follow(pose_M);
   self.watch.begin(self.remaining_m(pose_M), now);

@@ -109,13 +109,13 @@ void ObstacleTracker::Track::correct(const ReturnGroup& group) {
   const double sigma = group.is_cut ? kSigmaCut : kSigmaWhole;
   const double innovation_var = var_place + sigma * sigma;
   const double gain_place = var_place / innovation_var;
-  const double gain_velocity = covar / innovation_var;
-  // Of a disc that is partly hidden the size is known from before, and the near side is seen.
+  // The middle of what is left in sight of one who goes out of it goes elsewhere than they do.
+  const double gain_velocity = group.is_cut ? 0.0 : covar / innovation_var;
   const Eigen::Vector2d innovation = group.centre_M - centre_M;
   centre_M += gain_place * innovation;
   velocity_M += gain_velocity * innovation;
   var_velocity -= gain_velocity * covar;
-  covar -= gain_velocity * var_place;
+  covar -= group.is_cut ? gain_place * covar : gain_velocity * var_place;
   var_place -= gain_place * var_place;
   if (!group.is_cut) radius_m += kRadiusShare * (group.radius_m - radius_m);
   ++updates;

@@ -43,7 +43,7 @@ class ObstacleTracker {
   [[nodiscard]] std::vector<MovingObstacle> moving(Time now) const;
   void clear() { tracks_.clear(); }
 
-  static constexpr double kKeptUnseen = 3.0;  ///< [s]
+  static constexpr double kKeptUnseen = 6.0;  ///< [s]
 
  private:
   struct Track {
