@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "adapters/gazebo_classic/world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "simulator/navigation_world.h"
 #include "simulator/scenario_yaml.h"
 #include "simulator/simulation.h"
+#include "tagfield/map/map_file.h"
 #include "tagfield/stream/files.h"
 
 namespace tagfield {
@@ -21,6 +24,7 @@ struct GazeboArguments {
   std::string out;
   std::vector<std::string> settings;
   std::optional<double> real_time;
+  std::string keep_out;
 };
 
 /// The folder with Tagfield's own models: installed beside the program, or in the source tree.
@@ -29,6 +33,19 @@ fs::path models_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path installed = program.parent_path().parent_path() / "share/tagfield/models";
   return fs::is_directory(installed, error) ? installed : fs::path(TAGFIELD_MODELS);
+}
+
+/// Where a robot must not drive although its laser sees nothing there, as a map.
+void write_keep_out(const std::string& path, const Scenario& scenario, const Scene& scene,
+                    Diagnostics& diagnostics) {
+  const NavigationWorld world = navigation_world(scenario, scene, diagnostics);
+  OccupancyGrid nothing = world.true_map;
+  std::fill(nothing.cells.begin(), nothing.cells.end(), std::int8_t{-1});
+  const fs::path image = fs::path(path).filename().replace_extension(".pgm");
+  StagedFolder folder(fs::absolute(path).parent_path());
+  folder.add(image, map_to_pgm(driving_map(nothing, world)));
+  folder.add(fs::path(path).filename(), map_to_yaml(nothing, image.string()));
+  folder.commit();
 }
 
 int write_gazebo_world(const GazeboArguments& arguments) {
@@ -47,6 +64,9 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   options.robot_model = (models_folder() / "p3at/model.sdf").string();
   options.real_time = arguments.real_time;
   const std::string text = gazebo_world(scenario, loaded.scene, options, diagnostics);
+  if (!arguments.keep_out.empty()) {
+    write_keep_out(arguments.keep_out, loaded.scenario, loaded.scene, diagnostics);
+  }
   print_warnings(diagnostics);
   const fs::path out = arguments.out.empty() ? fs::path(arguments.scenario).stem().concat(".world")
                                              : fs::path(arguments.out);
@@ -73,6 +93,10 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
                    "Multiple of real time to run at, 0 for as fast as it can (default: as the "
                    "scenario or its world says)")
       ->check(CLI::Range(0.0, 1e6));
+  command->add_option(
+      "--keep-out", arguments->keep_out,
+      "Also write a map (YAML, image beside) of what robots can hit but their laser "
+      "can't see, for navigation 'slam'");
   command->footer(
       "Prints the folders that GAZEBO_MODEL_PATH must name for the world. GAZEBO_PLUGIN_PATH must\n"
       "name the folder with Tagfield's plugins; scripts/gazebo-experiment does all of that.");

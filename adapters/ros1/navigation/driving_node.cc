@@ -11,6 +11,7 @@
 
 #include "adapters/ros1/navigation/believed_pose.h"
 #include "adapters/ros1/navigation/frame_listener.h"
+#include "adapters/ros1/navigation/map_keeper.h"
 #include "adapters/ros1/navigation/navigation_messages.h"
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
@@ -54,6 +55,7 @@ class DrivingNode {
   FrameNames names_ = frame_names(parameters_);
   GoalDriverSettings settings_ = driver_settings(parameters_);
   double most_age_s_ = parameters_.positive("pose_timeout", 1.0);
+  OccupancyGrid keep_out_ = map_from_file(parameters_.text("keep_out_file", ""));
   std::optional<OccupancyGrid> map_;
   std::optional<GoalDriver> driver_;
   BodyVelocity velocity_;
@@ -122,7 +124,7 @@ void DrivingNode::on_map(const nav_msgs::OccupancyGrid& message) {
     if (frame != names_.map) {
       throw Error(fmt::format("map: is in frame '{}', expected '{}'", frame, names_.map));
     }
-    map_ = grid_of(message);
+    map_ = with_occupied(grid_of(message), keep_out_);
     if (driver_) driver_->set_map(*map_);
   } catch (const Error& error) {
     ROS_ERROR("%s; not taken", error.what());

@@ -11,6 +11,7 @@
 
 #include "adapters/ros1/navigation/believed_pose.h"
 #include "adapters/ros1/navigation/frame_listener.h"
+#include "adapters/ros1/navigation/map_keeper.h"
 #include "adapters/ros1/navigation/navigation_messages.h"
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
@@ -72,6 +73,7 @@ class ExploringNode {
   double turn_rad_s_ = parameters_.positive("turn_speed", 0.7);
   bool exits_ = parameters_.flag("exit", false);
   Phase phase_ = Phase::kWaiting;
+  OccupancyGrid keep_out_ = map_from_file(parameters_.text("keep_out_file", ""));
   std::optional<OccupancyGrid> map_;
   PlanarPose start_M_;
   double turned_rad_ = 0.0;
@@ -118,7 +120,7 @@ FrontierOptions ExploringNode::frontier_options(const NodeParameters& parameters
 
 void ExploringNode::on_map(const nav_msgs::OccupancyGrid& message) {
   try {
-    map_ = grid_of(message);
+    map_ = with_occupied(grid_of(message), keep_out_);
   } catch (const Error& error) {
     ROS_ERROR("%s; not taken", error.what());
   }

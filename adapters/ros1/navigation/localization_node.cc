@@ -14,7 +14,6 @@
 #include "adapters/ros1/navigation/nodes.h"
 #include "adapters/ros1/navigation/scan_source.h"
 #include "navigation/monte_carlo_localizer.h"
-#include "tagfield/map/map_file.h"
 
 namespace tagfield {
 namespace {
@@ -106,9 +105,7 @@ PoseEstimate LocalizationNode::first_estimate() const {
 }
 
 void LocalizationNode::read_map_file(const std::string& path) {
-  Diagnostics diagnostics;
-  map_ = read_map(path, diagnostics);
-  for (const std::string& warning : diagnostics.warnings()) ROS_WARN("%s", warning.c_str());
+  map_ = map_from_file(path);
   map_teller_ = std::make_unique<MapTeller>(node_, "static_map", names_.map);
   map_teller_->tell(*map_);
 }

@@ -1,6 +1,7 @@
 // In C++17, which is the newest that the headers of Debian's and Noetic's messages compile with.
 #include "adapters/ros1/navigation/map_keeper.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "adapters/ros1/navigation/navigation_messages.h"
@@ -8,6 +9,20 @@
 #include "tagfield/stream/files.h"
 
 namespace tagfield {
+namespace {
+
+/// The cells within `half_m` of `centre` along x and y.
+void occupy(OccupancyGrid& map, const Eigen::Vector2d& centre, double half_m) {
+  const Eigen::Vector2i low = map.cell_of(centre.array() - half_m);
+  const Eigen::Vector2i high = map.cell_of(centre.array() + half_m);
+  for (int y = std::max(0, low.y()); y <= std::min(map.height - 1, high.y()); ++y) {
+    for (int x = std::max(0, low.x()); x <= std::min(map.width - 1, high.x()); ++x) {
+      map.cells[map.index(x, y)] = 100;
+    }
+  }
+}
+
+}  // namespace
 
 MapTeller::MapTeller(ros::NodeHandle& node, const std::string& service, std::string frame)
     : frame_(std::move(frame)),
@@ -25,6 +40,27 @@ bool MapTeller::answer(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& r
   if (!has_map()) return false;
   response.map = latest_;
   return true;
+}
+
+OccupancyGrid map_from_file(const std::string& yaml_path) {
+  if (yaml_path.empty()) return {};
+  Diagnostics diagnostics;
+  OccupancyGrid map = read_map(yaml_path, diagnostics);
+  for (const std::string& warning : diagnostics.warnings()) ROS_WARN("%s", warning.c_str());
+  return map;
+}
+
+OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out) {
+  // A little less than half a cell, so that neighbours it merely touches stay as they are.
+  const double half_m = 0.499 * keep_out.resolution_m;
+  for (int y = 0; y < keep_out.height; ++y) {
+    for (int x = 0; x < keep_out.width; ++x) {
+      if (is_occupied(keep_out.at(x, y))) {
+        occupy(map, keep_out.centre_of(x, y), half_m);
+      }
+    }
+  }
+  return map;
 }
 
 void write_map(const OccupancyGrid& grid, const std::string& yaml_path) {

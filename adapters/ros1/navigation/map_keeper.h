@@ -30,6 +30,12 @@ class MapTeller {
   ros::ServiceServer service_;
 };
 
+/// Reads a map file and tells its warnings; an empty map where `yaml_path` is "". Throws Error.
+OccupancyGrid map_from_file(const std::string& yaml_path);
+
+/// `map` with all cells occupied that an occupied one of `keep_out` overlaps.
+OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out);
+
 /// Writes PATH (….yaml) and the image beside it, each in one step. Throws Error if that can't be
 /// done.
 void write_map(const OccupancyGrid& grid, const std::string& yaml_path);
