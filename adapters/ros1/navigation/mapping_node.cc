@@ -16,7 +16,7 @@ namespace {
 class MappingNode {
  public:
   MappingNode();
-  ~MappingNode() { save(); }
+  ~MappingNode();
   MappingNode(const MappingNode&) = delete;
   MappingNode& operator=(const MappingNode&) = delete;
 
@@ -48,6 +48,12 @@ class MappingNode {
   ScanSource scans_{node_, frames_, names_, true,
                     [this](const LocatedScan& located) { on_scan(located); }};
 };
+
+MappingNode::~MappingNode() {
+  if (map_file_.empty() || !mapper_) return;
+  mapper_->polish();
+  save();
+}
 
 MappingNode::MappingNode() { ROS_INFO("mapping: waits for scans and tf"); }
 
