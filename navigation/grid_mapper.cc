@@ -54,6 +54,12 @@ PlanarPose drawn_near(const ScanMatch& match, RandomStream& stream) {
   return {match.pose_M.x + d.x(), match.pose_M.y + d.y(), match.pose_M.yaw + d.z()};
 }
 
+/// Within what wheels jitter at rest.
+bool stands(const PlanarPose& increment) {
+  constexpr double kStill = 1e-3;  // [m, rad]
+  return std::hypot(increment.x, increment.y) < kStill && std::abs(increment.yaw) < kStill;
+}
+
 }  // namespace
 
 GridMapper::GridMapper(const MapperSettings& settings, const RigidTransform& X_RL,
@@ -71,7 +77,9 @@ bool GridMapper::has_moved(const PlanarPose& increment) const {
 bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const PlanarPose increment = updates_ == 0 ? PlanarPose{} : between(odometry_, odometry);
   const bool moved = has_moved(increment);
-  if (!moved && updates_ >= static_cast<std::uint64_t>(settings_.first_scans)) return false;
+  const bool enough = updates_ >= static_cast<std::uint64_t>(settings_.first_scans);
+  // What it moves between first scans would be lost: they are entered where it stood.
+  if (!moved && (enough || !stands(increment))) return false;
   const ScanPoints points = scan_points(scan, X_RL_, settings_.most_clear_m);
   if (points.ends_R.empty()) return false;
   const std::vector<Eigen::Vector2d> to_match = thinned(points.ends_R, settings_.point_spacing_m);
