@@ -3,6 +3,7 @@
 #include "navigation/keep_out.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/map/true_map.h"
+#include "tagfield/map/visible_map.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -10,6 +11,19 @@ namespace {
 
 /// What is lower is a floor, or its unevenness, which a P3-AT's wheels roll over [m].
 constexpr double kThreshold = 0.06;
+
+double laser_height(const NavigationSpec& navigation) {
+  return navigation.laser.X_RL.translation.z();
+}
+
+/// What a laser on the robot can see of the world. False walls are counted against all that is
+/// there, so cells seen by nobody stay as they are.
+OccupancyGrid visible_truth(const Scene& scene, const NavigationSpec& navigation,
+                            const Eigen::Vector2d& start) {
+  const OccupancyGrid truth =
+      true_map(scene, laser_height(navigation), start, navigation.mapper.resolution_m);
+  return visible_map(truth, start, navigation.driver.radius_m);
+}
 
 }  // namespace
 
@@ -26,14 +40,13 @@ NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
     throw Error("navigation 'slam' needs a world: the scenario has no 'world'");
   }
   const NavigationSpec& navigation = scenario.navigation;
-  const double laser_height = navigation.laser.X_RL.translation.z();
   const Eigen::Vector2d start = position_of(mapping_robot(scenario).start);
   NavigationWorld world{{std::make_shared<const RayScene>(scene), scenario.obstacles},
                         {},
                         std::nullopt,
-                        true_map(scene, laser_height, start, navigation.mapper.resolution_m),
+                        visible_truth(scene, navigation, start),
                         RobotClearance(scene, RobotOutline{})};
-  if (navigation.keep_out) world.low_things = top_view(scene, kThreshold, laser_height);
+  if (navigation.keep_out) world.low_things = top_view(scene, kThreshold, laser_height(navigation));
   if (!navigation.map.empty()) world.given_map = read_map(navigation.map, diagnostics);
   return world;
 }

@@ -80,7 +80,9 @@ def order_fault(path, header):
     if not path.startswith("tagfield/"):
         if header.startswith("tagfield/") or path.split("/")[0] == header.split("/")[0]:
             return None
-        if header.startswith("simulator/") and not path.startswith("simulator/"):
+        if header.startswith("simulator/") and not path.startswith(("simulator/", "navigation/")):
+            return None
+        if header.startswith("navigation/") and path.startswith(("simulator/", "adapters/", "apps/")):
             return None
         if header.startswith("adapters/") and path.startswith("apps/"):
             return None
