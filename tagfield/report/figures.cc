@@ -17,6 +17,12 @@ bool moves_vertically(const AntennaTrack* track) {
   return heights.sizes().x() > kVerticalMotion;
 }
 
+void add_navigation(const RunFiles& run, std::vector<Figure>& figures) {
+  if (!run.summary.navigation) return;
+  figures.push_back(robot_map_figure(run));
+  if (run.summary.pose != "true") figures.push_back(pose_error_figure(run));
+}
+
 }  // namespace
 
 std::vector<Figure> all_figures(const RunFiles& run) {
@@ -28,6 +34,7 @@ std::vector<Figure> all_figures(const RunFiles& run) {
   if (several || (errors && errors->count >= kFewErrors)) {
     figures.push_back(distribution_figure(run));
   }
+  add_navigation(run, figures);
   if (moves_vertically(busiest_track(run, true))) figures.push_back(height_figure(run));
   figures.push_back(phase_figure(run));
   figures.push_back(path_rssi_figure(run));

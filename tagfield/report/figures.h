@@ -13,7 +13,7 @@ namespace tagfield {
 /// A drawing with its words, or the word why there is none.
 struct Figure {
   std::string name;     ///< Of the file, without ".svg"; also its anchor on the page.
-  std::string number;   ///< Of the paper's figure: "Fig. 9".
+  std::string number;   ///< Of the paper's figure: "Fig. 9"; "" where it is none of the paper's.
   std::string title;    ///< A few words.
   std::string caption;  ///< What is seen, plain text.
   Svg svg;
@@ -25,6 +25,12 @@ inline constexpr std::size_t kMostMarks = 1500;  ///< Points in one figure.
 
 /// Fig. 9: path, true tags and estimates over the world from above.
 Figure map_figure(const RunFiles& run);
+
+/// Fig. 6: the map that the robot drove by, with its way while it made it.
+Figure robot_map_figure(const RunFiles& run);
+
+/// How far off the moving antennas were believed, over time: horizontally and in heading.
+Figure pose_error_figure(const RunFiles& run);
 
 /// Fig. 10: the error of each tag: bars for one seed, boxes for several, a histogram for many tags.
 Figure error_figure(const RunFiles& run);

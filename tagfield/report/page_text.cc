@@ -72,6 +72,7 @@ std::string spoken_pose(const std::string& pose) {
   if (pose == "true") return "the true antenna poses";
   if (pose == "noisy") return "true poses with an error added";
   if (pose == "odometry") return "wheel odometry";
+  if (pose == "slam") return "the robot’s own, by laser and map";
   if (pose == "tf") return "the robot’s own (tf)";
   if (pose == "given") return "as given with the reads";
   return pose;
@@ -161,7 +162,7 @@ std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
   html += fact("Method", spoken_method(summary.method));
   html += fact("Antenna poses", spoken_pose(summary.pose));
-  if (summary.pose_error) {
+  if (summary.pose_error && summary.pose != "slam") {  // There nothing was stated.
     html += fact("Stated pose error",
                  fmt::format("σ {} per axis, σ {:.2f}° in heading, time constant {:.3g} s",
                              spoken_length(summary.pose_error->sigma_m),
@@ -178,15 +179,17 @@ std::string run_facts(const Summary& summary) {
 }
 
 std::string figure_html(const Figure& figure) {
+  const std::string number = escaped(figure.number);
   if (!figure.missing.empty()) {
-    return fmt::format("<p class=\"muted\"><strong>{} ({})</strong> is not drawn: {}</p>\n",
-                       escaped(figure.title), escaped(figure.number), escaped(figure.missing));
+    return fmt::format("<p class=\"muted\"><strong>{}{}</strong> is not drawn: {}</p>\n",
+                       escaped(figure.title), number.empty() ? "" : fmt::format(" ({})", number),
+                       escaped(figure.missing));
   }
   return fmt::format(
-      "<figure id=\"{}\">\n{}<figcaption><strong>{}.</strong> {} <span class=\"muted\">({} of the"
-      " paper)</span></figcaption>\n</figure>\n",
+      "<figure id=\"{}\">\n{}<figcaption><strong>{}.</strong> {}{}</figcaption>\n</figure>\n",
       escaped(figure.name), inline_svg(figure.svg, figure.title), escaped(figure.title),
-      escaped(figure.caption), escaped(figure.number));
+      escaped(figure.caption),
+      number.empty() ? "" : fmt::format(" <span class=\"muted\">({} of the paper)</span>", number));
 }
 
 std::string page_footer() {

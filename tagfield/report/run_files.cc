@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "tagfield/base/error.h"
+#include "tagfield/map/map_file.h"
 #include "tagfield/report/text.h"
 #include "tagfield/stream/files.h"
 #include "tagfield/stream/poses_csv.h"
@@ -89,6 +90,21 @@ std::vector<Silhouette> read_top_view(const std::string& path) {
   }
 }
 
+/// The way of the one robot in such a file; empty without the file.
+Trajectory read_way(const std::string& file) {
+  if (!fs::exists(file)) return {};
+  Trajectories ways = by_antenna(read_poses_csv(file));
+  return ways.empty() ? Trajectory{} : std::move(ways.begin()->second);
+}
+
+void take_map(const std::string& folder, RunFiles& run) {
+  const std::string map_file = folder + "/map.yaml";
+  Diagnostics ignored;
+  if (fs::exists(map_file)) run.map = read_map(map_file, ignored);
+  run.mapping_way = {read_way(folder + "/mapping_path.csv"),
+                     read_way(folder + "/truth/mapping_path.csv")};
+}
+
 }  // namespace
 
 RunFiles read_run_files(const std::string& folder) {
@@ -106,6 +122,7 @@ RunFiles read_run_files(const std::string& folder) {
   if (fs::exists(folder + "/top_view.json")) {
     run.top_view = read_top_view(folder + "/top_view.json");
   }
+  if (run.summary.navigation) take_map(folder, run);
   run.tracks = tracks_of(run.reads, believed, std::move(truth));
   return run;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/map/occupancy_grid.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 #include "tagfield/report/summary.h"
@@ -27,6 +28,12 @@ struct AntennaTrack {
   [[nodiscard]] const Trajectory& best() const { return truth.empty() ? believed : truth; }
 };
 
+/// The way of a robot that made a map.
+struct MappingWay {
+  Trajectory believed;  ///< Empty where the map was given.
+  Trajectory truth;     ///< Empty where unknown.
+};
+
 /// All that a page is made of. Not to be copied: tracks point into `reads`.
 struct RunFiles {
   Summary summary;
@@ -35,6 +42,8 @@ struct RunFiles {
       true_places;                   ///< By tag, in rising order of time.
   std::vector<Silhouette> top_view;  ///< Empty where unknown.
   std::vector<AntennaTrack> tracks;  ///< By name.
+  std::optional<OccupancyGrid> map;  ///< That robots found their way by.
+  MappingWay mapping_way;
 
   RunFiles() = default;
   RunFiles(const RunFiles&) = delete;
@@ -45,7 +54,9 @@ struct RunFiles {
 
 /// Reads summary.json, reads.csv and antenna_poses.csv, and truth/ and top_view.json where they
 /// are. Where a run with the true poses was compared with the believed ones, those come from
-/// compared_poses.csv. Throws Error if one is malformed, or one of the first three is missing.
+/// compared_poses.csv. The map and the way of mapping come from map.yaml and mapping_path.csv where
+/// the summary has `navigation`. Throws Error if one is malformed, or one of the first three is
+/// missing.
 RunFiles read_run_files(const std::string& folder);
 
 /// The moving (or resting) antenna with the most reads, or nullptr.

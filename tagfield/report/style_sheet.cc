@@ -7,16 +7,19 @@ namespace {
 
 /// The palette whose colours are the page's own properties.
 Palette page_palette() {
-  return {"var(--paper)", "var(--panel)",     "var(--ink)",   "var(--muted)",    "var(--grid)",
-          "var(--wall)",  "var(--wall-edge)", "var(--truth)", "var(--estimate)", "var(--believed)"};
+  return {"var(--paper)",      "var(--panel)",    "var(--ink)",       "var(--muted)",
+          "var(--grid)",       "var(--wall)",     "var(--wall-edge)", "var(--truth)",
+          "var(--estimate)",   "var(--believed)", "var(--map-free)",  "var(--map-occupied)",
+          "var(--map-unknown)"};
 }
 
 std::string properties(const Palette& palette) {
   return fmt::format(
       "--paper:{};--panel:{};--ink:{};--muted:{};--grid:{};--wall:{};--wall-edge:{};"
-      "--truth:{};--estimate:{};--believed:{}",
+      "--truth:{};--estimate:{};--believed:{};--map-free:{};--map-occupied:{};--map-unknown:{}",
       palette.paper, palette.panel, palette.ink, palette.muted, palette.grid, palette.wall,
-      palette.wall_edge, palette.truth, palette.estimate, palette.believed);
+      palette.wall_edge, palette.truth, palette.estimate, palette.believed, palette.map_free,
+      palette.map_occupied, palette.map_unknown);
 }
 
 constexpr const char* kLayout = R"(*{box-sizing:border-box}
@@ -65,6 +68,8 @@ tbody th{font-weight:600}
 th[colspan]{text-align:center}
 th.words,td.words{text-align:left}
 td.words:last-child{white-space:normal;min-width:15rem}
+.told td.words:last-child{min-width:9rem;width:99%}
+.told tbody th{white-space:normal;max-width:none}
 footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
 @media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}}
@@ -74,13 +79,13 @@ footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
 }  // namespace
 
 Palette light_palette() {
-  return {"#ffffff", "#f4f6f8", "#1b1f24", "#57616b", "#e3e7eb",
-          "#dde2e8", "#b4bdc7", "#c4129c", "#1659d6", "#bf6400"};
+  return {"#ffffff", "#f4f6f8", "#1b1f24", "#57616b", "#e3e7eb", "#dde2e8", "#b4bdc7",
+          "#c4129c", "#1659d6", "#bf6400", "#ffffff", "#1b1f24", "#c4c9cf"};
 }
 
 Palette dark_palette() {
-  return {"#13161a", "#1c2127", "#e9ecef", "#a4aeb9", "#2b323a",
-          "#2d353e", "#4d5865", "#ff66d8", "#74aaff", "#f2a54a"};
+  return {"#13161a", "#1c2127", "#e9ecef", "#a4aeb9", "#2b323a", "#2d353e", "#4d5865",
+          "#ff66d8", "#74aaff", "#f2a54a", "#dfe3e7", "#0b0d0f", "#8f979f"};
 }
 
 std::string figure_style(const Palette& c) {
@@ -111,13 +116,21 @@ std::string figure_style(const Palette& c) {
       "stroke-width:1}}\nsvg .whisker{{stroke:{};stroke-width:1.2}}\n"
       "svg .spot{{fill:{};fill-opacity:0.5}}\nsvg .curve{{fill:none;stroke:{};stroke-width:2.2}}\n",
       c.estimate, c.estimate, c.estimate, c.estimate, c.estimate, c.estimate);
+  rules += fmt::format(
+      "svg .map-free{{fill:{};fill-rule:evenodd}}\n"
+      "svg .map-occupied{{fill:{};fill-rule:evenodd}}\nsvg .map-unknown{{fill:{}}}\n"
+      "svg .mapping{{fill:none;stroke:{};stroke-width:2.6;stroke-linejoin:round}}\n"
+      "svg .mapping-true{{fill:none;stroke:{};stroke-width:1;stroke-linejoin:round}}\n"
+      "svg .trace{{fill:none;stroke:{};stroke-width:1.3;stroke-linejoin:round}}\n"
+      "svg .peak{{fill:{}}}\n",
+      c.map_free, c.map_occupied, c.map_unknown, c.believed, c.truth, c.believed, c.believed);
   return rules;
 }
 
 std::string page_style() {
   return ":root{color-scheme:light dark;" + properties(light_palette()) + "}\n" +
          "@media (prefers-color-scheme:dark){:root{" + properties(dark_palette()) + "}}\n" +
-         kLayout + figure_style(page_palette());
+         kLayout + ".on-map{" + properties(light_palette()) + "}\n" + figure_style(page_palette());
 }
 
 }  // namespace tagfield

@@ -19,6 +19,9 @@ struct Palette {
   std::string truth;     ///< Magenta, as in the paper.
   std::string estimate;  ///< Blue, as in the paper.
   std::string believed;
+  std::string map_free;  ///< A map of cells is light on the dark page too, but not glaring.
+  std::string map_occupied;
+  std::string map_unknown;
 };
 
 Palette light_palette();

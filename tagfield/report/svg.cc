@@ -129,7 +129,13 @@ void begin_clip(Svg& svg, const std::string& id, const Place& corner, const Plac
       id, compact(corner.x()), compact(corner.y()), compact(size.x()), compact(size.y()));
 }
 
-void end_clip(Svg& svg) { svg.body += "</g>\n"; }
+void end_clip(Svg& svg) { end_group(svg); }
+
+void begin_group(Svg& svg, const std::string& attributes) {
+  svg.body += fmt::format("<g {}>\n", attributes);
+}
+
+void end_group(Svg& svg) { svg.body += "</g>\n"; }
 
 std::string inline_svg(const Svg& svg, const std::string& label) {
   return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",

@@ -63,6 +63,10 @@ void add_cross(Svg& svg, const Place& center, double radius, const Look& look,
 void begin_clip(Svg& svg, const std::string& id, const Place& corner, const Place& size);
 void end_clip(Svg& svg);
 
+/// All that is added between the two is in one element that has `attributes`.
+void begin_group(Svg& svg, const std::string& attributes);
+void end_group(Svg& svg);
+
 /// As a part of an HTML page, whose style sheet it wears; `label` says what it shows to those who
 /// can't see it.
 std::string inline_svg(const Svg& svg, const std::string& label);

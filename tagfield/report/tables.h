@@ -1,5 +1,5 @@
 /// @file
-/// The table of the report, as HTML.
+/// The tables of the report, as HTML.
 #pragma once
 
 #include <string>
@@ -13,5 +13,8 @@ inline constexpr std::size_t kMostTableRows = 500;
 /// A row a tag: one seed with its estimate, several with the statistics of their errors. Only the
 /// first `kMostTableRows` tags, with a word on the others.
 std::string tag_table(const Summary& summary);
+
+/// How robots found their way, with its heading; "" where they did not have to.
+std::string navigation_table(const Summary& summary);
 
 }  // namespace tagfield

@@ -45,7 +45,12 @@ const visible = [...document.querySelectorAll('figure')].map(figure => {
              place.top < box.top - 1 || place.bottom > box.bottom + 1;
     }).map(text => text.textContent),
     colors: [...new Set(texts.filter(text => !text.classList.contains('rim'))
+      .filter(text => !text.closest('.on-map'))
       .map(text => getComputedStyle(text).fill))],
+    mapColors: [...svg.querySelectorAll('.on-map text:not(.rim)')]
+      .map(text => getComputedStyle(text).fill),
+    mapBackground: [...svg.querySelectorAll('.map-unknown')]
+      .map(cells => getComputedStyle(cells).fill)[0] ?? '',
     caption: figure.querySelector('figcaption')?.textContent ?? '',
   };
 });
@@ -142,6 +147,9 @@ def figure_faults(figure, background):
     for color in figure["colors"]:
         if contrast(color, background) < LEAST_CONTRAST:
             yield f"{name} has text of {color} on {background}, too faint"
+    for color in figure["mapColors"]:
+        if contrast(color, figure["mapBackground"]) < LEAST_CONTRAST:
+            yield f"{name} has text of {color} on {figure['mapBackground']}, too faint"
     if len(figure["caption"]) < 20:
         yield f"{name} has no caption"
 
