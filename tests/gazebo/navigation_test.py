@@ -10,11 +10,11 @@ SCENARIO = """\
 name: short_slam
 world: {path: %s/worlds/small_warehouse.sdf}
 robots:
-  - {name: p3at, start: [-1.4, -1.5, -1.5708], speed_m_s: 0.4, waypoints: [[-1.4, -5.2], [1.4, -5.2]]}
+  - {name: p3at, start: [-1.4, -1.5, -1.5708], speed_m_s: 0.4, waypoints: [[-1.4, -5.2], [-2.4, -1]]}
 antennas:
   - {name: mobile, on: p3at, pose: [0, 0, 1.5], range_m: 7, communication_gain: 3}
 tags:
-  - {id: tag2, position: [4.58, -3.6, 1.75]}
+  - {id: tag6, position: [-4.58, -6.6, 1.75]}
   - {id: tag7, position: [-4.58, -3.8, 1.25]}
 navigation: {mode: slam}
 localization: {method: hyperbola, tag_heights: known}
