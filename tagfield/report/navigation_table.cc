@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "tagfield/base/units.h"
 #include "tagfield/report/tables.h"

@@ -85,7 +85,7 @@ Axes panel_axes(const Panel& panel, double top) {
 /// Of many values in a row the greatest is drawn, so that no peak is lost.
 std::vector<Place> places_of(const Axes& axes, const Course& course) {
   std::vector<Place> places;
-  const std::size_t step = thinning(course.values.size(), kMostMarks / 2);
+  const std::size_t step = thinning(course.values.size(), kMostMarks);
   for (std::size_t i = 0; i < course.values.size(); i += step) {
     const auto begin = course.values.begin() + static_cast<std::ptrdiff_t>(i);
     const auto count = std::min(step, course.values.size() - i);
@@ -145,7 +145,7 @@ std::string caption_of(const RunFiles& run, const Panel& panel) {
   }
   std::size_t step = 1;
   for (const Course& course : panel.courses) {
-    step = std::max(step, thinning(course.values.size(), kMostMarks / 2));
+    step = std::max(step, thinning(course.values.size(), kMostMarks));
   }
   if (step > 1) text += fmt::format(" Of every {} poses the worst is drawn.", step);
   return text;

@@ -51,8 +51,8 @@ void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& grid) {
 
 void draw_way(Svg& svg, MapView& map, const MappingWay& way) {
   begin_group(svg, "class=\"on-map\"");
-  if (!way.believed.empty()) draw_path(svg, map, way.believed, "mapping");
   if (!way.truth.empty()) draw_path(svg, map, way.truth, "mapping-true");
+  if (!way.believed.empty()) draw_path(svg, map, way.believed, "mapping");
   if (!way.believed.empty()) draw_direction(svg, map, way.believed);
   end_group(svg);
 }

@@ -69,10 +69,10 @@ th[colspan]{text-align:center}
 th.words,td.words{text-align:left}
 td.words:last-child{white-space:normal;min-width:15rem}
 .told td.words:last-child{min-width:9rem;width:99%}
-.told tbody th{white-space:normal;max-width:none}
 footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
-@media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}}
+@media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}
+.told tbody th{white-space:normal}}
 @media print{.figures{columns:1}}
 )";
 
@@ -119,8 +119,8 @@ std::string figure_style(const Palette& c) {
   rules += fmt::format(
       "svg .map-free{{fill:{};fill-rule:evenodd}}\n"
       "svg .map-occupied{{fill:{};fill-rule:evenodd}}\nsvg .map-unknown{{fill:{}}}\n"
-      "svg .mapping{{fill:none;stroke:{};stroke-width:2.6;stroke-linejoin:round}}\n"
-      "svg .mapping-true{{fill:none;stroke:{};stroke-width:1;stroke-linejoin:round}}\n"
+      "svg .mapping{{fill:none;stroke:{};stroke-width:2.4;stroke-dasharray:8 4}}\n"
+      "svg .mapping-true{{fill:none;stroke:{};stroke-width:1.2;stroke-linejoin:round}}\n"
       "svg .trace{{fill:none;stroke:{};stroke-width:1.3;stroke-linejoin:round}}\n"
       "svg .peak{{fill:{}}}\n",
       c.map_free, c.map_occupied, c.map_unknown, c.believed, c.truth, c.believed, c.believed);

@@ -29,9 +29,11 @@ make two_antennas run "$scenarios/two_antennas.yaml"
 make moving_tags run "$scenarios/moving_tags.yaml"
 make spawn run "$scenarios/spawn.yaml"
 make own_world run "$source_dir/examples/02_own_world/workshop.yaml"
+make slam run "$scenarios/paper_warehouse_slam.yaml"
 make own_csv localize "$own_csv/reads.csv" --poses "$own_csv/poses.csv" --tag-height 0.8
 
 code=0
 /usr/bin/python3 -B "$source_dir/tests/page/page_test.py" \
-  "$runs"/{paper_warehouse,noisy,z_axis,two_antennas,moving_tags,spawn,own_world,own_csv} || code=$?
+  "$runs"/{paper_warehouse,noisy,z_axis,two_antennas,moving_tags,spawn,own_world,own_csv,slam} ||
+  code=$?
 exit "$code"
