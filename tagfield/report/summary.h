@@ -67,17 +67,17 @@ struct ComparedPose {
 struct NavigationSummary {
   /// Of the walls that a laser can see, the share of cells with a mapped one within one cell.
   double walls_found = 0.0;
-  double walls_false = 0.0;   ///< Of the mapped walls' cells, those with no true one within two.
-  double walls_double = 0.0;  ///< Of the walls' cells, those that were mapped twice.
-  double floor_known = 0.0;   ///< Of the free cells that can be reached.
+  double walls_false = 0.0;     ///< Of the mapped walls' cells, those with no true one within two.
+  double walls_double = 0.0;    ///< Of the walls' cells, those that were mapped twice.
+  double floor_known = 0.0;     ///< Of the free cells that can be reached.
   double mapping_path_m = 0.0;  ///< Of the first seed; 0 where the map was given.
   double mapping_s = 0.0;       ///< Simulated, of the first seed.
   std::optional<ErrorStatistics> position_error_m;  ///< Of the belief, at 10 Hz, over all seeds.
   std::optional<ErrorStatistics> yaw_error_rad;
-  std::size_t goals = 0;          ///< Over all seeds.
+  std::size_t goals = 0;  ///< Over all seeds.
   std::size_t goals_reached = 0;
-  double closest_m = 0.0;         ///< Between a robot's rim and anything.
-  std::size_t times_lost = 0;     ///< Over all seeds.
+  double closest_m = 0.0;      ///< Between a robot's rim and anything.
+  std::size_t times_lost = 0;  ///< Over all seeds.
 };
 
 /// Everything that a page needs besides the files in the run's folder.
