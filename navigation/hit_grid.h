@@ -24,9 +24,9 @@ struct HitCell {
   std::uint32_t passes = 0;
 
   [[nodiscard]] bool is_known() const { return hits + passes > 0; }
-  /// A quarter of the beams ended here: walls seen at a slant are passed by most beams (Grisetti,
-  /// Stachniss, Burgard, 2007, use the same share).
-  [[nodiscard]] bool is_occupied() const { return hits > 0 && 4 * hits >= hits + passes; }
+  /// One in seven of the beams ended here, and more than one: a wall that is seen at a slant is
+  /// passed by most beams (Grisetti, Stachniss, Burgard, 2007, ask for a quarter).
+  [[nodiscard]] bool is_occupied() const { return hits > 1 && 7 * hits >= hits + passes; }
 };
 
 /// Grows as it is needed. Copies share what has not changed since, so that a filter can copy maps

@@ -71,6 +71,8 @@ HitGrid walls_of(const OccupancyGrid& map) {
       if (is_occupied(map.at(x, y))) ends.ends_R.push_back(map.centre_of(x, y));
     }
   }
+  // Twice, since one end alone makes no wall.
+  walls.add_ends(ends.ends_R);
   walls.add_ends(ends.ends_R);
   return walls;
 }
