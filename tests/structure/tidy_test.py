@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+"""clang-tidy has nothing to say of any source that is built, tests excepted.
+
+    tidy_test.py SOURCE_DIR BUILD_DIR [--part N/OF]
+
+Most of its time goes into headers that many sources include. So it looks at several sources at a time,
+included one after the other in one file; where those don't go together, at each by itself.
+"""
+
+import argparse
+import concurrent.futures
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+MOST_SOURCES = 12  # in a unit; more take a gigabyte of memory
+PLANTED = "int f(int a) { int b; if (a) b = a; return b; }\n"
+COMPLAINT = "planted.cc:1:20: error: variable 'b' is not initialized"
+FAILS_TO_COMPILE = "[clang-diagnostic-error]"
+DEFINITION = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)|.*?(\w+)\s*[({=;\[]")
+ALIAS = re.compile(r"using (\w+) = (.*)")
+
+
+@dataclasses.dataclass
+class Unit:
+    """Sources that are looked at together."""
+
+    flags: list  # all that any of them is compiled with
+    sources: list
+    names: dict  # what they define for themselves: name -> where, or what an alias stands for
+
+
+# --- What is built --------------------------------------------------------------------------------
+
+def is_looked_at(name):
+    return not name.startswith(("..", "build/", "tests/")) and "/test/" not in name
+
+
+def flags_of(entry):
+    """Standard, definitions and folders of an entry of the compile database."""
+    words = iter(shlex.split(entry["command"]))
+    flags = []
+    for word in words:
+        if word == "-isystem":
+            flags.append(f"-isystem{os.path.join(entry['directory'], next(words))}")
+        elif word.startswith("-I"):
+            flags.append(f"-I{os.path.join(entry['directory'], word[2:])}")
+        elif word.startswith(("-std=", "-D")):
+            flags.append(word)
+    return flags
+
+
+def sources_of(database, top):
+    """Flags of each of the project's sources, by its path."""
+    found = {}
+    for entry in json.loads(database.read_text(encoding="utf-8")):
+        path = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
+        if is_looked_at(os.path.relpath(path, top)) and os.path.exists(path):
+            found.setdefault(path, flags_of(entry))
+    return found
+
+
+# --- Units ----------------------------------------------------------------------------------------
+
+def own_names(path):
+    """What a source defines in its unnamed namespaces; good enough to guess what goes together."""
+    text = pathlib.Path(path).read_text(encoding="utf-8")
+    names = {}
+    for block in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.DOTALL | re.MULTILINE):
+        for line in block.split("\n"):
+            alias = ALIAS.match(line)
+            definition = DEFINITION.match(line)
+            if alias:
+                names[alias.group(1)] = alias.group(2)
+            elif definition and re.match(r"\w", line):
+                names[definition.group(1) or definition.group(2)] = path
+    return names
+
+
+def go_together(unit, flags, names):
+    def standard(words):
+        return [word for word in words if word.startswith("-std=")]
+    return (len(unit.sources) < MOST_SOURCES and standard(unit.flags) == standard(flags) and
+            all(names[name] == unit.names[name] for name in names.keys() & unit.names.keys()))
+
+
+def units_of(sources):
+    """Each source in the first unit that it goes together with."""
+    units = []
+    for path, flags in sorted(sources.items()):
+        names = own_names(path)
+        unit = next((unit for unit in units if go_together(unit, flags, names)), None)
+        if unit is None:
+            unit = Unit([], [], {})
+            units.append(unit)
+        unit.flags += [flag for flag in flags if flag not in unit.flags]
+        unit.sources.append(path)
+        unit.names.update(names)
+    return units
+
+
+# --- clang-tidy -----------------------------------------------------------------------------------
+
+class Tidy:
+    """Runs it; files are made in a folder."""
+
+    def __init__(self, top, folder):
+        self.folder = pathlib.Path(folder)
+        config = top / ".clang-tidy"
+        headers = re.search("^HeaderFilterRegex: '(.*)'$", config.read_text(encoding="utf-8"),
+                            re.MULTILINE).group(1)
+        self.command = ["clang-tidy", "--quiet", f"--config-file={config}",
+                        f"--header-filter=({headers}|\\.cc$)"]
+
+    def said_of(self, path, flags):
+        done = subprocess.run([*self.command, path, "--", *flags], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, check=False)
+        return (done.stdout or done.stderr) if done.returncode else ""
+
+    def look_at(self, unit):
+        """What it says of a unit, "" where that is nothing."""
+        with tempfile.NamedTemporaryFile("w", dir=self.folder, suffix=".cc") as file:
+            for path in unit.sources:
+                file.write(f'#include "{path}"  // NOLINT(bugprone-suspicious-include)\n')
+            file.flush()
+            said = self.said_of(file.name, unit.flags)
+        if FAILS_TO_COMPILE not in said or len(unit.sources) == 1:
+            return said
+        print(f"not together: {' '.join(unit.sources)}")
+        return "".join(self.said_of(path, unit.flags) for path in unit.sources)
+
+
+def notices(tidy):
+    """Whether it says something of a fault among faultless sources."""
+    for name, text in (("good.cc", "int g() { return 1; }\n"), ("planted.cc", PLANTED)):
+        (tidy.folder / name).write_text(text, encoding="utf-8")
+    sources = [str(tidy.folder / name) for name in ("good.cc", "planted.cc")]
+    return COMPLAINT in tidy.look_at(Unit(["-std=c++20"], sources, {}))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--part", default="1/1", help="of the units, as 2/3")
+    arguments = parser.parse_args()
+    if shutil.which("clang-tidy") is None:
+        print("skipped: clang-tidy is not installed")
+        sys.exit(SKIPPED)
+    top = arguments.source.resolve()
+    sources = sources_of(arguments.build / "compile_commands.json", top)
+    if len(sources) < 50:
+        sys.exit(f"only {len(sources)} sources in the compile database: looked in the wrong place?")
+    part, of = map(int, arguments.part.split("/"))
+    units = units_of(sources)[part - 1::of]
+    with tempfile.TemporaryDirectory(prefix="tidy_test-") as folder:
+        tidy = Tidy(top, folder)
+        if not notices(tidy):
+            sys.exit("clang-tidy takes anything: is .clang-tidy there?")
+        with concurrent.futures.ThreadPoolExecutor(1 if of > 1 else os.cpu_count()) as pool:
+            said = list(filter(None, pool.map(tidy.look_at, units)))
+    print("\n".join(said))
+    print(f"clang-tidy: {sum(len(unit.sources) for unit in units)} of {len(sources)} sources in "
+          f"{len(units)} units, complaints about {len(said)} units")
+    sys.exit(1 if said else 0)
+
+
+if __name__ == "__main__":
+    main()
