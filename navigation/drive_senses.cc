@@ -99,15 +99,32 @@ std::string DriveSenses::blindness(Time now) const {
   return valid_share_ < kLeastValid ? "the laser's beams are invalid" : "";
 }
 
-DistanceWindow DriveSenses::window(const PlanarPose& pose_M, double half_m, double most_m) const {
-  const Eigen::Vector2d here = position_of(pose_M);
-  std::vector<Eigen::Vector2d> points = memory_.around(here, half_m);
+std::vector<Eigen::Vector2d> DriveSenses::points_around(const Eigen::Vector2d& p_M,
+                                                        double reach_m) const {
+  std::vector<Eigen::Vector2d> points = memory_.around(p_M, reach_m);
   points.insert(points.end(), may_be_M_.begin(), may_be_M_.end());
-  return {map_, points, here, half_m, most_m};
+  return points;
 }
 
-Surroundings DriveSenses::surroundings(const DistanceWindow& window, Time now) const {
-  return {&window, tracker_.moving(now),
+DistanceWindow DriveSenses::window(const PlanarPose& pose_M, double half_m, double most_m) const {
+  const Eigen::Vector2d here = position_of(pose_M);
+  return {map_, points_around(here, half_m), here, half_m, most_m};
+}
+
+/// Of many noisy points the nearest few lie in front of where they should.
+double DriveSenses::clear_at(const Eigen::Vector2d& p_M) const {
+  constexpr std::size_t kPassedOver = 2;
+  std::vector<double> distances(kPassedOver + 1, kMostToMap);
+  for (const Eigen::Vector2d& point : points_around(p_M, kMostToMap)) {
+    distances.push_back((point - p_M).norm());
+  }
+  std::nth_element(distances.begin(), distances.begin() + kPassedOver, distances.end());
+  return std::min(distances[kPassedOver], distance_to_occupied(map_, p_M, kMostToMap));
+}
+
+Surroundings DriveSenses::surroundings(const DistanceWindow& window, const PlanarPose& pose_M,
+                                       Time now) const {
+  return {&window, clear_at(position_of(pose_M)), tracker_.moving(now),
           [this](const Eigen::Vector2d& p_M) { return is_known_free(p_M); }};
 }
 

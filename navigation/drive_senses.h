@@ -32,10 +32,11 @@ class DriveSenses {
 
   /// Why there is nothing to go by at `now`, in words; "" where there is a scan.
   [[nodiscard]] std::string blindness(Time now) const;
-  /// What keeps out of the way of rollouts from `pose_M`: lives as long as `window`, into which the
-  /// standing obstacles are drawn, and this.
+  /// The standing obstacles around `pose_M`.
   [[nodiscard]] DistanceWindow window(const PlanarPose& pose_M, double half_m, double most_m) const;
-  [[nodiscard]] Surroundings surroundings(const DistanceWindow& window, Time now) const;
+  /// What rollouts from `pose_M` must keep clear of; refers to `window` and to this.
+  [[nodiscard]] Surroundings surroundings(const DistanceWindow& window, const PlanarPose& pose_M,
+                                          Time now) const;
   /// What stands and is not on the map.
   [[nodiscard]] std::vector<Eigen::Vector2d> not_on_map() const { return memory_.not_on_map(); }
   /// Distance from `p_M` to the nearest occupied cell's centre, at most kMostToMap [m].
@@ -45,6 +46,9 @@ class DriveSenses {
 
  private:
   [[nodiscard]] bool is_known_free(const Eigen::Vector2d& p_M) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> points_around(const Eigen::Vector2d& p_M,
+                                                           double reach_m) const;
+  [[nodiscard]] double clear_at(const Eigen::Vector2d& p_M) const;
 
   RigidTransform X_RL_;
   double radius_m_;

@@ -17,6 +17,7 @@ constexpr double kWayForSize = 1.0;
 constexpr double kMostSize = 5.0;
 /// The robot need not come nearer to a frontier than this to look into it.
 constexpr double kNearEnough = 0.5;
+constexpr std::size_t kCellsBetweenTries = 10;
 
 using Cells = std::vector<Eigen::Vector2i>;
 
@@ -68,21 +69,42 @@ Eigen::Vector2i middle_of(const Cells& cells) {
   });
 }
 
-bool can_see(const OccupancyGrid& grid, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  return along_line(grid, from, to, [&](int x, int y, double) { return grid.at(x, y) == 0; });
+/// The unknown cell beside the frontier's cell `cell`.
+Eigen::Vector2i unknown_beside(const OccupancyGrid& grid, const Eigen::Vector2i& cell) {
+  for (const Eigen::Vector2i& step : {Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0),
+                                      Eigen::Vector2i(0, 1), Eigen::Vector2i(0, -1)}) {
+    const Eigen::Vector2i beside = cell + step;
+    if (grid.contains(beside.x(), beside.y()) && grid.at(beside.x(), beside.y()) < 0) return beside;
+  }
+  return cell;
+}
+
+/// Whether on the line between two places all is free up to the first unknown cell.
+bool can_see_unknown(const OccupancyGrid& grid, const Eigen::Vector2d& from,
+                     const Eigen::Vector2d& to) {
+  std::int8_t last = 0;
+  along_line(grid, from, to, [&](int x, int y, double) {
+    last = grid.at(x, y);
+    return last == 0;
+  });
+  return last < 0;
 }
 
 /// What a search for a place to stand needs.
 struct Reach {
   const FloorRoom& floor;
   const Spread& ways;  ///< From the robot.
+  double least_m;      ///< From the robot's centre to obstacles.
   double sight_m;
 };
 
-/// The place that can be reached, sees `target` and is nearest to kNearEnough from it.
+/// The place that can be reached, sees into the unknown beside `target` and is nearest to
+/// kNearEnough from it.
 std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::Vector2i& target) {
   const OccupancyGrid& grid = reach.floor.grid;
   const Eigen::Vector2d target_M = grid.centre_of(target.x(), target.y());
+  const Eigen::Vector2i unknown = unknown_beside(grid, target);
+  const Eigen::Vector2d unknown_M = grid.centre_of(unknown.x(), unknown.y());
   const int most = static_cast<int>(reach.sight_m / grid.resolution_m);
   std::optional<Eigen::Vector2i> best;
   double best_excess = reach.sight_m;
@@ -95,7 +117,9 @@ std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::V
         if (!grid.contains(x, y) || reach.ways.costs[grid.index(x, y)] < 0) continue;
         const Eigen::Vector2d place = grid.centre_of(x, y);
         const double excess = std::abs((place - target_M).norm() - kNearEnough);
-        if (excess >= best_excess || !can_see(grid, place, target_M)) continue;
+        if (excess >= best_excess || !can_see_unknown(grid, place, unknown_M)) continue;
+        // A goal is held to this exactly, not from cell to cell.
+        if (distance_to_occupied(grid, place, reach.least_m) < reach.least_m) continue;
         best = Eigen::Vector2i(x, y);
         best_excess = excess;
       }
@@ -116,8 +140,13 @@ double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vecto
 std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
                                     const std::vector<Eigen::Vector2d>& given_up) {
   const OccupancyGrid& grid = reach.floor.grid;
-  const Eigen::Vector2i target = middle_of(cells);
-  const std::optional<Eigen::Vector2i> place = standing_place(reach, target);
+  Eigen::Vector2i target = middle_of(cells);
+  std::optional<Eigen::Vector2i> place = standing_place(reach, target);
+  // Where its middle can't be seen, a part of it may.
+  for (std::size_t i = 0; i < cells.size() && !place; i += kCellsBetweenTries) {
+    target = cells[i];
+    place = standing_place(reach, target);
+  }
   if (!place) return std::nullopt;
   const Eigen::Vector2d goal = grid.centre_of(place->x(), place->y());
   const Eigen::Vector2d look = grid.centre_of(target.x(), target.y()) - goal;
@@ -146,7 +175,7 @@ std::vector<Frontier> frontiers(const OccupancyGrid& map, const PlanarPose& pose
   for (const Cells& cells : connected_frontiers(floor.grid)) {
     if (static_cast<double>(cells.size()) * map.resolution_m < options.least_size_m) continue;
     const std::optional<Frontier> frontier =
-        frontier_of({floor, ways, options.sight_m}, cells, given_up);
+        frontier_of({floor, ways, size.least_m(), options.sight_m}, cells, given_up);
     if (frontier) found.push_back(*frontier);
   }
   std::stable_sort(found.begin(), found.end(),

@@ -245,7 +245,7 @@ BodyVelocity GoalDriver::Impl::drive(const PlanarPose& pose_M, const BodyVelocit
       senses.window(pose_M, window_half(local),
                     local.size.least_m() + local.size.clearance_m + senses.map().resolution_m);
   const Decision decision =
-      decide(pose_M, velocity, aim, senses.surroundings(window, now), last, local);
+      decide(pose_M, velocity, aim, senses.surroundings(window, pose_M, now), last, local);
   last = decision;
   hindrance = decision.hindrance;
   if (phase == Phase::kFollow || phase == Phase::kFinalTurn) {

@@ -20,6 +20,7 @@ constexpr double kSecondHold = 1.5;
 constexpr double kNoise = 0.025;
 /// Kept beside the radius by a robot that stands nearer than its margin already [m].
 constexpr double kBareMargin = 0.01;
+constexpr double kHardlyTurned = 0.03;  // [rad]
 /// By how much more than the margin the gap must have grown before an evasion is broken off [m],
 constexpr double kSurelyOver = 0.1;
 /// and by how much less it may seem while it goes on.
@@ -47,11 +48,12 @@ struct Candidate {
 class Chooser {
  public:
   /// `gap_m` is what must be kept from those who move.
-  Chooser(const Rollouts& rollouts, const BodyVelocity& wanted, double clear_now_m, double gap_m,
-          const LocalSettings& settings)
+  Chooser(const Rollouts& rollouts, const BodyVelocity& wanted, const Surroundings& around,
+          double gap_m, const LocalSettings& settings)
       : rollouts_(rollouts),
         reference_(rollouts.after({wanted, kScoredAfter, {}, 0.0}, kScoredAfter)),
-        clear_now_m_(clear_now_m),
+        clear_now_m_(rollouts.outcome({}).clear_m),
+        is_too_near_(around.clear_now_m < settings.size.radius_m),
         gap_m_(gap_m),
         size_(settings.size) {}
 
@@ -65,6 +67,7 @@ class Chooser {
   const Rollouts& rollouts_;
   PlanarPose reference_;  ///< Where what is wanted would lead in kScoredAfter.
   double clear_now_m_;
+  bool is_too_near_;  ///< To turn on the spot: a corner might touch.
   double gap_m_;
   RobotRoom size_;
   Candidate best_;
@@ -74,12 +77,13 @@ double Chooser::badness(const Outcome& result) const {
   const double bare = size_.radius_m + kBareMargin;
   double needed = std::max(bare, size_.least_m() - kNoise);
   double bad = result.backs_blindly ? 1.0 : 0.0;
-  // Who stands too near may go on, but not much nearer; and who stands far too near, only away.
+  // Who stands nearer than the margin may go on, but hardly nearer.
   if (clear_now_m_ < needed) needed = std::max(bare, clear_now_m_ - kBareMargin);
-  if (clear_now_m_ < bare) {
-    needed = clear_now_m_ - 0.5 * kBareMargin;
+  if (clear_now_m_ < bare) needed = clear_now_m_ - 0.5 * kBareMargin;
+  if (is_too_near_) {
     const bool gets_away = result.end_clear_m > clear_now_m_ + kBareMargin;
-    if (result.moved_m > kBareMargin && !gets_away) bad += 0.1;
+    const bool stays = result.moved_m < kBareMargin && result.turned_rad < kHardlyTurned;
+    if (!gets_away && !stays) bad += 0.1;
   }
   return bad + std::max(0.0, needed - result.clear_m) + std::max(0.0, gap_m_ - result.gap_m);
 }
@@ -115,6 +119,19 @@ void consider_nominal(Chooser& chooser, const BodyVelocity& wanted, const BodyVe
     }
   }
   chooser.consider({}, kForChange * std::abs(last.turn));
+}
+
+/// Out of a place too near to something for turning: slowly, in wide arcs, as the outline's corners
+/// swing out on the other side.
+void consider_ways_out(Chooser& chooser, const LocalSettings& settings) {
+  const double speed = std::min(0.2, settings.limits.speed_m_s);
+  for (const double forward : {speed, -speed}) {
+    for (const double turn : {0.0, 0.15, -0.15, 0.3, -0.3}) {
+      chooser.consider({{forward, turn}, kHold, {}, 0.0}, 0.0);
+    }
+  }
+  constexpr double kOnlyIfNothingElse = 100.0;
+  chooser.consider({}, kOnlyIfNothingElse);
 }
 
 /// Away from who comes, as fast as the drive can.
@@ -157,16 +174,21 @@ Decision decide(const PlanarPose& pose_M, const BodyVelocity& present, const Bod
                 const Surroundings& around, const std::optional<Decision>& last,
                 const LocalSettings& settings) {
   const Rollouts rollouts(pose_M, present, around, settings);
-  const double clear_now = around.standing->at(position_of(pose_M));
   const double margin = settings.size.margin_m;
   const bool was_evading = last && last->is_evading;
   const auto chooser_for = [&](double gap_m) {
-    return Chooser(rollouts, wanted, clear_now, gap_m, settings);
+    return Chooser(rollouts, wanted, around, gap_m, settings);
   };
   Chooser nominal = chooser_for(margin + (was_evading ? kSurelyOver : 0.0));
   const BodyVelocity last_velocity = last ? last->manoeuvre.first : present;
-  consider_nominal(nominal, wanted, last_velocity, settings, kHold);
-  if (!around.moving.empty()) consider_nominal(nominal, wanted, last_velocity, settings, kLongHold);
+  if (around.clear_now_m < settings.size.radius_m) {
+    consider_ways_out(nominal, settings);
+  } else {
+    consider_nominal(nominal, wanted, last_velocity, settings, kHold);
+    if (!around.moving.empty()) {
+      consider_nominal(nominal, wanted, last_velocity, settings, kLongHold);
+    }
+  }
   Decision decision;
   decision.manoeuvre = nominal.best().manoeuvre;
   if (nominal.best().badness > 0.0) {

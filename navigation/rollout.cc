@@ -104,6 +104,7 @@ Outcome Rollouts::outcome(const Manoeuvre& manoeuvre) const {
   }
   check_rest(walk.pose, walk.t, result);
   result.moved_m = (position_of(walk.pose) - position_of(pose_M_)).norm();
+  result.turned_rad = std::abs(walk.pose.yaw - pose_M_.yaw);
   return result;
 }
 

@@ -32,6 +32,8 @@ Manoeuvre rest_of(const Manoeuvre& manoeuvre, double seconds);
 /// What is around the robot at the moment of a decision.
 struct Surroundings {
   const DistanceWindow* standing = nullptr;
+  /// Distance of the robot's centre from what stands, without the window's rounding [m].
+  double clear_now_m = 0.0;
   std::vector<MovingObstacle> moving;
   /// Whether the ground at a place is known to be free, so that the robot may back over it.
   std::function<bool(const Eigen::Vector2d&)> is_known_free;
@@ -55,6 +57,7 @@ struct Outcome {
   double gap_m = std::numeric_limits<double>::infinity();
   bool backs_blindly = false;  ///< Over ground that is not known to be free.
   double moved_m = 0.0;        ///< Distance of the end from the beginning.
+  double turned_rad = 0.0;     ///< By how much the end is turned.
 };
 
 class Rollouts {

@@ -1,5 +1,6 @@
 /// @file
-/// A robot that drives in a world of its own, for tests: unicycle, laser, people; and what it touches.
+/// A robot that drives in a world of its own, for tests: unicycle, laser, people; and what it
+/// touches.
 #pragma once
 
 #include <algorithm>
