@@ -311,6 +311,7 @@ PoseEstimate MonteCarloLocalizer::Impl::settled(const PlanarPose& opinion,
                                                 1.0 / square(kCluster_rad))
                                     .asDiagonal();
   MatchOptions coarse = settings.match;
+  coarse.iterations = 6;
   coarse.search_cells = kCoarseReach;
   coarse.outlier_m = 0.3;
   coarse.sigma_m = 0.1;

@@ -20,7 +20,7 @@ void drive_to_the_end(Robot& robot) {
 }
 
 TEST(Robot, KnowsItsTruePoseBetweenSteps) {
-  Robot robot(l_shaped_drive(), {}, 1);
+  Robot robot(l_shaped_drive(), PoseBelief{}, 1);
   for (int i = 0; i < 50; ++i) robot.step({}, 0.01);
   // Straight ahead at 0.3 m/s for 49 whole steps and half of the fiftieth.
   EXPECT_NEAR(robot.true_pose(0.005).translation.x(), 0.3 * 0.495, 1e-9);
@@ -28,7 +28,7 @@ TEST(Robot, KnowsItsTruePoseBetweenSteps) {
 }
 
 TEST(Robot, BelievesTheTruthIfToldSo) {
-  Robot robot(l_shaped_drive(), {}, 1);
+  Robot robot(l_shaped_drive(), PoseBelief{}, 1);
   drive_to_the_end(robot);
   EXPECT_TRUE(robot.true_pose(0.01).translation.isApprox(robot.believed_pose(0.01).translation));
 }

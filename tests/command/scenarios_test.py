@@ -14,7 +14,7 @@ POSE_NOISE = ("--set", "pose.source=noisy", "--set", "pose.sigma_m=0.01",
               "--set", "pose.yaw_sigma_deg=0.5")
 SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "pose", "complete", "path_length_m",
                 "reads", "simulated_s", "wall_s", "real_time_factor", "pose_error",
-                "compared_pose", "tags", "error_m", "over_0_3_m", "located", "ambiguous",
+                "compared_pose", "navigation", "tags", "error_m", "over_0_3_m", "located", "ambiguous",
                 "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",
@@ -267,6 +267,42 @@ def aws_warehouse_over_100_seeds(context):
     check_equal(places["tag10"], [-4.85, 5.95, 1.85], "place of tag10")
     check_equal(len(places), 10, "number of tags")
     check_clear_path(folder)
+
+
+# What docs/mapping.md and docs/localization_on_map.md say that the robot reaches.
+def check_navigation(summary):
+    navigation = summary["navigation"]
+    check_equal(summary["pose"], "slam", "pose")
+    check_between(navigation["walls_found"], 0.95, 1.0, "walls_found")
+    check_between(navigation["walls_false"], 0.0, 0.03, "walls_false")
+    check_between(navigation["walls_double"], 0.0, 0.01, "walls_double")
+    check_between(navigation["position_error_m"]["mean"], 0.0, 0.020, "mean pose error")
+    check_between(navigation["position_error_m"]["p95"], 0.0, 0.050, "p95 of the pose error")
+    check_between(navigation["yaw_error_rad"]["mean"], 0.0, math.radians(0.5), "mean yaw error")
+    check_equal(navigation["goals_reached"], navigation["goals"], "goals reached")
+    check_between(navigation["closest_m"], 0.01, 10.0, "closest_m")
+    check_equal(navigation["times_lost"], 0, "times_lost")
+    return navigation
+
+
+@case
+def paper_warehouse_slam(context):
+    folder = context.simulate("paper_warehouse_slam")
+    summary = check_summary(folder)
+    check_navigation(summary)
+    check_equal(summary["located"], 10, "located")
+    check_between(summary["error_m"]["mean"], 0.0, 0.060, "mean error with the robot's own pose")
+    check_between(summary["pose_error"]["error_with_true_pose_m"]["mean"], 0.0, 0.015,
+                  "mean error with the true pose")
+    again = context.simulate("paper_warehouse_slam", "--threads", "1", name="slam_again")
+    for name in ("map.pgm", "map.yaml", "reads.csv", "antenna_poses.csv", "mapping_path.csv"):
+        check_equal((again / name).read_bytes(), (folder / name).read_bytes(),
+                    f"{name} of the same seed on one thread")
+    on_map = context.simulate("paper_warehouse_slam", "--seeds", "3", "--set",
+                              f"navigation.map={folder / 'map.yaml'}", name="slam_on_map")
+    given = check_navigation(check_summary(on_map))
+    check_equal(given["mapping_s"], 0.0, "mapping_s with a map given")
+    check_equal(given["goals"], 15, "goals of three seeds")
 
 
 @case
