@@ -17,21 +17,21 @@
 namespace tagfield {
 
 struct GoalDriverSettings {
-  SpeedLimits limits;            ///< Of the drive.
-  double speed_m_s = 0.3;        ///< Wanted along the path.
-  double radius_m = 0.36;        ///< Of the robot's outline, seen from above: a P3-AT's corners.
-  double margin_m = 0.05;        ///< Kept from all that is seen or mapped, beside the radius.
-  double clearance_m = 0.3;      ///< Beyond this distance from the outline nothing is gained.
+  SpeedLimits limits;        ///< Of the drive.
+  double speed_m_s = 0.3;    ///< Wanted along the path.
+  double radius_m = 0.36;    ///< Of the robot's outline, seen from above: a P3-AT's corners.
+  double margin_m = 0.05;    ///< Kept from all that is seen or mapped, beside the radius.
+  double clearance_m = 0.3;  ///< Beyond this distance from the outline nothing is gained.
   double goal_tolerance_m = 0.05;
   double goal_tolerance_rad = 0.05;
-  double rate_hz = 20.0;         ///< Of decisions.
-  double patience_s = 30.0;      ///< Without getting nearer to the goal before it gives up.
+  double rate_hz = 20.0;     ///< Of decisions.
+  double patience_s = 30.0;  ///< Without getting nearer to the goal before it gives up.
 };
 
 enum class DriveState { kIdle, kDriving, kReached, kRefused, kFailed };
 
-/// Frames: M the map, R the robot's base, L the laser. Knows no clock but the stamps it is given and
-/// draws no random numbers: the same calls give the same motion.
+/// Frames: M the map, R the robot's base, L the laser. Knows no clock but the stamps it is given
+/// and draws no random numbers: the same calls give the same motion.
 class GoalDriver {
  public:
   GoalDriver(const GoalDriverSettings& settings, const RigidTransform& X_RL);

@@ -10,10 +10,10 @@
 
 namespace tagfield {
 
-/// `map` with all cells occupied that the silhouettes cover or touch. A laser's plane passes above a
-/// low shelf board and below a table's top; top_view() of the world between the floor and the robot's
-/// height has them. `q_MW` is the world's frame in the map's. For GoalDriver and frontiers(); what
-/// localizes wants the map as the laser sees it.
+/// `map` with all cells occupied that the silhouettes cover or touch. A laser's plane passes above
+/// a low shelf board and below a table's top; top_view() of the world between the floor and the
+/// robot's height has them. `q_MW` is the world's frame in the map's. For GoalDriver and
+/// frontiers(); what localizes wants the map as the laser sees it.
 OccupancyGrid with_keep_out(const OccupancyGrid& map, const std::vector<Silhouette>& silhouettes_W,
                             const PlanarPose& q_MW);
 

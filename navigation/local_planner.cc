@@ -136,14 +136,14 @@ void consider_ways_out(Chooser& chooser, const LocalSettings& settings) {
 
 /// Away from who comes, as fast as the drive can.
 void consider_evasions(Chooser& chooser, const LocalSettings& settings) {
-  constexpr std::array<double, 5> kForward = {0.0, 1.0, 0.5, -0.3, -0.7};
+  constexpr std::array<double, 5> kForward = {0.0, 1.0, 0.5, -0.4, -1.0};
   constexpr std::array<double, 5> kTurn = {0.0, 0.5, -0.5, 1.0, -1.0};
   constexpr std::array<std::array<double, 2>, 8> kSecond = {{{0.0, 0.0},
                                                              {1.0, 0.0},
                                                              {0.5, 0.0},
                                                              {0.8, 0.7},
                                                              {0.8, -0.7},
-                                                             {-0.7, 0.0},
+                                                             {-1.0, 0.0},
                                                              {0.0, 1.0},
                                                              {0.0, -1.0}}};
   const SpeedLimits& limits = settings.limits;
