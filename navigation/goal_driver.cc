@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "navigation/drive_route.h"
 #include "navigation/drive_senses.h"
 #include "navigation/drive_watch.h"
-#include "navigation/global_planner.h"
 #include "navigation/local_planner.h"
-#include "navigation/path_pursuit.h"
+#include "navigation/recovery.h"
+#include "tagfield/base/error.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -18,25 +18,17 @@ namespace {
 
 /// Share of the tolerances that is aimed for.
 constexpr double kAim = 0.4;
-/// Share of the tolerance at which the goal is left again for a correction.
+/// Share of the tolerance within which the robot is content if it has passed the goal or is held
+/// up.
 constexpr double kNearlyThere = 0.8;
-/// The way ahead is watched so far for what is not on the map [m],
-constexpr double kWatched = 3.0;
-/// and what stands on it so long is driven around [s].
-constexpr double kBlockedFor = 0.5;
-constexpr double kBetweenPlans = 1.0;
-/// Farther from its way than this the robot gets a new one [m].
-constexpr double kAstray = 0.5;
 /// Without progress for so long it tries something else [s].
 constexpr double kStuckFor = 4.0;
-constexpr double kBackSpeed = 0.15;
-constexpr double kBackFor = 2.0;
-constexpr double kLookFor = 6.0;
-constexpr double kLookTurn = radians(170.0);
 /// What a radian yet to be turned counts as, in metres yet to be driven.
 constexpr double kMetresPerRadian = 0.3;
-
-enum class Phase { kFollow, kFinalTurn, kLookAround, kBackUp };
+/// A turning or driving robot has not arrived yet [rad/s, m/s].
+constexpr double kStillTurn = 0.2;
+constexpr double kStillForward = 0.02;
+constexpr double kLookAhead = 0.4;
 
 bool is_finite(const PlanarPose& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
@@ -46,86 +38,82 @@ bool is_finite(const BodyVelocity& velocity) {
   return std::isfinite(velocity.forward) && std::isfinite(velocity.turn);
 }
 
+void check(const char* name, double value, bool may_be_zero) {
+  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) return;
+  throw Error(fmt::format("{}: {}, expected a number {} 0", name, value, may_be_zero ? "≥" : ">"));
+}
+
+const GoalDriverSettings& checked(const GoalDriverSettings& settings) {
+  check("speed", settings.speed_m_s, false);
+  check("radius", settings.radius_m, false);
+  check("margin", settings.margin_m, true);
+  check("clearance", settings.clearance_m, true);
+  check("goal_tolerance", settings.goal_tolerance_m, false);
+  check("goal_tolerance of the heading", settings.goal_tolerance_rad, false);
+  check("rate", settings.rate_hz, false);
+  check("patience", settings.patience_s, false);
+  check("limit of speed", settings.limits.speed_m_s, false);
+  check("limit of turning", settings.limits.turn_rad_s, false);
+  check("limit of acceleration", settings.limits.acceleration_m_s2, false);
+  check("limit of turning's acceleration", settings.limits.turn_acceleration_rad_s2, false);
+  return settings;
+}
+
 }  // namespace
 
 struct GoalDriver::Impl {
   Impl(const GoalDriverSettings& given, const RigidTransform& X_RL)
-      : settings(given), senses(X_RL, given.radius_m) {
-    local.limits = given.limits;
-    local.size = {given.radius_m, given.margin_m, given.clearance_m};
-    local.period_s = 1.0 / given.rate_hz;
-  }
+      : settings(checked(given)),
+        local{
+            given.limits, {given.radius_m, given.margin_m, given.clearance_m}, 1.0 / given.rate_hz},
+        senses(X_RL, given.radius_m),
+        route(local.size, {given.limits, given.speed_m_s, kLookAhead}) {}
 
   void end(DriveState how, const std::string& why);
-  std::string plan_anew(const PlanarPose& pose_M, Time now);
-  void take(const Plan& found);
+  void rewind(Time now);
   BodyVelocity decide_now(const PlanarPose& pose_M, const BodyVelocity& velocity, Time now);
   BodyVelocity drive(const PlanarPose& pose_M, const BodyVelocity& velocity, Time now);
   BodyVelocity stop(const BodyVelocity& velocity, const std::string& why, Time now);
   BodyVelocity wanted(const PlanarPose& pose_M, Time now);
-  void follow(const PlanarPose& pose_M, Time now);
-  bool has_arrived(const PlanarPose& pose_M) const;
-  bool has_turned(const PlanarPose& pose_M, const BodyVelocity& velocity) const;
-  double remaining_m(const PlanarPose& pose_M) const;
-  void look_for_blocks(const PlanarPose& pose_M, Time now);
-  void try_something_else(const PlanarPose& pose_M, Time now);
-  void end_recovery(const PlanarPose& pose_M, Time now);
+  void look_after_progress(const PlanarPose& pose_M, Time now);
+  [[nodiscard]] bool has_arrived(const PlanarPose& pose_M) const;
+  [[nodiscard]] bool has_turned(const PlanarPose& pose_M, const BodyVelocity& velocity) const;
+  [[nodiscard]] double remaining_m(const PlanarPose& pose_M) const;
+  [[nodiscard]] std::string why_no_nearer() const;
 
   GoalDriverSettings settings;
   LocalSettings local;
   DriveSenses senses;
+  DriveRoute route;
+  DriveWatch watch;
+  Recovery recovery;
   DriveState state = DriveState::kIdle;
   std::string reason;
   PlanarPose goal_M;
-  std::vector<Eigen::Vector2d> way;
-  std::optional<PathPursuit> pursuit;
-  Phase phase = Phase::kFollow;
-  DriveWatch watch;
+  bool is_there = false;        ///< At the goal, turning to its heading.
   std::optional<Time> decided;  ///< When the command was.
   BodyVelocity command;
   std::optional<Decision> last;
-  Hindrance hindrance = Hindrance::kNone;
-  std::optional<Time> blocked_since;
-  std::optional<Eigen::Vector2d> block_M;  ///< Where something stands in the way.
-  Time planned;
-  bool map_is_new = false;
-  int attempts = 0;  ///< At something else.
-  Time phase_began;
-  double turned_rad = 0.0;
-  double last_yaw = 0.0;
 };
 
 void GoalDriver::Impl::end(DriveState how, const std::string& why) {
   state = how;
   reason = why;
-  way.clear();
-  pursuit.reset();
+  route.clear();
+  recovery.reset();
   last.reset();
   decided.reset();
   command = {};
+  is_there = false;
 }
 
-void GoalDriver::Impl::take(const Plan& found) {
-  way = found.way;
-  pursuit.emplace(Polyline(way), PursuitStyle{settings.limits, settings.speed_m_s, 0.4});
-  blocked_since.reset();
-  block_M.reset();
-}
-
-/// Looks for a way around what was seen, or, where there is none, past the map's obstacles only:
-/// what was seen may go away. Returns why there is none either, and then keeps the way that it has.
-std::string GoalDriver::Impl::plan_anew(const PlanarPose& pose_M, Time now) {
-  planned = now;
-  map_is_new = false;
-  Plan found = plan(senses.map(), senses.not_on_map(), pose_M, goal_M, local.size);
-  if (!found.refusal.empty()) {
-    found = plan(senses.map(), {}, pose_M, goal_M, local.size);
-  }
-  if (!found.refusal.empty()) return found.refusal;
-  const std::optional<Eigen::Vector2d> block = block_M;
-  take(found);
-  block_M = block;  // What was driven around may be what stops it in the end.
-  return "";
+/// Time has gone back: all that was timed begins anew, and nothing that was seen counts.
+void GoalDriver::Impl::rewind(Time now) {
+  senses.forget();
+  route.rewind(now);
+  recovery.reset();
+  watch.begin(route.pursuit().way().length_m() + 10.0, now);
+  decided.reset();
 }
 
 bool GoalDriver::Impl::has_arrived(const PlanarPose& pose_M) const {
@@ -134,94 +122,42 @@ bool GoalDriver::Impl::has_arrived(const PlanarPose& pose_M) const {
   if (distance < kAim * settings.goal_tolerance_m) return true;
   const Eigen::Vector2d heading(std::cos(pose_M.yaw), std::sin(pose_M.yaw));
   const bool is_past = to_goal.dot(heading) <= 0.0;
-  const bool is_held = hindrance != Hindrance::kNone;
+  const bool is_held = last && last->hindrance != Hindrance::kNone;
   return distance < kNearlyThere * settings.goal_tolerance_m && (is_past || is_held);
 }
 
 bool GoalDriver::Impl::has_turned(const PlanarPose& pose_M, const BodyVelocity& velocity) const {
   const double error = wrap_to_pi(goal_M.yaw - pose_M.yaw);
-  return std::abs(error) < kAim * settings.goal_tolerance_rad && std::abs(velocity.turn) < 0.2 &&
-         std::abs(velocity.forward) < 0.02;
+  return std::abs(error) < kAim * settings.goal_tolerance_rad &&
+         std::abs(velocity.turn) < kStillTurn && std::abs(velocity.forward) < kStillForward;
 }
 
 double GoalDriver::Impl::remaining_m(const PlanarPose& pose_M) const {
-  const double last_turn = std::abs(wrap_to_pi(goal_M.yaw - pose_M.yaw));
-  if (phase == Phase::kFinalTurn) return kMetresPerRadian * last_turn;
-  return pursuit->remaining_m() + kMetresPerRadian * (kPi + pursuit->to_turn_rad(pose_M));
-}
-
-/// Watches the way ahead for what stands there and is not on the map.
-void GoalDriver::Impl::look_for_blocks(const PlanarPose& pose_M, Time now) {
-  const double from = pursuit->along_m();
-  const Polyline ahead(pursuit->way().between(from, from + kWatched));
-  const double least = settings.radius_m + 0.5 * settings.margin_m;
-  std::optional<Eigen::Vector2d> found;
-  double found_along = kWatched;
-  for (const Eigen::Vector2d& point : senses.not_on_map()) {
-    if ((point - position_of(pose_M)).norm() > kWatched + 1.0) continue;
-    const Polyline::Foot foot = ahead.nearest(point, 0.0, kWatched);
-    if (foot.distance_m > least || foot.along_m > found_along) continue;
-    found = point;
-    found_along = foot.along_m;
-  }
-  if (found) block_M = found;
-  if (!found)
-    blocked_since.reset();
-  else if (!blocked_since)
-    blocked_since = now;
-}
-
-void GoalDriver::Impl::follow(const PlanarPose& pose_M, Time now) {
-  pursuit->follow(pose_M);
-  look_for_blocks(pose_M, now);
-  const bool is_blocked = blocked_since && to_seconds(now - *blocked_since) >= kBlockedFor;
-  const bool is_astray = pursuit->distance_m() > kAstray;
-  if (!(is_blocked || is_astray || map_is_new)) return;
-  if (to_seconds(now - planned) < kBetweenPlans) return;
-  if (!plan_anew(pose_M, now).empty()) return;
-  pursuit->follow(pose_M);
-  watch.detour(remaining_m(pose_M), now);
-}
-
-/// Turns to look around and backs up by turns.
-void GoalDriver::Impl::try_something_else(const PlanarPose& pose_M, Time now) {
-  phase = attempts++ % 2 == 0 ? Phase::kLookAround : Phase::kBackUp;
-  phase_began = now;
-  turned_rad = 0.0;
-  last_yaw = pose_M.yaw;
-}
-
-void GoalDriver::Impl::end_recovery(const PlanarPose& pose_M, Time now) {
-  phase = Phase::kFollow;
-  if (plan_anew(pose_M, now).empty()) pursuit->follow(pose_M);
-  watch.tried(now);
+  if (is_there) return kMetresPerRadian * std::abs(wrap_to_pi(goal_M.yaw - pose_M.yaw));
+  // The turn at the goal, which is at most half a turn, comes after all of the way.
+  return route.pursuit().remaining_m() +
+         kMetresPerRadian * (kPi + route.pursuit().to_turn_rad(pose_M));
 }
 
 /// What to drive, were nothing in the way.
 BodyVelocity GoalDriver::Impl::wanted(const PlanarPose& pose_M, Time now) {
-  const double lasted_s = to_seconds(now - phase_began);
-  turned_rad += std::abs(wrap_to_pi(pose_M.yaw - last_yaw));
-  last_yaw = pose_M.yaw;
-  const bool looked =
-      phase == Phase::kLookAround && (turned_rad > kLookTurn || lasted_s > kLookFor);
-  const bool backed = phase == Phase::kBackUp && lasted_s > kBackFor;
-  if (looked || backed) end_recovery(pose_M, now);
-  if (phase == Phase::kLookAround) return {0.0, 0.5 * settings.limits.turn_rad_s};
-  if (phase == Phase::kBackUp) return {-std::min(kBackSpeed, settings.limits.speed_m_s), 0.0};
-  if (phase == Phase::kFollow) {
-    follow(pose_M, now);
-    if (has_arrived(pose_M)) phase = Phase::kFinalTurn;
+  if (recovery.is_on()) {
+    const std::optional<BodyVelocity> tried = recovery.wanted(pose_M, now, settings.limits);
+    if (tried) return *tried;
+    route.plan_anew(senses, pose_M, now);
+    watch.tried(now);
   }
-  if (phase == Phase::kFinalTurn) {
-    const double distance = (position_of(goal_M) - position_of(pose_M)).norm();
-    if (distance < settings.goal_tolerance_m) {
-      return {0.0, turn_rate(wrap_to_pi(goal_M.yaw - pose_M.yaw), settings.limits)};
-    }
-    phase = Phase::kFollow;
-    if (plan_anew(pose_M, now).empty()) watch.detour(remaining_m(pose_M), now);
-    pursuit->follow(pose_M);
+  const double distance = (position_of(goal_M) - position_of(pose_M)).norm();
+  if (is_there && distance > settings.goal_tolerance_m) {
+    is_there = false;
+    route.plan_anew(senses, pose_M, now);
   }
-  return pursuit->wanted(pose_M);
+  if (!is_there) {
+    if (route.follow(senses, pose_M, now)) watch.detour(remaining_m(pose_M), now);
+    is_there = has_arrived(pose_M);
+  }
+  if (is_there) return {0.0, turn_rate(wrap_to_pi(goal_M.yaw - pose_M.yaw), settings.limits)};
+  return route.pursuit().wanted(pose_M);
 }
 
 BodyVelocity GoalDriver::Impl::stop(const BodyVelocity& velocity, const std::string& why,
@@ -234,26 +170,39 @@ BodyVelocity GoalDriver::Impl::stop(const BodyVelocity& velocity, const std::str
   return limited({}, velocity, settings.limits, local.period_s);
 }
 
+void GoalDriver::Impl::look_after_progress(const PlanarPose& pose_M, Time now) {
+  if (recovery.is_on()) return;
+  watch.update(remaining_m(pose_M), now);
+  // Who walks goes away by themselves.
+  if (last->hindrance == Hindrance::kMoving) watch.tried(now);
+  if (watch.stuck_s(now) > kStuckFor) recovery.begin(pose_M, now);
+}
+
 BodyVelocity GoalDriver::Impl::drive(const PlanarPose& pose_M, const BodyVelocity& velocity,
                                      Time now) {
   const BodyVelocity aim = wanted(pose_M, now);
-  if (phase == Phase::kFinalTurn && has_turned(pose_M, velocity)) {
+  if (is_there && has_turned(pose_M, velocity)) {
     end(DriveState::kReached, "");
     return {};
   }
   const DistanceWindow window =
-      senses.window(pose_M, window_half(local),
-                    local.size.least_m() + local.size.clearance_m + senses.map().resolution_m);
-  const Decision decision =
-      decide(pose_M, velocity, aim, senses.surroundings(window, pose_M, now), last, local);
-  last = decision;
-  hindrance = decision.hindrance;
-  if (phase == Phase::kFollow || phase == Phase::kFinalTurn) {
-    watch.update(remaining_m(pose_M), now);
-    if (hindrance == Hindrance::kMoving) watch.tried(now);
-    if (watch.stuck_s(now) > kStuckFor) try_something_else(pose_M, now);
+      senses.window(pose_M, window_half(local), local.size.least_m() + local.size.clearance_m);
+  last = decide(pose_M, velocity, aim, senses.surroundings(window, pose_M, now), last, local);
+  look_after_progress(pose_M, now);
+  return last->command;
+}
+
+std::string GoalDriver::Impl::why_no_nearer() const {
+  if (!route.refusal().empty()) return route.refusal();
+  std::string why = fmt::format("no nearer for {:.0f} s", settings.patience_s);
+  const std::optional<Eigen::Vector2d>& block = route.block_M();
+  if (last && last->hindrance == Hindrance::kMoving) {
+    why = "somebody keeps moving in the way";
+  } else if (block) {
+    why = fmt::format("what is not on the map stands in the way at ({:.2f}, {:.2f})", block->x(),
+                      block->y());
   }
-  return decision.command;
+  return fmt::format("goal ({:.2f}, {:.2f}): {}", goal_M.x, goal_M.y, why);
 }
 
 BodyVelocity GoalDriver::Impl::decide_now(const PlanarPose& pose_M, const BodyVelocity& velocity,
@@ -263,15 +212,7 @@ BodyVelocity GoalDriver::Impl::decide_now(const PlanarPose& pose_M, const BodyVe
   const std::string blindness = senses.blindness(now);
   if (!blindness.empty()) return stop(velocity, blindness, now);
   if (watch.waited_s(now) <= settings.patience_s) return drive(pose_M, velocity, now);
-  const std::string goal = fmt::format("goal ({:.2f}, {:.2f})", goal_M.x, goal_M.y);
-  std::string why = fmt::format("no nearer for {:.0f} s", settings.patience_s);
-  if (hindrance == Hindrance::kMoving) {
-    why = "somebody keeps moving in the way";
-  } else if (block_M) {
-    why = fmt::format("what is not on the map stands in the way at ({:.2f}, {:.2f})", block_M->x(),
-                      block_M->y());
-  }
-  end(DriveState::kFailed, goal + ": " + why);
+  end(DriveState::kFailed, why_no_nearer());
   return {};
 }
 
@@ -282,23 +223,17 @@ GoalDriver::GoalDriver(GoalDriver&&) noexcept = default;
 
 void GoalDriver::set_map(const OccupancyGrid& map) {
   impl_->senses.set_map(map);
-  impl_->map_is_new = true;
+  impl_->route.map_changed();
 }
 
 void GoalDriver::set_goal(const PlanarPose& goal_M, const PlanarPose& pose_M, Time now) {
   Impl& self = *impl_;
   self.end(DriveState::kIdle, "");
   self.goal_M = goal_M;
-  self.block_M.reset();
   if (self.senses.map().cells.empty()) return self.end(DriveState::kRefused, "there is no map");
-  const std::string refusal = self.plan_anew(pose_M, now);
+  const std::string refusal = self.route.begin(self.senses, pose_M, goal_M, now);
   if (!refusal.empty()) return self.end(DriveState::kRefused, refusal);
   self.state = DriveState::kDriving;
-  self.phase = Phase::kFollow;
-  self.attempts = 0;
-  self.hindrance = Hindrance::kNone;
-  self.last_yaw = pose_M.yaw;
-  self.pursuit->follow(pose_M);
   self.watch.begin(self.remaining_m(pose_M), now);
 }
 
@@ -311,27 +246,20 @@ void GoalDriver::see(const LaserScan& scan, const PlanarPose& pose_M) {
 BodyVelocity GoalDriver::next(const PlanarPose& pose_M, const BodyVelocity& velocity, Time now) {
   Impl& self = *impl_;
   if (self.state != DriveState::kDriving) return {};
-  if (self.decided && now < *self.decided) {
-    // Time has gone back: all that was timed begins anew, and nothing that was seen counts.
-    self.senses.forget();
-    self.watch.begin(1e9, now);
-    self.planned = now;
-    self.phase_began = now;
-    self.blocked_since.reset();
-    self.decided.reset();
-  }
+  if (self.decided && now < *self.decided) self.rewind(now);
   // A little less than the period, so that a caller's rounded stamps don't make it one step longer.
   const Duration period = duration_from_seconds(0.999 * self.local.period_s);
   if (self.decided && now - *self.decided < period) return self.command;
   self.decided = now;
-  const BodyVelocity present = is_finite(velocity) ? velocity : self.command;
-  const BodyVelocity command = self.decide_now(pose_M, present, now);
+  const BodyVelocity command =
+      self.decide_now(pose_M, is_finite(velocity) ? velocity : self.command, now);
+  // Where that has ended the drive, the command is to stand already.
   if (self.state == DriveState::kDriving) self.command = command;
-  return self.state == DriveState::kDriving ? command : BodyVelocity{};
+  return self.command;
 }
 
 DriveState GoalDriver::state() const { return impl_->state; }
 const std::string& GoalDriver::reason() const { return impl_->reason; }
-const std::vector<Eigen::Vector2d>& GoalDriver::path() const { return impl_->way; }
+const std::vector<Eigen::Vector2d>& GoalDriver::path() const { return impl_->route.way(); }
 
 }  // namespace tagfield

@@ -159,8 +159,31 @@ void consider_evasions(Chooser& chooser, const LocalSettings& settings) {
   }
 }
 
+/// The rest of the evasion `begun`, while it will do, or else the best of all: nobody gets out of a
+/// way by going to and fro.
+Manoeuvre evasion(Chooser going_on, Chooser anew, const Manoeuvre* begun,
+                  const LocalSettings& settings) {
+  if (begun != nullptr) going_on.consider(rest_of(*begun, settings.period_s), 0.0);
+  if (going_on.best().badness == 0.0) return going_on.best().manoeuvre;
+  consider_evasions(anew, settings);
+  return anew.best().manoeuvre;
+}
+
 bool is_same(const BodyVelocity& a, const BodyVelocity& b) {
   return std::abs(a.forward - b.forward) < 1e-9 && std::abs(a.turn - b.turn) < 1e-9;
+}
+
+/// The best of what comes near to what is wanted, where that is allowed with `gap_m` to those who
+/// move.
+Candidate best_nominal(Chooser chooser, const BodyVelocity& wanted, const BodyVelocity& last,
+                       const Surroundings& around, const LocalSettings& settings) {
+  if (around.clear_now_m < settings.size.radius_m) {
+    consider_ways_out(chooser, settings);
+    return chooser.best();
+  }
+  consider_nominal(chooser, wanted, last, settings, kHold);
+  if (!around.moving.empty()) consider_nominal(chooser, wanted, last, settings, kLongHold);
+  return chooser.best();
 }
 
 }  // namespace
@@ -179,31 +202,16 @@ Decision decide(const PlanarPose& pose_M, const BodyVelocity& present, const Bod
   const auto chooser_for = [&](double gap_m) {
     return Chooser(rollouts, wanted, around, gap_m, settings);
   };
-  Chooser nominal = chooser_for(margin + (was_evading ? kSurelyOver : 0.0));
-  const BodyVelocity last_velocity = last ? last->manoeuvre.first : present;
-  if (around.clear_now_m < settings.size.radius_m) {
-    consider_ways_out(nominal, settings);
-  } else {
-    consider_nominal(nominal, wanted, last_velocity, settings, kHold);
-    if (!around.moving.empty()) {
-      consider_nominal(nominal, wanted, last_velocity, settings, kLongHold);
-    }
-  }
+  const Candidate nominal =
+      best_nominal(chooser_for(margin + (was_evading ? kSurelyOver : 0.0)), wanted,
+                   last ? last->manoeuvre.first : present, around, settings);
   Decision decision;
-  decision.manoeuvre = nominal.best().manoeuvre;
-  if (nominal.best().badness > 0.0) {
-    // What is not allowed is not driven for the sake of what stands: the robot brakes.
-    decision.manoeuvre = {};
-    decision.is_evading = !around.moving.empty();
-  }
+  // What is not allowed is not driven for the sake of what stands: the robot brakes.
+  if (nominal.badness == 0.0) decision.manoeuvre = nominal.manoeuvre;
+  decision.is_evading = nominal.badness > 0.0 && !around.moving.empty();
   if (decision.is_evading) {
-    // An evasion that was begun is carried on with: nobody gets out of a way by going to and fro.
-    Chooser going_on = chooser_for(margin - kGoesOn);
-    if (was_evading) going_on.consider(rest_of(last->manoeuvre, settings.period_s), 0.0);
-    Chooser evasive = chooser_for(margin);
-    if (going_on.best().badness > 0.0) consider_evasions(evasive, settings);
-    decision.manoeuvre =
-        going_on.best().badness > 0.0 ? evasive.best().manoeuvre : going_on.best().manoeuvre;
+    decision.manoeuvre = evasion(chooser_for(margin - kGoesOn), chooser_for(margin),
+                                 was_evading ? &last->manoeuvre : nullptr, settings);
   }
   decision.command =
       limited(target_at(decision.manoeuvre, 0.0), present, settings.limits, settings.period_s);

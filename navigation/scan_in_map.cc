@@ -40,6 +40,25 @@ Eigen::Vector2d carried(const PlanarPose& pose_M, const BodyVelocity& velocity, 
   return transformed(advance(pose_M, velocity, later_s), {in_robot.x, in_robot.y});
 }
 
+void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVelocity& velocity,
+                   ScanInMap& seen) {
+  const double interval_s = to_seconds(scan.beam_interval);
+  // Directions of neighbouring beams follow from each other by a turn, which is quicker than sines.
+  const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
+  Eigen::Vector2d direction_M(std::cos(first_angle), std::sin(first_angle));
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (beam_of(scan, scan.ranges_m[i]) == Beam::kReturn) {
+      const auto range = static_cast<double>(scan.ranges_m[i]);
+      const double later_s = static_cast<double>(i) * interval_s;
+      const Eigen::Vector2d point_M = position_of(seen.q_ML) + range * direction_M;
+      seen.returns.push_back(
+          {later_s > 0.0 ? carried(pose_M, velocity, later_s, point_M) : point_M, range, i});
+    }
+    direction_M = turn * direction_M;
+  }
+}
+
 bool is_sound(const LaserScan& scan) {
   return std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad) &&
          scan.angle_step_rad > 0.0 && std::isfinite(scan.least_range_m) &&
@@ -73,30 +92,16 @@ ScanInMap scan_in_map(const LaserScan& scan, const RigidTransform& X_RL, const P
   if (!is_sound(scan)) return seen;
   seen.first_angle_rad = scan.first_angle_rad;
   seen.angle_step_rad = scan.angle_step_rad;
-  const double interval_s = to_seconds(scan.beam_interval);
-  // Directions of neighbouring beams follow from each other by a turn, which is far quicker than
-  // sines.
-  const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
-  Eigen::Vector2d direction_M(std::cos(first_angle), std::sin(first_angle));
-  const Eigen::Rotation2Dd step(scan.angle_step_rad);
-  const Eigen::Matrix2d turn = step.toRotationMatrix();
-  std::size_t valid = 0;
-  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const float range = scan.ranges_m[i];
+  for (const float range : scan.ranges_m) {
     const Beam beam = beam_of(scan, range);
-    valid += beam == Beam::kInvalid ? 0 : 1;
     const double clear = beam == Beam::kNothing ? scan.most_range_m : static_cast<double>(range);
     seen.clear_m.push_back(beam == Beam::kInvalid ? 0.0 : clear);
-    if (beam == Beam::kReturn) {
-      const double later_s = static_cast<double>(i) * interval_s;
-      const Eigen::Vector2d point_M = position_of(seen.q_ML) + clear * direction_M;
-      seen.returns.push_back(
-          {later_s > 0.0 ? carried(pose_M, velocity, later_s, point_M) : point_M, clear, i});
-    }
-    direction_M = turn * direction_M;
   }
+  place_returns(scan, pose_M, velocity, seen);
+  const auto valid = std::count_if(seen.clear_m.begin(), seen.clear_m.end(),
+                                   [](double clear) { return clear > 0.0; });
   if (valid > 0) {
-    seen.valid_share = static_cast<double>(valid) / static_cast<double>(scan.ranges_m.size());
+    seen.valid_share = static_cast<double>(valid) / static_cast<double>(seen.clear_m.size());
   }
   find_blind(scan, seen);
   return seen;

@@ -99,6 +99,22 @@ TEST(GoalDriver, NeedsAMap) {
   EXPECT_THROW(driver.set_map(torn), Error);
 }
 
+TEST(GoalDriver, RefusesSettingsThatMakeNoSense) {
+  GoalDriverSettings settings;
+  settings.rate_hz = 0.0;
+  EXPECT_THROW(GoalDriver(settings, kLaser), Error);
+  settings = {};
+  settings.margin_m = -0.1;
+  EXPECT_THROW(GoalDriver(settings, kLaser), Error);
+  settings = {};
+  settings.limits.acceleration_m_s2 = kNan;
+  EXPECT_THROW(GoalDriver(settings, kLaser), Error);
+  settings = {};
+  settings.margin_m = 0.0;
+  settings.clearance_m = 0.0;
+  EXPECT_NO_THROW(GoalDriver(settings, kLaser));
+}
+
 TEST(GoalDriver, ReachesGoalsAroundACornerAndOnTheSpot) {
   const std::vector<PlanarPose> goals = {
       {8.0, 3.0, 1.0}, {2.0, 3.0, -2.0}, {2.0, 3.0, 2.0}, {1.9, 3.0, 2.0}, {2.0, 3.0, 2.0}};

@@ -1,0 +1,34 @@
+/// @file
+/// What a robot tries that gets nowhere.
+#pragma once
+
+#include <optional>
+
+#include "tagfield/base/time.h"
+#include "tagfield/motion/speed_limits.h"
+#include "tagfield/motion/unicycle.h"
+
+namespace tagfield {
+
+/// By turns looks around, since its laser sees only ahead, and backs up a little.
+class Recovery {
+ public:
+  /// Begins the next try.
+  void begin(const PlanarPose& pose_M, Time now);
+  /// Ends a try, and begins with looking around the next time.
+  void reset();
+  [[nodiscard]] bool is_on() const { return trying_ != Trying::kNothing; }
+  /// What to drive, were nothing in the way; none once the try is over, or none was begun.
+  std::optional<BodyVelocity> wanted(const PlanarPose& pose_M, Time now, const SpeedLimits& limits);
+
+ private:
+  enum class Trying { kNothing, kLookAround, kBackUp };
+
+  Trying trying_ = Trying::kNothing;
+  int tries_ = 0;
+  Time began_;
+  double turned_rad_ = 0.0;
+  double last_yaw_ = 0.0;
+};
+
+}  // namespace tagfield
