@@ -158,6 +158,7 @@ double GridMapper::effective_particles() const {
 
 void GridMapper::resample() {
   std::vector<double> log_weights;
+  log_weights.reserve(particles_.size());
   for (const Particle& particle : particles_) log_weights.push_back(particle.log_weight);
   std::vector<std::size_t> chosen;
   {

@@ -248,11 +248,13 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
     bin.sum += w * Eigen::Vector4d(q.x, q.y, std::cos(q.phi), std::sin(q.phi));
   }
   std::vector<Bin> sorted;
+  sorted.reserve(bins.size());
   for (const auto& [place, bin] : bins) sorted.push_back(bin);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Bin& a, const Bin& b) { return a.weight > b.weight; });
   if (sorted.size() > kOpinions) sorted.resize(kOpinions);
   std::vector<PlanarPose> poses;
+  poses.reserve(sorted.size());
   for (const Bin& bin : sorted) {
     const Eigen::Vector4d mean = bin.sum / bin.weight;
     poses.push_back({mean.x(), mean.y(), std::atan2(mean.w(), mean.z())});
@@ -270,6 +272,7 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::lattice_opinions(
   for (int turn = 0; turn < kLatticeTurns; ++turn) {
     const PlanarPose turned{0.0, 0.0, turn * kTwoPi / kLatticeTurns};
     std::vector<Eigen::Vector2d> ends;
+    ends.reserve(few.size());
     for (const Eigen::Vector2d& p_R : few) ends.push_back(transformed(turned, p_R));
     for (int y = 0; y < map.height; y += step) {
       for (int x = 0; x < map.width; x += step) {
@@ -291,6 +294,7 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::lattice_opinions(
   std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count),
                     places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<PlanarPose> best;
+  best.reserve(count);
   for (std::size_t i = 0; i < count; ++i) best.push_back(places[i].second);
   return best;
 }
@@ -450,6 +454,7 @@ MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map,
   impl_->map = map;
   impl_->walls = walls_of(map);
   std::vector<bool> occupied;
+  occupied.reserve(map.cells.size());
   for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
   impl_->wall_distance = distance_field(map, occupied, 1.0);
   impl_->configure();
@@ -501,6 +506,7 @@ int MonteCarloLocalizer::times_lost() const { return impl_->times_lost; }
 
 std::vector<PlanarPose> MonteCarloLocalizer::particles() const {
   std::vector<PlanarPose> poses;
+  poses.reserve(impl_->filter.m_particles.size());
   for (const auto& particle : impl_->filter.m_particles) {
     poses.push_back({particle.d.x, particle.d.y, particle.d.phi});
   }
