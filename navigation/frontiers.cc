@@ -73,7 +73,7 @@ Eigen::Vector2i middle_of(const Cells& cells) {
 Eigen::Vector2i unknown_beside(const OccupancyGrid& grid, const Eigen::Vector2i& cell) {
   for (const Eigen::Vector2i& step : {Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0),
                                       Eigen::Vector2i(0, 1), Eigen::Vector2i(0, -1)}) {
-    const Eigen::Vector2i beside = cell + step;
+    Eigen::Vector2i beside = cell + step;
     if (grid.contains(beside.x(), beside.y()) && grid.at(beside.x(), beside.y()) < 0) return beside;
   }
   return cell;

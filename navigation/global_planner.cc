@@ -117,7 +117,7 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
               const std::optional<Eigen::Vector2i>& until) {
   const OccupancyGrid& grid = floor.grid;
   Spread result{std::vector<std::int32_t>(grid.cells.size(), Spread::kUnreached),
-                std::vector<std::int8_t>(grid.cells.size(), -1)};
+                std::vector<std::uint8_t>(grid.cells.size(), Spread::kNowhere)};
   if (floor.weight(from.x(), from.y()) == 0) return result;
   Waiting waiting;
   // With an end in view this is A*, else Dijkstra's algorithm.
@@ -137,7 +137,7 @@ Spread spread(const FloorRoom& floor, const Eigen::Vector2i& from,
       const std::int32_t total = cost + step.length * (floor.weights[here] + weight) / 2;
       if (result.costs[there] >= 0 && result.costs[there] <= total) continue;
       result.costs[there] = total;
-      result.back[there] = static_cast<std::int8_t>(k ^ 1U);
+      result.back[there] = static_cast<std::uint8_t>(k ^ 1U);
       waiting.add({total, x + step.x, y + step.y}, total + ahead(x + step.x, y + step.y));
     }
   }
@@ -148,9 +148,9 @@ std::vector<Eigen::Vector2i> way_back(const FloorRoom& floor, const Spread& spre
                                       const Eigen::Vector2i& cell) {
   std::vector<Eigen::Vector2i> way = {cell};
   for (;;) {
-    const std::int8_t back = spread.back[floor.grid.index(way.back().x(), way.back().y())];
-    if (back < 0) return way;
-    const Step& step = kSteps[static_cast<std::size_t>(back)];
+    const std::uint8_t back = spread.back[floor.grid.index(way.back().x(), way.back().y())];
+    if (back == Spread::kNowhere) return way;
+    const Step& step = kSteps[back];
     way.emplace_back(way.back().x() + step.x, way.back().y() + step.y);
   }
 }

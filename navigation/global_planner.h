@@ -21,9 +21,11 @@ namespace tagfield {
 /// The cheapest ways from one cell to all others.
 struct Spread {
   static constexpr std::int32_t kUnreached = -1;
+  static constexpr std::uint8_t kNowhere = 255;
   /// About 12 for the length of a cell at weight 1; row by row as the grid.
   std::vector<std::int32_t> costs;
-  std::vector<std::int8_t> back;  ///< Which of the eight neighbours leads back to the start.
+  /// Which of the eight neighbours leads back to the start; kNowhere at it and where unreached.
+  std::vector<std::uint8_t> back;
 };
 
 /// From cell `from` over cells with weight; ends early once `until` is reached.
