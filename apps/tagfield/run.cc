@@ -55,6 +55,7 @@ std::string folder_name(const std::string& name) {
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
   std::vector<AntennaPose> poses;
+  poses.reserve(path.size());
   for (const StampedPose& pose : path) poses.push_back({pose.stamp, "robot", pose.X_WB});
   return poses;
 }

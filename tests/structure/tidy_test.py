@@ -10,6 +10,7 @@ included one after the other in one file; where those don't go together, at each
 import argparse
 import concurrent.futures
 import dataclasses
+import functools
 import json
 import os
 import pathlib
@@ -21,12 +22,16 @@ import sys
 import tempfile
 
 SKIPPED = 77
-MOST_SOURCES = 12  # in a unit; more take a gigabyte of memory
+MOST_SOURCES = 48  # in a unit; more take more than a gigabyte of memory
 PLANTED = "int f(int a) { int b; if (a) b = a; return b; }\n"
 COMPLAINT = "planted.cc:1:20: error: variable 'b' is not initialized"
+# Templates that nobody uses are not read, which are most of those in libraries' headers.
+READ_LESS = "-fdelayed-template-parsing"
 FAILS_TO_COMPILE = "[clang-diagnostic-error]"
-DEFINITION = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)|.*?(\w+)\s*[({=;\[]")
+DEFINITION = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)|.*?([\w:]+)\s*[({=;\[]")
 ALIAS = re.compile(r"using (\w+) = (.*)")
+HEADER = re.compile(r'^#include "(.*)"$', re.MULTILINE)
+TYPE = re.compile(r"^(?:struct|class|union|enum class|enum|using) (\w+)", re.MULTILINE)
 
 
 @dataclasses.dataclass
@@ -36,6 +41,7 @@ class Unit:
     flags: list  # all that any of them is compiled with
     sources: list
     names: dict  # what they define for themselves: name -> where, or what an alias stands for
+    types: set  # names of the project's types that they see
 
 
 # --- What is built --------------------------------------------------------------------------------
@@ -70,10 +76,16 @@ def sources_of(database, top):
 
 # --- Units ----------------------------------------------------------------------------------------
 
+def is_own(name):
+    """Not a member, a name of another namespace, or what only looks like a name."""
+    return "::" not in name and name not in ("static_assert", "BENCHMARK")
+
+
 def own_names(path):
-    """What a source defines in its unnamed namespaces; good enough to guess what goes together."""
+    """What a source defines in its unnamed namespaces, and main(); good enough to guess what goes
+    together."""
     text = pathlib.Path(path).read_text(encoding="utf-8")
-    names = {}
+    names = {"main": path} if re.search(r"^(int main|BENCHMARK_MAIN)\(", text, re.MULTILINE) else {}
     for block in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.DOTALL | re.MULTILINE):
         for line in block.split("\n"):
             alias = ALIAS.match(line)
@@ -82,29 +94,51 @@ def own_names(path):
                 names[alias.group(1)] = alias.group(2)
             elif definition and re.match(r"\w", line):
                 names[definition.group(1) or definition.group(2)] = path
-    return names
+    return {name: what for name, what in names.items() if is_own(name)}
 
 
-def go_together(unit, flags, names):
-    def standard(words):
-        return [word for word in words if word.startswith("-std=")]
-    return (len(unit.sources) < MOST_SOURCES and standard(unit.flags) == standard(flags) and
-            all(names[name] == unit.names[name] for name in names.keys() & unit.names.keys()))
+@functools.cache
+def seen_types(path, top):
+    """Types that a file or the project's headers that it includes declare outside of all else."""
+    path = pathlib.Path(path)
+    if not path.exists():
+        return frozenset()  # made by the build
+    text = path.read_text(encoding="utf-8")
+    found = set(TYPE.findall(text)) if path.suffix == ".h" else set()
+    return frozenset(found.union(*(seen_types(top / name, top) for name in HEADER.findall(text))))
 
 
-def units_of(sources):
+def go_together(one, other):
+    def standard(unit):
+        return [flag for flag in unit.flags if flag.startswith("-std=")]
+    return (len(one.sources) + len(other.sources) <= MOST_SOURCES and
+            standard(one) == standard(other) and
+            all(one.names[name] == other.names[name] for name in one.names.keys() & other.names) and
+            not one.types & other.names.keys() and not other.types & one.names.keys())
+
+
+def units_of(sources, top):
     """Each source in the first unit that it goes together with."""
     units = []
     for path, flags in sorted(sources.items()):
-        names = own_names(path)
-        unit = next((unit for unit in units if go_together(unit, flags, names)), None)
+        alone = Unit(flags, [path], own_names(path), set(seen_types(path, top)))
+        unit = next((unit for unit in units if go_together(unit, alone)), None)
         if unit is None:
-            unit = Unit([], [], {})
-            units.append(unit)
+            units.append(alone)
+            continue
         unit.flags += [flag for flag in flags if flag not in unit.flags]
         unit.sources.append(path)
-        unit.names.update(names)
+        unit.names.update(alone.names)
+        unit.types |= alone.types
     return units
+
+
+def part_of(units, part, of):
+    """Those of one of so many parts, each of about as many sources."""
+    parts = [[] for _ in range(of)]
+    for unit in sorted(units, key=lambda unit: -len(unit.sources)):
+        min(parts, key=lambda units: sum(len(unit.sources) for unit in units)).append(unit)
+    return parts[part - 1]
 
 
 # --- clang-tidy -----------------------------------------------------------------------------------
@@ -121,7 +155,7 @@ class Tidy:
                         f"--header-filter=({headers}|\\.cc$)"]
 
     def said_of(self, path, flags):
-        done = subprocess.run([*self.command, path, "--", *flags], stdout=subprocess.PIPE,
+        done = subprocess.run([*self.command, path, "--", READ_LESS, *flags], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, check=False)
         return (done.stdout or done.stderr) if done.returncode else ""
 
@@ -135,7 +169,9 @@ class Tidy:
         if FAILS_TO_COMPILE not in said or len(unit.sources) == 1:
             return said
         print(f"not together: {' '.join(unit.sources)}")
-        return "".join(self.said_of(path, unit.flags) for path in unit.sources)
+        middle = len(unit.sources) // 2
+        return "".join(self.look_at(dataclasses.replace(unit, sources=sources))
+                       for sources in (unit.sources[:middle], unit.sources[middle:]))
 
 
 def notices(tidy):
@@ -143,7 +179,7 @@ def notices(tidy):
     for name, text in (("good.cc", "int g() { return 1; }\n"), ("planted.cc", PLANTED)):
         (tidy.folder / name).write_text(text, encoding="utf-8")
     sources = [str(tidy.folder / name) for name in ("good.cc", "planted.cc")]
-    return COMPLAINT in tidy.look_at(Unit(["-std=c++20"], sources, {}))
+    return COMPLAINT in tidy.look_at(Unit(["-std=c++20"], sources, {}, set()))
 
 
 def main():
@@ -160,7 +196,7 @@ def main():
     if len(sources) < 50:
         sys.exit(f"only {len(sources)} sources in the compile database: looked in the wrong place?")
     part, of = map(int, arguments.part.split("/"))
-    units = units_of(sources)[part - 1::of]
+    units = part_of(units_of(sources, top), part, of)
     with tempfile.TemporaryDirectory(prefix="tidy_test-") as folder:
         tidy = Tidy(top, folder)
         if not notices(tidy):

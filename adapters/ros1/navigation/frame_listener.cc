@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kFrameQueue = 1000;
 /// What is dated so far ahead is left from before time went back [s].
 constexpr double kFarAhead = 5.0;
 
@@ -19,8 +19,8 @@ FrameListener::FrameListener(ros::NodeHandle& node, std::function<void()> on_cha
   using Message = tf2_msgs::TFMessage;
   const auto changing = [this](const boost::shared_ptr<const Message>& m) { take(*m, false); };
   const auto fixed = [this](const boost::shared_ptr<const Message>& m) { take(*m, true); };
-  changing_ = node.subscribe<Message>("/tf", kQueue, changing);
-  fixed_ = node.subscribe<Message>("/tf_static", kQueue, fixed);
+  changing_ = node.subscribe<Message>("/tf", kFrameQueue, changing);
+  fixed_ = node.subscribe<Message>("/tf_static", kFrameQueue, fixed);
 }
 
 void FrameListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
@@ -67,7 +67,8 @@ std::string FrameListener::trouble(const std::string& F, const std::string& B) c
 }
 
 MapFrameTeller::MapFrameTeller(ros::NodeHandle& node, FrameNames names)
-    : names_(std::move(names)), publisher_(node.advertise<tf2_msgs::TFMessage>("/tf", kQueue)) {}
+    : names_(std::move(names)),
+      publisher_(node.advertise<tf2_msgs::TFMessage>("/tf", kFrameQueue)) {}
 
 void MapFrameTeller::tell(const PlanarPose& pose_M, const PlanarPose& odometry, Time stamp) {
   // X_MO = X_MR X_RO.

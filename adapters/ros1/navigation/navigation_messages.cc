@@ -17,7 +17,8 @@ constexpr double kLeastVariance = 1e-6;
 constexpr double kStraight = 1e-6;
 constexpr int kMostCells = 100'000;  ///< Along one side.
 
-RigidTransform checked(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
+RigidTransform checked_pose(const Eigen::Quaterniond& rotation,
+                            const Eigen::Vector3d& translation) {
   if (!translation.allFinite()) throw Error("position is not finite");
   const double norm = rotation.norm();
   if (!(norm > 0.9 && norm < 1.1)) {
@@ -135,13 +136,13 @@ nav_msgs::OccupancyGrid grid_message(const OccupancyGrid& grid, const std::strin
 RigidTransform transform_of(const geometry_msgs::Pose& message) {
   const auto& q = message.orientation;
   const auto& p = message.position;
-  return checked({q.w, q.x, q.y, q.z}, {p.x, p.y, p.z});
+  return checked_pose({q.w, q.x, q.y, q.z}, {p.x, p.y, p.z});
 }
 
 RigidTransform transform_of(const geometry_msgs::Transform& message) {
   const auto& q = message.rotation;
   const auto& p = message.translation;
-  return checked({q.w, q.x, q.y, q.z}, {p.x, p.y, p.z});
+  return checked_pose({q.w, q.x, q.y, q.z}, {p.x, p.y, p.z});
 }
 
 geometry_msgs::Pose planar_message(const PlanarPose& pose) {

@@ -10,7 +10,7 @@ namespace tagfield {
 namespace {
 
 /// A node that is busy takes up the newest of so many scans.
-constexpr std::uint32_t kQueue = 5;
+constexpr std::uint32_t kScanQueue = 5;
 /// Scans wait for tf so long [s].
 constexpr double kPatience = 1.0;
 constexpr double kSaySeldom = 5.0;
@@ -30,7 +30,7 @@ ScanSource::ScanSource(ros::NodeHandle& node, const FrameListener& frames, Frame
       on_scan_(std::move(on_scan)) {
   using Message = sensor_msgs::LaserScan;
   const auto hear = [this](const boost::shared_ptr<const Message>& message) { take(*message); };
-  subscriber_ = node.subscribe<Message>("scan", kQueue, hear);
+  subscriber_ = node.subscribe<Message>("scan", kScanQueue, hear);
 }
 
 void ScanSource::forget() {
