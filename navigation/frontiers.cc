@@ -6,17 +6,23 @@
 #include "navigation/floor_room.h"
 #include "navigation/global_planner.h"
 #include "navigation/grid_line.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kGivenUpReach = 0.5;
+/// Looks at places so near to each other, or from such places in such directions, are the same.
+constexpr double kSamePlace = 0.5;
+constexpr double kSameDirection = 0.5;
 /// Metres of way that a metre of frontier is worth, and from which size on more is worth no more.
 constexpr double kWayForSize = 1.0;
 constexpr double kMostSize = 5.0;
 /// The robot need not come nearer to a frontier than this to look into it.
 constexpr double kNearEnough = 0.5;
+/// What is seen at less than this (sine) counts as seen at this.
+constexpr double kLeastSlant = 0.05;
 constexpr std::size_t kCellsBetweenTries = 10;
 
 using Cells = std::vector<Eigen::Vector2i>;
@@ -92,40 +98,93 @@ bool can_see_unknown(const OccupancyGrid& grid, const Eigen::Vector2d& from,
 
 /// What a search for a place to stand needs.
 struct Reach {
+  const OccupancyGrid& seen;
   const FloorRoom& floor;
   const Spread& ways;  ///< From the robot.
   double least_m;      ///< From the robot's centre to obstacles.
   double sight_m;
 };
 
-/// The place that can be reached, sees into the unknown beside `target` and is nearest to
-/// kNearEnough from it.
-std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::Vector2i& target) {
-  const OccupancyGrid& grid = reach.floor.grid;
-  const Eigen::Vector2d target_M = grid.centre_of(target.x(), target.y());
-  const Eigen::Vector2i unknown = unknown_beside(grid, target);
-  const Eigen::Vector2d unknown_M = grid.centre_of(unknown.x(), unknown.y());
-  const int most = static_cast<int>(reach.sight_m / grid.resolution_m);
-  std::optional<Eigen::Vector2i> best;
-  double best_excess = reach.sight_m;
-  for (int ring = 0; ring <= most; ++ring) {
-    // All cells of this ring and the next are at least so far off.
-    if (best && ring * grid.resolution_m - kNearEnough > best_excess) break;
-    for (int y = target.y() - ring; y <= target.y() + ring; ++y) {
-      const bool is_edge = std::abs(y - target.y()) == ring;
-      for (int x = target.x() - ring; x <= target.x() + ring; x += is_edge ? 1 : 2 * ring) {
-        if (!grid.contains(x, y) || reach.ways.costs[grid.index(x, y)] < 0) continue;
-        const Eigen::Vector2d place = grid.centre_of(x, y);
-        const double excess = std::abs((place - target_M).norm() - kNearEnough);
-        if (excess >= best_excess || !can_see_unknown(grid, place, unknown_M)) continue;
-        // A goal is held to this exactly, not from cell to cell.
-        if (distance_to_occupied(grid, place, reach.least_m) < reach.least_m) continue;
-        best = Eigen::Vector2i(x, y);
-        best_excess = excess;
-      }
+/// Calls `visit(x, y)` for the free cells that see `unknown` in a straight line, some more than
+/// once.
+template <typename Visit>
+void for_all_that_see(const OccupancyGrid& grid, const Eigen::Vector2i& unknown, double sight_m,
+                      Visit visit) {
+  // Neighbouring rays end half a cell apart.
+  const int rays = static_cast<int>(std::ceil(2.0 * kTwoPi * sight_m / grid.resolution_m));
+  const Eigen::Vector2d from = grid.centre_of(unknown.x(), unknown.y());
+  for (int i = 0; i < rays; ++i) {
+    const double angle = i * kTwoPi / rays;
+    bool is_out = false;  // Of the unknown.
+    along_line(grid, from, from + sight_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)),
+               [&](int x, int y, double) {
+                 if (!grid.contains(x, y)) return false;
+                 const std::int8_t cell = grid.at(x, y);
+                 if (cell < 0) return !is_out;
+                 if (cell > 0) return false;
+                 is_out = true;
+                 visit(x, y);
+                 return true;
+               });
+  }
+}
+
+/// Direction from what is known to what is not about a frontier's cell, of length 1; 0 where that
+/// is not clear.
+Eigen::Vector2d into_unknown(const OccupancyGrid& grid, const Eigen::Vector2i& cell) {
+  constexpr int kReach = 3;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      const bool is_unknown = grid.at(cell.x() + x, cell.y() + y) < 0;
+      sum += (is_unknown ? 1.0 : -1.0) * Eigen::Vector2d(x, y);
     }
   }
-  return best;
+  return sum.norm() > 0.0 ? sum.normalized().eval() : sum;
+}
+
+struct Place {
+  double view;  ///< How well it sees the frontier.
+  std::size_t cell;
+};
+
+/// The places that can be reached and see `unknown`, the best first: a beam's share of the sight
+/// grows with the angle at which it looks in, and with nearness up to kNearEnough.
+std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& target,
+                                 const Eigen::Vector2i& unknown) {
+  const OccupancyGrid& grid = reach.seen;
+  const Eigen::Vector2d target_M = grid.centre_of(target.x(), target.y());
+  const Eigen::Vector2d normal = into_unknown(grid, target);
+  std::vector<Place> places;
+  for_all_that_see(grid, unknown, reach.sight_m, [&](int x, int y) {
+    const std::size_t cell = grid.index(x, y);
+    if (reach.ways.costs[cell] < 0) return;
+    const Eigen::Vector2d way = target_M - grid.centre_of(x, y);
+    const double slant = std::max(way.dot(normal) / (way.norm() + 1e-9), kLeastSlant);
+    places.push_back({slant / std::max(way.norm(), kNearEnough), cell});
+  });
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.view > b.view || (a.view == b.view && a.cell < b.cell);
+  });
+  return places;
+}
+
+/// The best place to look into the unknown beside `target` from.
+std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::Vector2i& target) {
+  const OccupancyGrid& grid = reach.seen;
+  const Eigen::Vector2i unknown = unknown_beside(grid, target);
+  const Eigen::Vector2d unknown_M = grid.centre_of(unknown.x(), unknown.y());
+  const std::vector<Place> places = places_to_see(reach, target, unknown);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i > 0 && places[i].cell == places[i - 1].cell) continue;
+    const auto at = static_cast<int>(places[i].cell);
+    const Eigen::Vector2i cell(at % grid.width, at / grid.width);
+    const Eigen::Vector2d place = grid.centre_of(cell.x(), cell.y());
+    // A goal is held to this exactly, not from cell to cell.
+    if (distance_to_occupied(reach.floor.grid, place, reach.least_m) < reach.least_m) continue;
+    if (can_see_unknown(grid, place, unknown_M)) return cell;
+  }
+  return std::nullopt;
 }
 
 double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vector2i& cell) {
@@ -137,25 +196,47 @@ double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vecto
   return length;
 }
 
-std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
-                                    const std::vector<Eigen::Vector2d>& given_up) {
-  const OccupancyGrid& grid = reach.floor.grid;
-  Eigen::Vector2i target = middle_of(cells);
-  std::optional<Eigen::Vector2i> place = standing_place(reach, target);
-  // Where its middle can't be seen, a part of it may.
-  for (std::size_t i = 0; i < cells.size() && !place; i += kCellsBetweenTries) {
-    target = cells[i];
-    place = standing_place(reach, target);
-  }
+bool is_same(const Look& a, const Look& b) {
+  const bool same_place = (position_of(a.from_M) - position_of(b.from_M)).norm() < kSamePlace;
+  const double turned = std::abs(wrap_to_pi(a.from_M.yaw - b.from_M.yaw));
+  return (a.at_M - b.at_M).norm() < kSamePlace || (same_place && turned < kSameDirection);
+}
+
+/// From where to look at the frontier's cell `target`; none where that was done.
+std::optional<Look> new_look(const Reach& reach, const Eigen::Vector2i& target,
+                             const std::vector<Look>& looks) {
+  const OccupancyGrid& grid = reach.seen;
+  const Eigen::Vector2d at = grid.centre_of(target.x(), target.y());
+  const auto was_there = [&](const Look& look) { return (look.at_M - at).norm() < kSamePlace; };
+  if (std::any_of(looks.begin(), looks.end(), was_there)) return std::nullopt;
+  const std::optional<Eigen::Vector2i> place = standing_place(reach, target);
   if (!place) return std::nullopt;
-  const Eigen::Vector2d goal = grid.centre_of(place->x(), place->y());
-  const Eigen::Vector2d look = grid.centre_of(target.x(), target.y()) - goal;
-  for (const Eigen::Vector2d& point : given_up) {
-    if ((point - goal).norm() < kGivenUpReach) return std::nullopt;
+  const Eigen::Vector2d from = grid.centre_of(place->x(), place->y());
+  const Look look{{from.x(), from.y(), std::atan2(at.y() - from.y(), at.x() - from.x())}, at};
+  const auto is_known = [&](const Look& other) { return is_same(look, other); };
+  if (std::any_of(looks.begin(), looks.end(), is_known)) return std::nullopt;
+  return look;
+}
+
+std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
+                                    const std::vector<Look>& looks) {
+  const OccupancyGrid& grid = reach.seen;
+  std::optional<Look> look = new_look(reach, middle_of(cells), looks);
+  // Where its middle can't be seen, a part of it may.
+  for (std::size_t i = 0; i < cells.size() && !look; i += kCellsBetweenTries) {
+    look = new_look(reach, cells[i], looks);
   }
-  return Frontier{{goal.x(), goal.y(), std::atan2(look.y(), look.x())},
-                  static_cast<double>(cells.size()) * grid.resolution_m,
-                  way_length(reach.floor, reach.ways, *place)};
+  if (!look) return std::nullopt;
+  return Frontier{*look, static_cast<double>(cells.size()) * grid.resolution_m,
+                  way_length(reach.floor, reach.ways, grid.cell_of(position_of(look->from_M)))};
+}
+
+/// The ground that the robot stands on is free, seen or not.
+OccupancyGrid with_ground_of(OccupancyGrid seen, const OccupancyGrid& floor) {
+  for (std::size_t i = 0; i < seen.cells.size(); ++i) {
+    if (seen.cells[i] < 0 && floor.cells[i] == 0) seen.cells[i] = 0;
+  }
+  return seen;
 }
 
 double dearness(const Frontier& frontier) {
@@ -164,18 +245,22 @@ double dearness(const Frontier& frontier) {
 
 }  // namespace
 
-std::vector<Frontier> frontiers(const OccupancyGrid& map, const PlanarPose& pose_M,
-                                const std::vector<Eigen::Vector2d>& given_up,
+std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& drivable,
+                                const PlanarPose& pose_M, const std::vector<Look>& looks,
                                 const FrontierOptions& options) {
+  if (map.width != drivable.width || map.height != drivable.height) {
+    throw Error("a map and where to drive on it differ in size");
+  }
   const RobotRoom size{options.radius_m, options.margin_m, 0.0};
   const Eigen::Vector2d robot = position_of(pose_M);
-  const FloorRoom floor = floor_room(map, {}, robot, size);
+  const FloorRoom floor = floor_room(drivable, {}, robot, size);
+  const OccupancyGrid seen = with_ground_of(without_specks(map), floor.grid);
   const Spread ways = spread(floor, floor.grid.cell_of(robot));
   std::vector<Frontier> found;
-  for (const Cells& cells : connected_frontiers(floor.grid)) {
+  for (const Cells& cells : connected_frontiers(seen)) {
     if (static_cast<double>(cells.size()) * map.resolution_m < options.least_size_m) continue;
     const std::optional<Frontier> frontier =
-        frontier_of({floor, ways, size.least_m(), options.sight_m}, cells, given_up);
+        frontier_of({seen, floor, ways, size.least_m(), options.sight_m}, cells, looks);
     if (frontier) found.push_back(*frontier);
   }
   std::stable_sort(found.begin(), found.end(),

@@ -18,18 +18,27 @@ struct FrontierOptions {
   double sight_m = 8.0;       ///< How far the laser is trusted to see.
 };
 
+/// A look at a place.
+struct Look {
+  PlanarPose from_M;     ///< Where to stand, with the place ahead.
+  Eigen::Vector2d at_M;  ///< The place.
+};
+
 /// A frontier is a connected row of free cells beside unknown ones that the robot could see into
 /// (Yamauchi, 1997).
 struct Frontier {
-  PlanarPose goal;      ///< Where to stand, looking at the frontier [map].
+  Look look;            ///< At its middle, or a part that can be seen.
   double size_m = 0.0;  ///< Its length.
-  double way_m = 0.0;   ///< Length of the way to the goal.
+  double way_m = 0.0;   ///< Length of the way to where to look from.
 };
 
-/// All that can be reached from `pose_M`, best first (near and large). Goals within 0.5 m of one of
-/// `given_up` are left out.
-std::vector<Frontier> frontiers(const OccupancyGrid& map, const PlanarPose& pose_M,
-                                const std::vector<Eigen::Vector2d>& given_up,
+/// All on `map` that can be looked into from where the robot at `pose_M` can drive, best first
+/// (near and large). `drivable` is the same map with what else is known to be in the way, such as
+/// things too low for the laser. Places within 0.5 m of one that was looked at are left out, as are
+/// looks from where there was one in nearly the same direction: `looks` that did not close a
+/// frontier won't. Throws Error on maps of different size.
+std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& drivable,
+                                const PlanarPose& pose_M, const std::vector<Look>& looks,
                                 const FrontierOptions& options);
 
 }  // namespace tagfield

@@ -96,7 +96,11 @@ void HitGrid::pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, doubl
   Walk y = walk_along(from.y() / resolution_m_, to.y() / resolution_m_);
   double entered = 0.0;
   while (entered < last) {
-    ++cell_to_change(x.cell, y.cell).passes;
+    HitCell& cell = cell_to_change(x.cell, y.cell);
+    if (cell.last != scans_) {
+      cell.last = scans_;
+      ++cell.passed;
+    }
     Walk& nearer = x.next < y.next ? x : y;
     entered = nearer.next;
     nearer.cell += nearer.step;
@@ -111,9 +115,14 @@ void HitGrid::add_end(const Eigen::Vector2d& end_M) {
   cell.sum_x += static_cast<float>(offset.x());
   cell.sum_y += static_cast<float>(offset.y());
   ++cell.hits;
+  if (cell.last != scans_) {
+    cell.last = scans_;
+    ++cell.ended;
+  }
 }
 
 void HitGrid::add_ends(const std::vector<Eigen::Vector2d>& ends_M) {
+  ++scans_;
   for (const Eigen::Vector2d& end : ends_M) add_end(end);
 }
 
@@ -121,11 +130,12 @@ void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {
   const Eigen::Vector2d from = transformed(pose_M, scan.sensor_R);
   // A beam that ends in a cell says nothing against its neighbours along the wall.
   const double stop_short_m = 1.5 * resolution_m_;
-  for (const Eigen::Vector2d& end_R : scan.ends_R) {
-    const Eigen::Vector2d end = transformed(pose_M, end_R);
-    pass(from, end, stop_short_m);
-    add_end(end);
-  }
+  std::vector<Eigen::Vector2d> ends;
+  ends.reserve(scan.ends_R.size());
+  for (const Eigen::Vector2d& end_R : scan.ends_R) ends.push_back(transformed(pose_M, end_R));
+  // The ends first, since a cell is counted once for each scan.
+  add_ends(ends);
+  for (const Eigen::Vector2d& end : ends) pass(from, end, stop_short_m);
   for (const Eigen::Vector2d& clear_R : scan.clear_R) {
     pass(from, transformed(pose_M, clear_R), 0.0);
   }

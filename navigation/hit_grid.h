@@ -20,13 +20,15 @@ namespace tagfield {
 struct HitCell {
   float sum_x = 0.0F;  ///< Of the ends' offsets from the cell's centre [m].
   float sum_y = 0.0F;
-  std::uint32_t hits = 0;
-  std::uint32_t passes = 0;
+  std::uint32_t hits = 0;    ///< Beams that ended here.
+  std::uint32_t ended = 0;   ///< Scans with such beams,
+  std::uint32_t passed = 0;  ///< and with others alone.
+  std::uint32_t last = 0;    ///< Number of the latest scan that is counted.
 
-  [[nodiscard]] bool is_known() const { return hits + passes > 0; }
-  /// One in seven of the beams ended here, and more than one: a wall that is seen at a slant is
-  /// passed by most beams (Grisetti, Stachniss, Burgard, 2007, ask for a quarter).
-  [[nodiscard]] bool is_occupied() const { return hits > 1 && 7 * hits >= hits + passes; }
+  [[nodiscard]] bool is_known() const { return ended + passed > 0; }
+  /// More than one beam ended here, and beams of one in seven scans. Scans are counted rather than
+  /// beams, since most beams of a scan along a wall pass the cells in which others end.
+  [[nodiscard]] bool is_occupied() const { return hits > 1 && 7 * ended >= ended + passed; }
 };
 
 /// Grows as it is needed. Copies share what has not changed since, so that a filter can copy maps
@@ -71,6 +73,7 @@ class HitGrid {
   void pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m);
 
   double resolution_m_;
+  std::uint32_t scans_ = 0;  ///< That were entered.
   int patch_x0_ = 0;
   int patch_y0_ = 0;
   int patches_x_ = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "navigation/frontiers.h"
+#include "navigation/explorer.h"
 #include "navigation/goal_driver.h"
 #include "navigation/grid_mapper.h"
 #include "tagfield/base/random.h"
@@ -28,18 +28,6 @@ constexpr double kStandStill = 0.7;
 constexpr double kLookAround = 0.7;
 constexpr int kPolishing = 3;
 
-/// Where the robot stands as it begins there is nothing in its way, whatever its laser can't see.
-void clear_start(OccupancyGrid& map, const PlanarPose& start, double radius_m) {
-  const Eigen::Vector2i middle = map.cell_of(position_of(start));
-  const int reach = static_cast<int>(std::ceil(radius_m / map.resolution_m));
-  for (int y = middle.y() - reach; y <= middle.y() + reach; ++y) {
-    for (int x = middle.x() - reach; x <= middle.x() + reach; ++x) {
-      const bool inside = (map.centre_of(x, y) - position_of(start)).norm() <= radius_m;
-      if (inside && map.contains(x, y) && map.at(x, y) < 0) map.cells[map.index(x, y)] = 0;
-    }
-  }
-}
-
 MapperSettings mapper_settings(const NavigationSpec& navigation, int threads) {
   MapperSettings settings = navigation.mapper;
   settings.threads = threads;
@@ -52,17 +40,24 @@ GoalDriverSettings driver_settings(const NavigationSpec& navigation) {
   return settings;
 }
 
+ExplorerOptions explorer_options(const NavigationSpec& navigation) {
+  ExplorerOptions options;
+  options.frontiers.radius_m = navigation.driver.radius_m;
+  options.frontiers.margin_m = navigation.driver.margin_m;
+  return options;
+}
+
 class Surveyor {
  public:
   Surveyor(const NavigationSpec& navigation, const NavigationWorld& world, const RobotSpec& robot,
            std::uint64_t seed, int threads)
       : navigation_(navigation),
         world_(world),
-        start_(robot.start),
         truth_(robot.start),
         senses_(world.laser, navigation.laser, navigation.odometry, seed, stream_key(robot.name)),
         mapper_(mapper_settings(navigation, threads), navigation.laser.X_RL, robot.start, seed),
-        driver_(driver_settings(navigation), navigation.laser.X_RL) {}
+        driver_(driver_settings(navigation), navigation.laser.X_RL),
+        explorer_(explorer_options(navigation), robot.start) {}
 
   void step(double seconds) {
     const PlanarPose believed = mapper_.pose_at(senses_.odometry(senses_.present_seconds()));
@@ -83,7 +78,7 @@ class Surveyor {
     now_ += duration_from_seconds(seconds);
   }
 
-  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] bool finished() const { return explorer_.finished(); }
   [[nodiscard]] double seconds() const { return to_seconds(now_); }
 
   Survey result() {
@@ -95,82 +90,53 @@ class Surveyor {
                                  .asDiagonal();
     survey_.true_end_W = truth_;
     survey_.simulated_s = seconds();
-    survey_.complete = finished_;
+    survey_.complete = finished();
     return std::move(survey_);
   }
 
  private:
   /// Takes up the map as it is now, and a new goal where there is none or it is of no use any more.
   void think(const PlanarPose& believed) {
-    const bool at_end = has_goal_ && driver_.state() != DriveState::kDriving;
+    const bool at_end = goal_ && driver_.state() != DriveState::kDriving;
     const bool due = !planned_ || to_seconds(now_ - *planned_) >= kPlanningInterval;
     if (!due && !at_end) return;
     planned_ = now_;
-    OccupancyGrid seen = mapper_.map();
-    clear_start(seen, start_, navigation_.driver.radius_m + 2.0 * navigation_.driver.margin_m);
-    const OccupancyGrid map = driving_map(seen, world_);
-    driver_.set_map(map);
-    if (at_end) leave_goal();
-    if (finished_ || going_home_) return;
-    const std::vector<Frontier> open = frontiers(map, believed, given_up_, options());
-    if (open.empty()) {
-      going_home_ = true;
-      set_goal(start_, believed);
-      return;
-    }
-    const bool still_open =
-        has_goal_ && std::any_of(open.begin(), open.end(), [this](const Frontier& frontier) {
-          return (position_of(frontier.goal) - position_of(goal_)).norm() < 1.0;
-        });
-    if (!still_open) set_goal(open.front().goal, believed);
+    const OccupancyGrid map = explorer_.with_start(mapper_.map());
+    const OccupancyGrid drivable = driving_map(map, world_);
+    driver_.set_map(drivable);
+    if (at_end) note_end();
+    const std::optional<PlanarPose> goal = explorer_.next(map, drivable, believed, at_end);
+    if (at_end) goal_.reset();
+    if (!goal) return;
+    goal_ = goal;
+    driver_.set_goal(*goal, believed, now_);
+  }
+
+  void note_end() {
+    if (driver_.state() == DriveState::kReached) return;
+    survey_.given_up.push_back(
+        fmt::format("({:.2f}, {:.2f}): {}", goal_->x, goal_->y, driver_.reason()));
   }
 
   BodyVelocity wanted(const PlanarPose& believed) {
     if (seconds() < kStandStill) return {};
     if (turned_ < kTwoPi) return {0.0, kLookAround};
-    return has_goal_ ? driver_.next(believed, velocity_, now_) : BodyVelocity{};
-  }
-
-  [[nodiscard]] FrontierOptions options() const {
-    FrontierOptions options;
-    options.radius_m = navigation_.driver.radius_m;
-    options.margin_m = navigation_.driver.margin_m;
-    return options;
-  }
-
-  void set_goal(const PlanarPose& goal, const PlanarPose& believed) {
-    goal_ = goal;
-    has_goal_ = true;
-    driver_.set_goal(goal, believed, now_);
-  }
-
-  void leave_goal() {
-    has_goal_ = false;
-    if (going_home_) finished_ = true;
-    // Also a place that was reached and still shows as a frontier has nothing more to show.
-    given_up_.push_back(position_of(goal_));
-    if (driver_.state() == DriveState::kReached) return;
-    survey_.given_up.push_back(
-        fmt::format("({:.2f}, {:.2f}): {}", goal_.x, goal_.y, driver_.reason()));
+    return goal_ ? driver_.next(believed, velocity_, now_) : BodyVelocity{};
   }
 
   const NavigationSpec& navigation_;
   const NavigationWorld& world_;
-  PlanarPose start_;
   PlanarPose truth_;
   RobotSenses senses_;
   GridMapper mapper_;
   GoalDriver driver_;
+  Explorer explorer_;
   BodyVelocity velocity_;
   double turned_ = 0.0;  ///< [rad], in either direction.
   Time now_;
   Time last_path_;
   std::optional<Time> planned_;
-  std::vector<Eigen::Vector2d> given_up_;
-  PlanarPose goal_;
-  bool has_goal_ = false;
-  bool going_home_ = false;
-  bool finished_ = false;
+  std::optional<PlanarPose> goal_;
   Survey survey_;
 };
 

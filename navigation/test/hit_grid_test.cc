@@ -23,7 +23,7 @@ TEST(HitGrid, ABeamFreesItsWayAndHitsItsEnd) {
   for (int i = 0; i < 2; ++i) grid.insert(beam_to(1.04), {0.0, 0.05, 0.0});
   EXPECT_TRUE(grid.at(10, 0).is_occupied());
   for (int x = 0; x < 9; ++x) {
-    EXPECT_EQ(grid.at(x, 0).passes, 2U) << x;
+    EXPECT_EQ(grid.at(x, 0).passed, 2U) << x;
     EXPECT_FALSE(grid.at(x, 0).is_occupied()) << x;
   }
   // Nothing is said of what is just before the end, and beyond it.
@@ -39,6 +39,29 @@ TEST(HitGrid, TheMeanOfTheEndsIsFinerThanTheCell) {
   ASSERT_EQ(cell.hits, 3U);
   EXPECT_NEAR(grid.mean_of(10, 0, cell).x(), 1.03, 1e-6);
   EXPECT_NEAR(grid.mean_of(10, 0, cell).y(), 0.05, 1e-6);
+}
+
+TEST(HitGrid, ScansAreCountedNotBeams) {
+  // A wall along x, at a slant: of each scan one beam ends in a cell and many pass it.
+  HitGrid grid(0.1);
+  ScanPoints scan{{0.0, 0.5}, {}, {}};
+  for (int i = 0; i < 40; ++i) scan.ends_R.emplace_back(2.0 + 0.06 * i, 0.02);
+  for (int i = 0; i < 2; ++i) grid.insert(scan, {});
+  for (int x = 21; x < 43; ++x) {
+    EXPECT_EQ(grid.at(x, 0).ended, 2U) << x;
+    EXPECT_EQ(grid.at(x, 0).passed, 0U) << x;
+    EXPECT_TRUE(grid.at(x, 0).is_occupied()) << x;
+  }
+}
+
+TEST(HitGrid, WhatWentAwayIsForgottenInTime) {
+  HitGrid grid(0.1);
+  for (int i = 0; i < 2; ++i) grid.insert(beam_to(1.04), {0.0, 0.05, 0.0});
+  // Two of fourteen scans are one in seven.
+  for (int i = 0; i < 12; ++i) grid.insert(beam_to(3.04), {0.0, 0.05, 0.0});
+  EXPECT_TRUE(grid.at(10, 0).is_occupied());
+  grid.insert(beam_to(3.04), {0.0, 0.05, 0.0});
+  EXPECT_FALSE(grid.at(10, 0).is_occupied());
 }
 
 TEST(HitGrid, GrowsInAllDirectionsAndTurnsScans) {
@@ -57,8 +80,8 @@ TEST(HitGrid, CopiesAreTheirOwn) {
   one.insert(beam_to(2.0), {});
   HitGrid other = one;
   other.insert(beam_to(2.0), {});
-  EXPECT_EQ(one.at(3, 0).passes, 1U);
-  EXPECT_EQ(other.at(3, 0).passes, 2U);
+  EXPECT_EQ(one.at(3, 0).passed, 1U);
+  EXPECT_EQ(other.at(3, 0).passed, 2U);
 }
 
 TEST(HitGrid, OccupancyHasAllThatWasSeenWithAMargin) {

@@ -15,7 +15,7 @@
 #include "adapters/ros1/navigation/navigation_messages.h"
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
-#include "navigation/frontiers.h"
+#include "navigation/explorer.h"
 
 namespace tagfield {
 namespace {
@@ -26,41 +26,22 @@ constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kRate = 20.0;
 /// How often the way is thought over, by the map as it is then [s].
 constexpr double kPlanningInterval = 1.0;
-/// A goal that is no frontier any more by this much is given up for another [m].
-constexpr double kSameFrontier = 1.0;
-
-Eigen::Vector2d position_of(const PlanarPose& pose) { return {pose.x, pose.y}; }
-
-/// Where the robot stands as it begins there is nothing in its way, whatever its laser can't see.
-void clear_start(OccupancyGrid& map, const PlanarPose& start, double radius_m) {
-  const Eigen::Vector2i middle = map.cell_of(position_of(start));
-  const int reach = static_cast<int>(std::ceil(radius_m / map.resolution_m));
-  for (int y = middle.y() - reach; y <= middle.y() + reach; ++y) {
-    for (int x = middle.x() - reach; x <= middle.x() + reach; ++x) {
-      const bool is_inside = (map.centre_of(x, y) - position_of(start)).norm() <= radius_m;
-      if (is_inside && map.contains(x, y) && map.at(x, y) < 0) map.cells[map.index(x, y)] = 0;
-    }
-  }
-}
-
 class ExploringNode {
  public:
   ExploringNode();
 
  private:
-  enum class Phase { kWaiting, kLookingAround, kExploring, kGoingHome, kFinished };
+  enum class Phase { kWaiting, kLookingAround, kExploring };
 
   static FrameNames frame_names(const NodeParameters& parameters);
-  static FrontierOptions frontier_options(const NodeParameters& parameters);
+  static ExplorerOptions explorer_options(const NodeParameters& parameters);
   void on_map(const nav_msgs::OccupancyGrid& message);
   void on_status(const actionlib_msgs::GoalStatusArray& message);
   void on_tick();
   void wait();
   void look_around();
   void think(const PlanarPose& pose_M);
-  void choose(const PlanarPose& pose_M);
   void send_goal(const PlanarPose& goal_M);
-  void leave_goal();
   void turn(double rad_s);
   void finish();
   void begin_anew();
@@ -69,16 +50,15 @@ class ExploringNode {
   ros::NodeHandle private_{"~"};
   NodeParameters parameters_{private_};
   FrameNames names_ = frame_names(parameters_);
-  FrontierOptions options_ = frontier_options(parameters_);
+  ExplorerOptions options_ = explorer_options(parameters_);
   double turn_rad_s_ = parameters_.positive("turn_speed", 0.7);
   bool exits_ = parameters_.flag("exit", false);
   Phase phase_ = Phase::kWaiting;
   OccupancyGrid keep_out_ = map_from_file(parameters_.text("keep_out_file", ""));
   std::optional<OccupancyGrid> map_;
-  PlanarPose start_M_;
+  std::optional<Explorer> explorer_;
   double turned_rad_ = 0.0;
   double last_yaw_ = 0.0;
-  std::vector<Eigen::Vector2d> given_up_;
   std::optional<PlanarPose> goal_M_;
   ros::Time goal_sent_;
   bool is_left_ = false;  ///< Whether the goal has come to an end.
@@ -109,18 +89,20 @@ FrameNames ExploringNode::frame_names(const NodeParameters& parameters) {
           parameters.text("robot_base_frame", "base_link")};
 }
 
-FrontierOptions ExploringNode::frontier_options(const NodeParameters& parameters) {
-  FrontierOptions options;
-  options.radius_m = parameters.positive("radius", options.radius_m);
-  options.margin_m = parameters.positive("margin", options.margin_m);
-  options.least_size_m = parameters.positive("min_frontier_size", options.least_size_m);
-  options.sight_m = parameters.positive("sight", options.sight_m);
+ExplorerOptions ExploringNode::explorer_options(const NodeParameters& parameters) {
+  ExplorerOptions options;
+  FrontierOptions& frontiers = options.frontiers;
+  frontiers.radius_m = parameters.positive("radius", frontiers.radius_m);
+  frontiers.margin_m = parameters.positive("margin", frontiers.margin_m);
+  frontiers.least_size_m = parameters.positive("min_frontier_size", frontiers.least_size_m);
+  frontiers.sight_m = parameters.positive("sight", frontiers.sight_m);
+  options.finest_m = parameters.positive("min_gap_size", options.finest_m);
   return options;
 }
 
 void ExploringNode::on_map(const nav_msgs::OccupancyGrid& message) {
   try {
-    map_ = with_occupied(grid_of(message), keep_out_);
+    map_ = grid_of(message);
   } catch (const Error& error) {
     ROS_ERROR("%s; not taken", error.what());
   }
@@ -141,7 +123,7 @@ void ExploringNode::begin_anew() {
   ROS_WARN("time went back: exploring begins anew");
   frames_.forget();
   map_.reset();
-  given_up_.clear();
+  explorer_.reset();
   goal_M_.reset();
   is_left_ = false;
   thought_ = {};
@@ -152,7 +134,7 @@ void ExploringNode::on_tick() {
   if (time_.went_back()) begin_anew();
   if (phase_ == Phase::kWaiting) return wait();
   if (phase_ == Phase::kLookingAround) return look_around();
-  if (phase_ == Phase::kFinished || !map_) return;
+  if (explorer_->finished() || !map_) return;
   const bool is_due = (ros::Time::now() - thought_).toSec() >= kPlanningInterval;
   const std::optional<PlanarPose> pose_M = believed_.now();
   if (pose_M && (is_due || is_left_)) think(*pose_M);
@@ -165,7 +147,7 @@ void ExploringNode::wait() {
     ROS_INFO_THROTTLE(5.0, "exploring: waits for a map and the robot's place on it");
     return;
   }
-  start_M_ = *pose_M;
+  explorer_.emplace(options_, *pose_M);
   last_yaw_ = odometry->yaw;
   turned_rad_ = 0.0;
   phase_ = Phase::kLookingAround;
@@ -190,24 +172,17 @@ void ExploringNode::look_around() {
 /// Takes up the map as it is now, and a new goal where there is none or it is of no use any more.
 void ExploringNode::think(const PlanarPose& pose_M) {
   thought_ = ros::Time::now();
-  if (is_left_) leave_goal();
-  if (phase_ == Phase::kExploring) choose(pose_M);
-}
-
-void ExploringNode::choose(const PlanarPose& pose_M) {
-  OccupancyGrid map = *map_;
-  clear_start(map, start_M_, options_.radius_m + 2.0 * options_.margin_m);
-  const std::vector<Frontier> open = frontiers(map, pose_M, given_up_, options_);
-  if (open.empty()) {
+  const bool was_going_home = explorer_->is_going_home();
+  const OccupancyGrid map = explorer_->with_start(*map_);
+  const std::optional<PlanarPose> goal_M =
+      explorer_->next(map, with_occupied(map, keep_out_), pose_M, is_left_);
+  if (is_left_) goal_M_.reset();
+  is_left_ = false;
+  if (explorer_->is_going_home() && !was_going_home) {
     ROS_INFO("exploring: nothing is left to see, goes back to its start");
-    phase_ = Phase::kGoingHome;
-    return send_goal(start_M_);
   }
-  const auto is_same = [this](const Frontier& frontier) {
-    return (position_of(frontier.goal) - position_of(*goal_M_)).norm() < kSameFrontier;
-  };
-  const bool is_still_open = goal_M_ && std::any_of(open.begin(), open.end(), is_same);
-  if (!is_still_open) send_goal(open.front().goal);
+  if (goal_M) send_goal(*goal_M);
+  if (explorer_->finished()) finish();
 }
 
 void ExploringNode::send_goal(const PlanarPose& goal_M) {
@@ -221,16 +196,7 @@ void ExploringNode::send_goal(const PlanarPose& goal_M) {
   goal_.publish(message);
 }
 
-void ExploringNode::leave_goal() {
-  is_left_ = false;
-  // Also a place that was reached and still shows as a frontier has nothing more to show.
-  given_up_.push_back(position_of(*goal_M_));
-  goal_M_.reset();
-  if (phase_ == Phase::kGoingHome) finish();
-}
-
 void ExploringNode::finish() {
-  phase_ = Phase::kFinished;
   ROS_INFO("exploring: finished");
   std_msgs::Bool message;
   message.data = 1;
