@@ -15,6 +15,12 @@ std::size_t place_in_patch(int x, int y) {
   return static_cast<std::size_t>(((y & kMask) << kBits) | (x & kMask));
 }
 
+/// Place of a patch in a table that is `width` patches wide.
+std::size_t place_of(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(x);
+}
+
 /// How a ray walks over the cells along one axis (Amanatides and Woo, 1987).
 struct Walk {
   int cell = 0;
@@ -45,7 +51,7 @@ const HitCell& HitGrid::at(int x, int y) const {
   const int px = (x >> kPatchBits) - patch_x0_;
   const int py = (y >> kPatchBits) - patch_y0_;
   if (px < 0 || py < 0 || px >= patches_x_ || py >= patches_y_) return kUnknown;
-  const std::shared_ptr<Patch>& patch = patches_[static_cast<std::size_t>(py * patches_x_ + px)];
+  const std::shared_ptr<Patch>& patch = patches_[place_of(px, py, patches_x_)];
   return patch ? (*patch)[place_in_patch<kPatchBits>(x, y)] : kUnknown;
 }
 
@@ -59,11 +65,11 @@ void HitGrid::make_room(int patch_x, int patch_y) {
   const int nx = std::max(patch_x0_ + patches_x_, patch_x + 1) - x0;
   const int ny = std::max(patch_y0_ + patches_y_, patch_y + 1) - y0;
   if (nx == patches_x_ && ny == patches_y_) return;
-  std::vector<std::shared_ptr<Patch>> wider(static_cast<std::size_t>(nx * ny));
+  std::vector<std::shared_ptr<Patch>> wider(place_of(0, ny, nx));
   for (int y = 0; y < patches_y_; ++y) {
     for (int x = 0; x < patches_x_; ++x) {
-      wider[static_cast<std::size_t>((y + patch_y0_ - y0) * nx + x + patch_x0_ - x0)] =
-          std::move(patches_[static_cast<std::size_t>(y * patches_x_ + x)]);
+      wider[place_of(x + patch_x0_ - x0, y + patch_y0_ - y0, nx)] =
+          std::move(patches_[place_of(x, y, patches_x_)]);
     }
   }
   patches_ = std::move(wider);
@@ -78,7 +84,7 @@ HitCell& HitGrid::cell_to_change(int x, int y) {
   const int patch_y = y >> kPatchBits;
   make_room(patch_x, patch_y);
   std::shared_ptr<Patch>& patch =
-      patches_[static_cast<std::size_t>((patch_y - patch_y0_) * patches_x_ + patch_x - patch_x0_)];
+      patches_[place_of(patch_x - patch_x0_, patch_y - patch_y0_, patches_x_)];
   if (!patch) {
     patch = std::make_shared<Patch>();
   } else if (patch.use_count() > 1) {
