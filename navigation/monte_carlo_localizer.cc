@@ -55,8 +55,13 @@ constexpr double kFoundSigma_rad = 0.02;
 /// Opinions are first brought into reach of the map's walls by a few points that look far.
 constexpr double kCoarseSpacing_m = 0.25;
 constexpr int kCoarseReach = 8;  ///< [cells]
-constexpr double kLeastSigma_m = 0.002;
-constexpr double kLeastSigma_rad = 0.001;
+/// Opinions that have come so near to each other are one.
+constexpr double kSame_m = 0.05;
+constexpr double kSame_rad = 0.03;
+/// An opinion that fits worse than this after that is not looked at more closely.
+constexpr double kHopelessFit = 0.4;
+constexpr double kLeastSpread_m = 0.002;
+constexpr double kLeastSpread_rad = 0.001;
 /// A point this near to a wall lies on it.
 constexpr double kOnWall_m = 0.1;
 /// A beam crosses a wall that is this far before its end.
@@ -82,12 +87,16 @@ double square(double x) { return x * x; }
 Eigen::Matrix3d diagonal_covariance(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
 }
-Eigen::Matrix3d least_covariance() { return diagonal_covariance(kLeastSigma_m, kLeastSigma_rad); }
+Eigen::Matrix3d least_covariance() { return diagonal_covariance(kLeastSpread_m, kLeastSpread_rad); }
 Eigen::Matrix3d found_covariance() { return diagonal_covariance(kFoundSigma_m, kFoundSigma_rad); }
 
+bool are_within(const PlanarPose& a, const PlanarPose& b, double most_m, double most_rad) {
+  return (position_of(a) - position_of(b)).norm() < most_m &&
+         std::abs(wrap_to_pi(a.yaw - b.yaw)) < most_rad;
+}
+
 bool are_near(const PlanarPose& a, const PlanarPose& b) {
-  return (position_of(a) - position_of(b)).norm() < kCluster_m &&
-         std::abs(wrap_to_pi(a.yaw - b.yaw)) < kCluster_rad;
+  return are_within(a, b, kCluster_m, kCluster_rad);
 }
 
 void require_usable(const OccupancyGrid& map) {
@@ -137,8 +146,10 @@ struct MonteCarloLocalizer::Impl {
       const std::vector<Eigen::Vector2d>& points) const;
   [[nodiscard]] PoseEstimate refined(const PoseEstimate& rough,
                                      const std::vector<Eigen::Vector2d>& points) const;
-  [[nodiscard]] PoseEstimate settled(const PlanarPose& opinion,
-                                     const std::vector<Eigen::Vector2d>& points) const;
+  [[nodiscard]] std::vector<PlanarPose> approached(const std::vector<PlanarPose>& opinions,
+                                                   const std::vector<Eigen::Vector2d>& few) const;
+  [[nodiscard]] std::vector<std::pair<double, PoseEstimate>> settled(
+      const std::vector<PlanarPose>& opinions, const std::vector<Eigen::Vector2d>& points) const;
   [[nodiscard]] bool crosses_wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   [[nodiscard]] double fit_at(const PlanarPose& pose,
                               const std::vector<Eigen::Vector2d>& points) const;
@@ -308,20 +319,42 @@ PoseEstimate MonteCarloLocalizer::Impl::refined(const PoseEstimate& rough,
   return {match.pose_M, match.information.inverse()};
 }
 
-/// An opinion, first brought into the walls' reach and then finished.
-PoseEstimate MonteCarloLocalizer::Impl::settled(const PlanarPose& opinion,
-                                                const std::vector<Eigen::Vector2d>& points) const {
-  const Eigen::Matrix3d loose = Eigen::Vector3d(1.0 / square(kCluster_m), 1.0 / square(kCluster_m),
-                                                1.0 / square(kCluster_rad))
-                                    .asDiagonal();
+/// Opinions, each brought into the walls' reach, without those that thereby become the same.
+std::vector<PlanarPose> MonteCarloLocalizer::Impl::approached(
+    const std::vector<PlanarPose>& opinions, const std::vector<Eigen::Vector2d>& few) const {
+  const Eigen::Matrix3d loose = diagonal_covariance(kCluster_m, kCluster_rad).inverse();
   MatchOptions coarse = settings.match;
   coarse.iterations = 6;
   coarse.search_cells = kCoarseReach;
   coarse.outlier_m = 0.3;
   coarse.sigma_m = 0.1;
-  const ScanMatch near =
-      match_scan(walls, thinned(points, kCoarseSpacing_m), opinion, opinion, loose, coarse);
-  return refined({near.pose_M, found_covariance()}, points);
+  std::vector<PlanarPose> places;
+  for (const PlanarPose& opinion : opinions) {
+    const PlanarPose place = match_scan(walls, few, opinion, opinion, loose, coarse).pose_M;
+    const bool is_new = std::none_of(places.begin(), places.end(), [&](const PlanarPose& other) {
+      return are_within(place, other, kSame_m, kSame_rad);
+    });
+    if (is_new) places.push_back(place);
+  }
+  return places;
+}
+
+/// The places that opinions lead to and how well each fits, best first.
+std::vector<std::pair<double, PoseEstimate>> MonteCarloLocalizer::Impl::settled(
+    const std::vector<PlanarPose>& opinions, const std::vector<Eigen::Vector2d>& points) const {
+  const std::vector<Eigen::Vector2d> few = thinned(points, kCoarseSpacing_m);
+  std::vector<std::pair<double, PoseEstimate>> settled;
+  for (const PlanarPose& place : approached(opinions, few)) {
+    const double rough_fit = fit_at(place, few);
+    settled.emplace_back(rough_fit, PoseEstimate{place, found_covariance()});
+    if (rough_fit < kHopelessFit) continue;
+    auto& [fits, near] = settled.back();
+    near = refined(near, points);
+    fits = fit_at(near.pose_M, points);
+  }
+  std::stable_sort(settled.begin(), settled.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return settled;
 }
 
 /// Whether the way from `from` to `to` crosses an occupied cell before it is near to its end.
@@ -371,19 +404,13 @@ void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& 
   const PlanarPose expected = estimate.pose_M;
   double heaviest = filter.m_particles.front().log_w;
   for (const auto& particle : filter.m_particles) heaviest = std::max(heaviest, particle.log_w);
-  std::vector<std::pair<double, PoseEstimate>> seen;
   std::vector<PlanarPose> to_see = opinions();
   // Always before it is found: a place like this one may have no particle left.
   if (searching_scans % kLatticeEvery == 0 || good_scans + 1 >= kGoodScans) {
     const std::vector<PlanarPose> more = lattice_opinions(points);
     to_see.insert(to_see.end(), more.begin(), more.end());
   }
-  for (const PlanarPose& opinion : to_see) {
-    const PoseEstimate place = settled(opinion, points);
-    seen.emplace_back(fit_at(place.pose_M, points), place);
-  }
-  std::stable_sort(seen.begin(), seen.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  const std::vector<std::pair<double, PoseEstimate>> seen = settled(to_see, points);
   fit = seen.front().first;
   estimate = seen.front().second;
   const bool alone = std::none_of(seen.begin(), seen.end(), [&](const auto& other) {
