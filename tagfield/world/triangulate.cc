@@ -46,6 +46,15 @@ void add_fan(TriangleMesh& mesh, Index apex, Index circle, bool from_above) {
   }
 }
 
+/// The least rotation that turns z to `normal`, half a turn about x where that is opposite to z.
+/// (Eigen's FromTwoVectors needs a singular value decomposition for that case, which takes long to
+/// compile.)
+Eigen::Quaterniond from_z_to(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d n = normal.normalized();
+  if (n.z() < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
+  return Eigen::Quaterniond(1.0 + n.z(), -n.y(), n.x(), 0.0).normalized();
+}
+
 struct Triangulate {
   TriangleMesh operator()(const Box& box) const {
     TriangleMesh mesh;
@@ -87,7 +96,7 @@ struct Triangulate {
   }
 
   TriangleMesh operator()(const Plane& plane) const {
-    const auto R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), plane.normal);
+    const Eigen::Quaterniond R = from_z_to(plane.normal);
     const Eigen::Vector3d u = R * Eigen::Vector3d(0.5 * plane.size.x(), 0.0, 0.0);
     const Eigen::Vector3d v = R * Eigen::Vector3d(0.0, 0.5 * plane.size.y(), 0.0);
     return {{-u - v, u - v, u + v, -u + v}, {{0, 1, 2}, {0, 2, 3}}};
