@@ -10,6 +10,8 @@ namespace {
 
 /// Looks from or at places so near to each other are at the same frontier, as the map grows.
 constexpr double kSameFrontier = 1.0;
+/// A place is seen when no frontier is left so near to it.
+constexpr double kSamePlace = 0.5;
 /// A robot so near to where it was sent has got there.
 constexpr double kThere = 0.3;
 
@@ -59,6 +61,9 @@ std::optional<PlanarPose> Explorer::next(const OccupancyGrid& map, const Occupan
                                          const PlanarPose& pose_M, bool has_ended) {
   if (is_going_home()) {
     if (has_ended) stage_ = Stage::kFinished;
+    return std::nullopt;
+  }
+  if (look_ && !has_ended && has_frontier_near(map, look_->at_M, kSamePlace)) {
     return std::nullopt;
   }
   const std::vector<Frontier> open = open_ones(map, drivable, pose_M);

@@ -110,8 +110,8 @@ struct Reach {
 template <typename Visit>
 void for_all_that_see(const OccupancyGrid& grid, const Eigen::Vector2i& unknown, double sight_m,
                       Visit visit) {
-  // Neighbouring rays end half a cell apart.
-  const int rays = static_cast<int>(std::ceil(2.0 * kTwoPi * sight_m / grid.resolution_m));
+  // Neighbouring rays end a cell apart.
+  const int rays = static_cast<int>(std::ceil(kTwoPi * sight_m / grid.resolution_m));
   const Eigen::Vector2d from = grid.centre_of(unknown.x(), unknown.y());
   for (int i = 0; i < rays; ++i) {
     const double angle = i * kTwoPi / rays;
@@ -148,8 +148,13 @@ struct Place {
   std::size_t cell;
 };
 
-/// The places that can be reached and see `unknown`, the best first: a beam's share of the sight
-/// grows with the angle at which it looks in, and with nearness up to kNearEnough.
+bool is_worse(const Place& a, const Place& b) {
+  return a.view < b.view || (a.view == b.view && a.cell > b.cell);
+}
+
+/// The places that can be reached and see `unknown`, as a heap with the best at the front: a beam's
+/// share of the sight grows with the angle at which it looks in, and with nearness up to
+/// kNearEnough.
 std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& target,
                                  const Eigen::Vector2i& unknown) {
   const OccupancyGrid& grid = reach.seen;
@@ -163,9 +168,7 @@ std::vector<Place> places_to_see(const Reach& reach, const Eigen::Vector2i& targ
     const double slant = std::max(way.dot(normal) / (way.norm() + 1e-9), kLeastSlant);
     places.push_back({slant / std::max(way.norm(), kNearEnough), cell});
   });
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return a.view > b.view || (a.view == b.view && a.cell < b.cell);
-  });
+  std::make_heap(places.begin(), places.end(), is_worse);
   return places;
 }
 
@@ -174,10 +177,13 @@ std::optional<Eigen::Vector2i> standing_place(const Reach& reach, const Eigen::V
   const OccupancyGrid& grid = reach.seen;
   const Eigen::Vector2i unknown = unknown_beside(grid, target);
   const Eigen::Vector2d unknown_M = grid.centre_of(unknown.x(), unknown.y());
-  const std::vector<Place> places = places_to_see(reach, target, unknown);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (i > 0 && places[i].cell == places[i - 1].cell) continue;
-    const auto at = static_cast<int>(places[i].cell);
+  std::vector<Place> places = places_to_see(reach, target, unknown);
+  std::optional<std::size_t> last;
+  for (; !places.empty(); places.pop_back()) {
+    std::pop_heap(places.begin(), places.end(), is_worse);
+    if (places.back().cell == last) continue;  // Several rays may have come by.
+    last = places.back().cell;
+    const auto at = static_cast<int>(*last);
     const Eigen::Vector2i cell(at % grid.width, at / grid.width);
     const Eigen::Vector2d place = grid.centre_of(cell.x(), cell.y());
     // A goal is held to this exactly, not from cell to cell.
@@ -244,6 +250,18 @@ double dearness(const Frontier& frontier) {
 }
 
 }  // namespace
+
+bool has_frontier_near(const OccupancyGrid& map, const Eigen::Vector2d& p_M, double reach_m) {
+  const Eigen::Vector2d reach(reach_m, reach_m);
+  const Eigen::Vector2i low = map.cell_of(p_M - reach);
+  const Eigen::Vector2i high = map.cell_of(p_M + reach);
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (is_frontier(map, x, y)) return true;
+    }
+  }
+  return false;
+}
 
 std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& drivable,
                                 const PlanarPose& pose_M, const std::vector<Look>& looks,

@@ -41,4 +41,7 @@ std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& d
                                 const PlanarPose& pose_M, const std::vector<Look>& looks,
                                 const FrontierOptions& options);
 
+/// Whether a free cell within `reach_m` along x and y of the finite `p_M` has an unknown neighbour.
+bool has_frontier_near(const OccupancyGrid& map, const Eigen::Vector2d& p_M, double reach_m);
+
 }  // namespace tagfield

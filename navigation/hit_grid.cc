@@ -79,9 +79,8 @@ void HitGrid::make_room(int patch_x, int patch_y) {
   patches_y_ = ny;
 }
 
-HitCell& HitGrid::cell_to_change(int x, int y) {
-  const int patch_x = x >> kPatchBits;
-  const int patch_y = y >> kPatchBits;
+/// The patch, this grid's alone from now on.
+HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
   make_room(patch_x, patch_y);
   std::shared_ptr<Patch>& patch =
       patches_[place_of(patch_x - patch_x0_, patch_y - patch_y0_, patches_x_)];
@@ -90,33 +89,49 @@ HitCell& HitGrid::cell_to_change(int x, int y) {
   } else if (patch.use_count() > 1) {
     patch = std::make_shared<Patch>(*patch);
   }
-  return (*patch)[place_in_patch<kPatchBits>(x, y)];
+  return *patch;
 }
 
-/// Counts a pass in all cells of the ray but those within `stop_short_m` of its end.
+/// Counts a pass in all cells of the ray but those within `stop_short_m` of its end, and those that
+/// this scan counts already.
 void HitGrid::pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m) {
   const double length = (to - from).norm();
   if (!(length > stop_short_m)) return;
   const double last = 1.0 - stop_short_m / length;
   Walk x = walk_along(from.x() / resolution_m_, to.x() / resolution_m_);
   Walk y = walk_along(from.y() / resolution_m_, to.y() / resolution_m_);
-  double entered = 0.0;
-  while (entered < last) {
-    HitCell& cell = cell_to_change(x.cell, y.cell);
+  Patch* patch = nullptr;
+  int patch_x = 0;
+  int patch_y = 0;
+  for (double entered = 0.0; entered < last;) {
+    const int px = x.cell >> kPatchBits;
+    const int py = y.cell >> kPatchBits;
+    if (patch == nullptr || px != patch_x || py != patch_y) {
+      patch = &patch_to_change(px, py);
+      patch_x = px;
+      patch_y = py;
+    }
+    HitCell& cell = (*patch)[place_in_patch<kPatchBits>(x.cell, y.cell)];
     if (cell.last != scans_) {
       cell.last = scans_;
       ++cell.passed;
     }
-    Walk& nearer = x.next < y.next ? x : y;
-    entered = nearer.next;
-    nearer.cell += nearer.step;
-    nearer.next += nearer.share;
+    if (x.next < y.next) {
+      entered = x.next;
+      x.cell += x.step;
+      x.next += x.share;
+    } else {
+      entered = y.next;
+      y.cell += y.step;
+      y.next += y.share;
+    }
   }
 }
 
 void HitGrid::add_end(const Eigen::Vector2d& end_M) {
   const Eigen::Vector2i at = cell_of(end_M);
-  HitCell& cell = cell_to_change(at.x(), at.y());
+  HitCell& cell = patch_to_change(at.x() >> kPatchBits,
+                                  at.y() >> kPatchBits)[place_in_patch<kPatchBits>(at.x(), at.y())];
   const Eigen::Vector2d offset = end_M - centre_of(at.x(), at.y());
   cell.sum_x += static_cast<float>(offset.x());
   cell.sum_y += static_cast<float>(offset.y());

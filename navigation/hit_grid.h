@@ -67,7 +67,7 @@ class HitGrid {
   static constexpr int kPatchCells = 1 << kPatchBits;
   using Patch = std::array<HitCell, kPatchCells * kPatchCells>;
 
-  HitCell& cell_to_change(int x, int y);
+  Patch& patch_to_change(int patch_x, int patch_y);
   void make_room(int patch_x, int patch_y);
   void add_end(const Eigen::Vector2d& end_M);
   void pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m);
