@@ -14,6 +14,10 @@ function(tagfield_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE})
   tagfield_warnings(${target})
+  # For the plugins the core is compiled once more; there each room at one go.
+  if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
+    tagfield_compile_together(${target})
+  endif()
   set_property(GLOBAL APPEND PROPERTY TAGFIELD_ROOMS ${target})
   if(TAGFIELD_TESTS AND ROOM_TESTS)
     tagfield_test(${name}_test SOURCES ${ROOM_TESTS} LINKS tagfield::${name})
@@ -31,6 +35,13 @@ function(tagfield_test name)
   tagfield_warnings(${name})
   gtest_discover_tests(${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1")
+endfunction()
+
+# tagfield_compile_together(TARGET): all its sources as one, so that their headers are read once.
+function(tagfield_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  # GCC takes the sources, which are included, for headers.
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
 function(tagfield_warnings target)

@@ -27,11 +27,12 @@ build() {
   exec 9>&-
 }
 
-# build_gazebo FOLDER [OPTION…]: configures if need be and builds the plugins in build/FOLDER, with the
-# compiler of the system that Gazebo 11 is on (whose CMake may be too old for presets).
+# build_gazebo FOLDER TARGETS [OPTION…]: configures if need be and builds plugins in build/FOLDER, with
+# the compiler of the system that Gazebo 11 is on (whose CMake may be too old for presets).
 build_gazebo() {
-  local folder=$1
-  shift
+  local folder=$1 targets
+  read -ra targets <<<"$2"
+  shift 2
   mkdir -p build
   exec 8>build/.gazebo-lock
   flock 8
@@ -41,6 +42,6 @@ build_gazebo() {
     cat "build/$folder-configure.log" >&2
     exit "$code"
   }
-  scripts/in-gazebo cmake --build "build/$folder"
+  scripts/in-gazebo cmake --build "build/$folder" --target "${targets[@]}"
   exec 8>&-
 }

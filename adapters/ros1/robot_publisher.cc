@@ -13,6 +13,7 @@
 #include <mutex>
 #include <utility>
 
+#include "adapters/ros1/messages.h"
 #include "adapters/ros1/ros_link.h"
 
 namespace tagfield {
@@ -20,43 +21,6 @@ namespace {
 
 /// Variance of what wheels on a floor don't measure: height, roll, pitch.
 constexpr double kFloorVariance = 1e-6;
-
-geometry_msgs::Vector3 vector_message(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 message;
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
-  return message;
-}
-
-geometry_msgs::Quaternion rotation_message(const Eigen::Quaterniond& q) {
-  geometry_msgs::Quaternion message;
-  message.x = q.x();
-  message.y = q.y();
-  message.z = q.z();
-  message.w = q.w();
-  return message;
-}
-
-geometry_msgs::Pose pose_message(const RigidTransform& X) {
-  geometry_msgs::Pose message;
-  message.position.x = X.translation.x();
-  message.position.y = X.translation.y();
-  message.position.z = X.translation.z();
-  message.orientation = rotation_message(X.rotation);
-  return message;
-}
-
-geometry_msgs::TransformStamped frame_message(Time stamp, const std::string& parent,
-                                              const std::string& child, const RigidTransform& X) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = to_ros(stamp);
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform.translation = vector_message(X.translation);
-  message.transform.rotation = rotation_message(X.rotation);
-  return message;
-}
 
 /// Rows and columns of ROS' covariances are x, y, z, roll, pitch, yaw.
 constexpr std::size_t entry(std::size_t row, std::size_t column) { return 6 * row + column; }
