@@ -191,6 +191,11 @@ SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const 
   return run;
 }
 
+/// Simulated time that went into the map.
+double mapping_s(const SeedRun& run) {
+  return run.navigation && run.navigation->survey ? run.navigation->survey->simulated_s : 0.0;
+}
+
 NavigationSummary navigation_of(const std::vector<SeedRun>& runs, const NavigationWorld& world) {
   NavigationSummary summary;
   std::vector<double> positions;
@@ -212,7 +217,7 @@ NavigationSummary navigation_of(const std::vector<SeedRun>& runs, const Navigati
     least(summary.closest_m, navigation.closest_m);
     if (first && navigation.survey) {
       summary.mapping_path_m = navigation.survey->path_length_m;
-      summary.mapping_s = navigation.survey->simulated_s;
+      summary.mapping_s = mapping_s(run);
     }
     summary.goals += navigation.goals.size();
     for (const GoalOutcome& goal : navigation.goals) {
@@ -337,7 +342,7 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   for (const SeedRun& run : runs) {
     summary.seeds.push_back(run.seed);
     summary.complete = summary.complete && run.complete;
-    simulated_s += run.simulated_s;
+    simulated_s += run.simulated_s + mapping_s(run);
     summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
   }
   summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;

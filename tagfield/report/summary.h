@@ -93,7 +93,7 @@ struct Summary {
   std::size_t reads = 0;     ///< Of the first seed.
   double simulated_s = 0.0;  ///< Of the first seed.
   double wall_s = 0.0;       ///< Simulation and localization of all seeds, files and page excepted.
-  double real_time_factor = 0.0;  ///< Simulated time of all seeds over wall_s.
+  double real_time_factor = 0.0;  ///< Simulated time of all seeds, mapping too, over wall_s.
   std::optional<PoseErrorSummary> pose_error;
   std::optional<ComparedPose> compared_pose;
   std::optional<NavigationSummary> navigation;
