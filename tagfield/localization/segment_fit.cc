@@ -1,7 +1,6 @@
 #include "tagfield/localization/segment_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -202,11 +201,10 @@ Eigen::Vector2d mirror_image(const FitData& data, const Eigen::Vector2d& p) {
   const Eigen::Vector2d middle(data.x.mean(), data.y.mean());
   const Eigen::ArrayXd dx = data.x - middle.x();
   const Eigen::ArrayXd dy = data.y - middle.y();
-  Eigen::Matrix2d scatter;
-  scatter << dx.square().sum(), (dx * dy).sum(), (dx * dy).sum(), dy.square().sum();
-  // Eigenvalues rise, so the last vector is the axis.
-  const Eigen::Vector2d axis =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(1);
+  // The axis along which the points lie: the scatter's eigenvector with the greater eigenvalue.
+  const double angle =
+      0.5 * std::atan2(2.0 * (dx * dy).sum(), dx.square().sum() - dy.square().sum());
+  const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
   const Eigen::Vector2d apart = p - middle;
   return middle + 2.0 * axis.dot(apart) * axis - apart;
 }
