@@ -1,10 +1,12 @@
-# tagfield_room(NAME SOURCES a.cc … LINKS room … PRIVATE library … TESTS a_test.cc …)
+# tagfield_room(NAME SOURCES a.cc … LINKS room … PRIVATE library … HEADERS <header> … TESTS a_test.cc …
+#               TEST_PARTS n)
 #
 # One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
 # links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
-# sources and are included by their path from the top of the source tree.
+# sources and are included by their path from the top of the source tree. HEADERS are those of libraries
+# that many of its sources include and other rooms don't.
 function(tagfield_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE;TESTS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "TEST_PARTS" "SOURCES;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
   set(target tagfield_${name})
   add_library(${target} STATIC ${ROOM_SOURCES})
   add_library(tagfield::${name} ALIAS ${target})
@@ -17,24 +19,47 @@ function(tagfield_room name)
   # For the plugins the core is compiled once more; there each room at one go.
   if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
     tagfield_compile_together(${target})
+  else()
+    tagfield_read_headers_once(${target} ${ROOM_HEADERS})
   endif()
   set_property(GLOBAL APPEND PROPERTY TAGFIELD_ROOMS ${target})
   if(TAGFIELD_TESTS AND ROOM_TESTS)
-    tagfield_test(${name}_test SOURCES ${ROOM_TESTS} LINKS tagfield::${name})
+    tagfield_test(${name}_test SOURCES ${ROOM_TESTS} LINKS tagfield::${name}
+                  PARTS ${ROOM_TEST_PARTS})
   endif()
 endfunction()
 
-# tagfield_test(NAME SOURCES … LINKS …): one GoogleTest program, its cases known to ctest. RapidCheck
-# draws anew in each run unless it is given a seed.
+# tagfield_test(NAME SOURCES … LINKS … [PARTS n]): one GoogleTest program, to ctest one test or as many
+# as there are parts, between which its cases are dealt: to load the libraries for each case alone would
+# take longer than most cases. RapidCheck draws anew in each run unless it is given a seed.
 function(tagfield_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "" "PARTS" "SOURCES;LINKS" ${ARGN})
   list(TRANSFORM TEST_SOURCES PREPEND test/ REGEX "^[^/]+$")
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_LINKS} GTest::gtest_main rapidcheck)
   target_compile_definitions(${name} PRIVATE TAGFIELD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_precompile_headers(${name} REUSE_FROM tagfield_test_headers)
   tagfield_warnings(${name})
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1")
+  target_compile_options(${name} PRIVATE ${tagfield_test_options})
+  tagfield_gtest(${name} ${TEST_PARTS})
+endfunction()
+
+# tagfield_gtest(PROGRAM [PARTS])
+function(tagfield_gtest name)
+  set(parts 1 ${ARGN})
+  list(GET parts -1 count)
+  foreach(part RANGE 1 ${count})
+    set(test ${name})
+    set(cost 10)
+    if(count GREATER 1)
+      set(test ${name}.${part})
+      set(cost 100)  # long: not to be left over at the end
+    endif()
+    math(EXPR index "${part} - 1")
+    add_test(NAME ${test} COMMAND ${name})
+    set_tests_properties(${test} PROPERTIES TIMEOUT 1200 COST ${cost}
+      ENVIRONMENT "RC_PARAMS=seed=1;GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()
 
 # tagfield_compile_together(TARGET): all its sources as one, so that their headers are read once.
