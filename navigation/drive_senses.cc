@@ -59,7 +59,7 @@ double DriveSenses::distance_to_map(const Eigen::Vector2d& p_M) const {
 }
 
 void DriveSenses::see(const LaserScan& scan, const PlanarPose& pose_M) {
-  if (!std::isfinite(pose_M.x) || !std::isfinite(pose_M.y) || !std::isfinite(pose_M.yaw)) return;
+  if (!is_finite(pose_M)) return;
   if (last_scan_ && scan.stamp < *last_scan_) forget();
   const ScanInMap seen = scan_in_map(scan, X_RL_, pose_M, velocity_);
   std::vector<bool> is_on_map(seen.returns.size());

@@ -103,10 +103,6 @@ std::optional<Eigen::Vector2i> allowed_cell(const FloorRoom& floor, const Eigen:
   return best;
 }
 
-bool is_finite(const PlanarPose& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
-}
-
 std::string at(const char* what, const PlanarPose& pose) {
   return fmt::format("{} ({:.2f}, {:.2f})", what, pose.x, pose.y);
 }

@@ -30,10 +30,6 @@ constexpr double kStillTurn = 0.2;
 constexpr double kStillForward = 0.02;
 constexpr double kLookAhead = 0.4;
 
-bool is_finite(const PlanarPose& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
-}
-
 bool is_finite(const BodyVelocity& velocity) {
   return std::isfinite(velocity.forward) && std::isfinite(velocity.turn);
 }
@@ -238,6 +234,8 @@ void GoalDriver::set_goal(const PlanarPose& goal_M, const PlanarPose& pose_M, Ti
 }
 
 void GoalDriver::cancel() { impl_->end(DriveState::kIdle, ""); }
+
+void GoalDriver::forget() { impl_->senses.forget(); }
 
 void GoalDriver::see(const LaserScan& scan, const PlanarPose& pose_M) {
   impl_->senses.see(scan, pose_M);

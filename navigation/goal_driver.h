@@ -31,7 +31,8 @@ struct GoalDriverSettings {
 enum class DriveState { kIdle, kDriving, kReached, kRefused, kFailed };
 
 /// Frames: M the map, R the robot's base, L the laser. Knows no clock but the stamps it is given
-/// and draws no random numbers: the same calls give the same motion.
+/// and draws no random numbers: the same calls give the same motion. Stamps that go back make it
+/// forget what it saw and begin to time anew; the goal stays.
 class GoalDriver {
  public:
   GoalDriver(const GoalDriverSettings& settings, const RigidTransform& X_RL);
@@ -47,9 +48,14 @@ class GoalDriver {
   /// Stands still.
   void cancel();
 
-  /// What the laser saw; `pose_M` is the robot's at the scan's stamp.
+  /// Nothing that was seen counts any more, as where the robot turns out to be elsewhere.
+  void forget();
+  /// What the laser saw; `pose_M` is the robot's at the scan's stamp. NaN ranges are invalid beams;
+  /// a pose that is not finite is passed over; scans may differ in their beams.
   void see(const LaserScan& scan, const PlanarPose& pose_M);
-  /// What to drive from `now` until the next call. `velocity` is the robot's present one.
+  /// What to drive from `now` until the next call. `velocity` is the robot's present one. Brakes
+  /// without a usable scan of the last half second or a finite pose, and gives up after as long as
+  /// the settings have patience.
   BodyVelocity next(const PlanarPose& pose_M, const BodyVelocity& velocity, Time now);
 
   [[nodiscard]] DriveState state() const;

@@ -450,6 +450,7 @@ void MonteCarloLocalizer::Impl::scatter(const PoseEstimate& around, int count, d
 }
 
 bool MonteCarloLocalizer::Impl::update(const LaserScan& scan, const PlanarPose& now) {
+  if (!is_finite(now)) return false;
   const PlanarPose increment = has_odometry ? between(odometry, now) : PlanarPose{};
   const bool moved = std::hypot(increment.x, increment.y) >= settings.update_distance_m ||
                      std::abs(increment.yaw) >= settings.update_turn_rad;

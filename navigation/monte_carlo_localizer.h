@@ -66,7 +66,9 @@ class MonteCarloLocalizer {
   void start_anywhere();
 
   /// Takes a scan whose beams are of one moment, and the odometry's pose then. Returns whether it
-  /// was used, which is not done before the robot has moved on, or when no beam met anything.
+  /// was used, which is not done before the robot has moved on, or when no beam met anything. Takes
+  /// anything: an odometry that is not finite is passed over, NaN ranges are invalid beams, and
+  /// scans may differ in their beams. Knows no clock: stamps don't matter, the order of calls does.
   bool update(const LaserScan& scan, const PlanarPose& odometry);
 
   /// Moved on by what the odometry has told since the last scan that was used.

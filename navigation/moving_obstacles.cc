@@ -16,8 +16,15 @@ constexpr double kMostRange = 10.0;  // Farther away there are too few beams on 
 constexpr double kLeastRadius = 0.05;
 constexpr double kMostRadius = 0.6;
 
-constexpr double kSigmaWhole = 0.04;        // Of a group's centre [m].
-constexpr double kSigmaCut = 0.15;          // Where only part of it can be seen [m].
+constexpr double kSigmaWhole = 0.04;  // Of a group's centre [m].
+constexpr double kSigmaCut = 0.15;    // Where only part of it can be seen [m],
+constexpr double kSigmaRound = 0.06;  // and that is bent [m].
+/// A part in sight tells how it is bent from this length on, halved [m], and counts as bent from
+/// this share of what it should be, and so many times the noise of a mean.
+constexpr double kLeastHalfChord = 0.08;
+constexpr double kRoundFrom = 0.5;
+constexpr double kSurely = 3.5;
+constexpr double kRangeSigma = 0.01;        // [m]
 constexpr double kSigmaAcceleration = 1.5;  // Of people who walk [m/s²].
 constexpr double kSigmaFirstVelocity = 1.0;
 constexpr double kGate = 0.4;        // Between a track and its group [m],
@@ -46,6 +53,39 @@ double middle_range(const ScanInMap& scan, const std::vector<std::size_t>& retur
   return sum / static_cast<double>(returns.size() - 2 * third);
 }
 
+/// Mean place of the returns from `begin` to before `end`.
+Eigen::Vector2d mean_point(const ScanInMap& scan, const std::vector<std::size_t>& returns,
+                           std::size_t begin, std::size_t end) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t i = begin; i < end; ++i) sum += scan.returns[returns[i]].point_M;
+  return sum / static_cast<double>(end - begin);
+}
+
+/// Takes the part of a disc that is in sight for that of somebody of the usual size, if it is bent
+/// like that: a flat side of something else, of which more and more comes into sight, would seem to
+/// walk. Of its first, middle and last third the means say how bent it is.
+void fit_part(const ScanInMap& scan, ReturnGroup& group) {
+  const std::size_t third = group.returns.size() / 3;
+  const Eigen::Vector2d first = mean_point(scan, group.returns, 0, third);
+  const Eigen::Vector2d middle =
+      mean_point(scan, group.returns, third, group.returns.size() - third);
+  const Eigen::Vector2d last =
+      mean_point(scan, group.returns, group.returns.size() - third, group.returns.size());
+  const double half_chord = 0.5 * (last - first).norm();
+  if (half_chord < kLeastHalfChord || half_chord > kUsualRadius_m) return;
+  // Beams run anticlockwise, so away from the laser is to the right of the way from first to last.
+  const Eigen::Vector2d along = (last - first) / (2.0 * half_chord);
+  const Eigen::Vector2d away(along.y(), -along.x());
+  const double depth = std::sqrt(kUsualRadius_m * kUsualRadius_m - half_chord * half_chord);
+  const Eigen::Vector2d chord_middle = 0.5 * (first + last);
+  const double bulge = (chord_middle - middle).dot(away);
+  const double noise = kRangeSigma / std::sqrt(static_cast<double>(third));
+  if (bulge < std::max(kRoundFrom * (kUsualRadius_m - depth), kSurely * noise)) return;
+  group.is_round = true;
+  group.radius_m = kUsualRadius_m;
+  group.centre_M = chord_middle + depth * away;
+}
+
 void fit_disc(const ScanInMap& scan, ReturnGroup& group) {
   const ScanReturn& first = scan.returns[group.returns.front()];
   const ScanReturn& last = scan.returns[group.returns.back()];
@@ -60,6 +100,12 @@ void fit_disc(const ScanInMap& scan, ReturnGroup& group) {
                    (near + group.radius_m) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   group.is_cut = is_cut_at(scan, static_cast<std::ptrdiff_t>(first.beam) - 1, first.range_m) ||
                  is_cut_at(scan, static_cast<std::ptrdiff_t>(last.beam) + 1, last.range_m);
+  if (group.is_cut) fit_part(scan, group);
+}
+
+double sigma_of(const ReturnGroup& group) {
+  if (!group.is_cut) return kSigmaWhole;
+  return group.is_round ? kSigmaRound : kSigmaCut;
 }
 
 bool is_group(const ScanInMap& scan, const std::vector<std::size_t>& returns) {
@@ -106,16 +152,17 @@ void ObstacleTracker::Track::predict(Time to) {
 }
 
 void ObstacleTracker::Track::correct(const ReturnGroup& group) {
-  const double sigma = group.is_cut ? kSigmaCut : kSigmaWhole;
+  const double sigma = sigma_of(group);
+  const bool is_known = !group.is_cut || group.is_round;
   const double innovation_var = var_place + sigma * sigma;
   const double gain_place = var_place / innovation_var;
   // The middle of what is left in sight of one who goes out of it goes elsewhere than they do.
-  const double gain_velocity = group.is_cut ? 0.0 : covar / innovation_var;
+  const double gain_velocity = is_known ? covar / innovation_var : 0.0;
   const Eigen::Vector2d innovation = group.centre_M - centre_M;
   centre_M += gain_place * innovation;
   velocity_M += gain_velocity * innovation;
   var_velocity -= gain_velocity * covar;
-  covar -= group.is_cut ? gain_place * covar : gain_velocity * var_place;
+  covar -= is_known ? gain_velocity * var_place : gain_place * covar;
   var_place -= gain_place * var_place;
   if (!group.is_cut) radius_m += kRadiusShare * (group.radius_m - radius_m);
   ++updates;
@@ -129,7 +176,7 @@ void ObstacleTracker::Track::correct(const ReturnGroup& group) {
 ObstacleTracker::Track ObstacleTracker::begin(const ReturnGroup& group, Time now) {
   Track track;
   track.centre_M = group.centre_M;
-  const double sigma = group.is_cut ? kSigmaCut : kSigmaWhole;
+  const double sigma = sigma_of(group);
   track.var_place = sigma * sigma;
   track.var_velocity = kSigmaFirstVelocity * kSigmaFirstVelocity;
   track.radius_m = group.radius_m;

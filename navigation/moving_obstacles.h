@@ -24,13 +24,16 @@ struct MovingObstacle {
 struct ReturnGroup {
   Eigen::Vector2d centre_M = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
-  bool is_cut = false;  ///< Only part of it can be seen.
+  bool is_cut = false;    ///< Only part of it can be seen,
+  bool is_round = false;  ///< and that is bent as somebody's side is, so that its middle is known.
   std::vector<std::size_t> returns;
 };
 
 /// The groups among the returns of `scan` for which `is_candidate`: neighbours less than 0.25 m
 /// from each other, at least three of them, at most 1.2 m across. A disc of radius r at distance D
-/// takes the half angle asin(r/D), and its nearest point is D − r away.
+/// takes the half angle asin(r/D), and its nearest point is D − r away. Where only part can be seen
+/// and is bent like a disc of kUsualRadius_m, it is taken for one through that part's ends.
+inline constexpr double kUsualRadius_m = 0.25;  ///< Of somebody who walks.
 std::vector<ReturnGroup> groups_of(const ScanInMap& scan, const std::vector<bool>& is_candidate);
 
 /// Follows groups of returns by a Kalman filter of constant velocity each.

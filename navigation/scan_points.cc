@@ -1,6 +1,7 @@
 #include "navigation/scan_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/motion/planar_pose.h"
 
@@ -10,6 +11,7 @@ ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double
   const PlanarPose q_RL{X_RL.translation.x(), X_RL.translation.y(), yaw_of(X_RL.rotation)};
   ScanPoints points;
   points.sensor_R = position_of(q_RL);
+  if (!std::isfinite(scan.first_angle_rad) || !std::isfinite(scan.angle_step_rad)) return points;
   points.ends_R.reserve(scan.ranges_m.size());
   const double clear_m = std::min(most_clear_m, scan.most_range_m);
   double angle = scan.first_angle_rad;

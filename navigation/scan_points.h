@@ -19,7 +19,8 @@ struct ScanPoints {
 };
 
 /// The beams of `scan`, which are taken as of one moment. A beam that met nothing is clear up to
-/// `most_clear_m`, or the laser's range if that is less; invalid beams are left out.
+/// `most_clear_m`, or the laser's range if that is less; invalid beams, such as of NaN, are left
+/// out, and so are all of a scan whose angles are not finite.
 ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double most_clear_m);
 
 /// Points such that no two neighbours in order are nearer to each other than `spacing_m`: where

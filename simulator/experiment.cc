@@ -7,9 +7,10 @@
 #include <mutex>
 #include <thread>
 
+#include "simulator/navigation_summary.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
-#include "tagfield/map/true_map.h"
+#include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
 namespace {
@@ -135,34 +136,109 @@ SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunCont
   return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
 }
 
-/// Watches how well the robots know their poses, and how near they come to things.
-class NavigationWatch {
+/// Counts how often the robots come to touch anything, and how near they come.
+class TouchWatch {
  public:
-  explicit NavigationWatch(const NavigationWorld& world) : world_(world) {}
+  TouchWatch(const NavigationWorld& world, NavigationRun& navigation)
+      : world_(world), navigation_(navigation) {
+    navigation_.closest_m = RobotClearance::kMost;
+  }
 
-  void look(const Simulation& simulation, NavigationRun& navigation) {
-    if (to_seconds(simulation.now() - last_) < kInterval) return;
-    last_ = simulation.now();
-    const Obstacles obstacles = obstacles_at(world_.laser.obstacles, last_);
-    for (const Robot& robot : simulation.robots()) {
-      if (robot.self_driver() == nullptr) continue;
-      const RigidTransform truth = robot.true_pose(0.0);
-      const RigidTransform belief = robot.believed_pose(0.0);
-      const PlanarPose pose{truth.translation.x(), truth.translation.y(), yaw_of(truth.rotation)};
-      closest_ = std::min(closest_, world_.clearance.distance(pose, obstacles));
-      navigation.position_errors_m.push_back(
-          (truth.translation - belief.translation).head<2>().norm());
-      navigation.yaw_errors_rad.push_back(std::abs(wrap_to_pi(yaw_of(belief.rotation) - pose.yaw)));
-    }
-    navigation.closest_m = closest_;
+  void look(const std::string& robot, const PlanarPose& pose_W, Time now) {
+    const double distance =
+        world_.clearance.distance(pose_W, obstacles_at(world_.laser.obstacles, now));
+    navigation_.closest_m = std::min(navigation_.closest_m, distance);
+    const bool touches = distance <= 0.0;
+    bool& touched = touches_[robot];
+    if (touches && !touched) ++navigation_.collisions;
+    touched = touches;
   }
 
  private:
-  static constexpr double kInterval = 0.1;  ///< [s]
   const NavigationWorld& world_;
-  Time last_ = Time(-std::chrono::hours(1));
-  double closest_ = 1e9;
+  NavigationRun& navigation_;
+  std::map<std::string, bool> touches_;
 };
+
+PlanarPose planar(const RigidTransform& X) {
+  return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
+}
+
+/// Watches at 10 Hz how well the robots know their poses.
+class BeliefWatch {
+ public:
+  BeliefWatch(const Scenario& scenario, NavigationRun& navigation)
+      : is_told_(scenario.navigation.start == StartBelief::kKnown), navigation_(navigation) {}
+
+  void look(const Robot& robot, Time now) {
+    const auto [entry, is_new] = places_.try_emplace(robot.name());
+    Place& place = entry->second;
+    if (is_new && !is_told_) place.watch.put(PlaceLoss::kStart);
+    if (robot.times_carried() > place.times_carried) place.watch.put(PlaceLoss::kCarried);
+    place.times_carried = robot.times_carried();
+    const PlanarPose truth = planar(robot.true_pose(0.0));
+    const PlanarPose belief = planar(robot.believed_pose(0.0));
+    const double off_m = (position_of(truth) - position_of(belief)).norm();
+    const double off_rad = std::abs(wrap_to_pi(belief.yaw - truth.yaw));
+    const bool knows_place = robot.self_driver()->knows_place();
+    place.watch.look({now, robot.travelled_m(), knows_place, off_m, off_rad});
+    if (!knows_place) return;
+    navigation_.position_errors_m.push_back(off_m);
+    navigation_.yaw_errors_rad.push_back(off_rad);
+  }
+
+  [[nodiscard]] std::vector<Finding> findings() const {
+    std::vector<Finding> all;
+    for (const auto& [name, place] : places_) {
+      const std::vector<Finding>& of_one = place.watch.findings();
+      all.insert(all.end(), of_one.begin(), of_one.end());
+    }
+    return all;
+  }
+
+ private:
+  struct Place {
+    PlaceWatch watch;
+    std::size_t times_carried = 0;
+  };
+  bool is_told_;
+  NavigationRun& navigation_;
+  std::map<std::string, Place> places_;
+};
+
+/// How often beliefs are looked at [s].
+constexpr double kBeliefInterval = 0.1;
+
+/// The drive, once there is a map.
+void drive(const Scenario& scenario, const RunControl& control, const NavigationWorld& world,
+           Simulation& simulation, SeedRun& run) {
+  NavigationRun& navigation = *run.navigation;
+  TouchWatch touches(world, navigation);
+  if (navigation.survey) {
+    for (const StampedPose& pose : navigation.survey->true_path) {
+      touches.look(mapping_robot(scenario).name, planar(pose.X_WB), pose.stamp);
+    }
+  }
+  BeliefWatch beliefs(scenario, navigation);
+  const Pace pace(scenario.real_time);
+  std::optional<Time> believed;
+  while (!simulation.finished() && !stopped(control)) {
+    const Time begin = simulation.now();
+    simulation.step(run.recording);
+    const bool is_due = !believed || to_seconds(begin - *believed) >= kBeliefInterval;
+    if (is_due) believed = begin;
+    for (const Robot& robot : simulation.robots()) {
+      if (robot.self_driver() == nullptr) continue;
+      touches.look(robot.name(), planar(robot.true_pose(0.0)), begin);
+      if (is_due) beliefs.look(robot, begin);
+    }
+    if (control.on_progress) {
+      control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
+    }
+    pace.wait_for(simulation.now());
+  }
+  navigation.findings = beliefs.findings();
+}
 
 SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                             const NavigationWorld& world) {
@@ -171,16 +247,7 @@ SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const 
   NavigationRun& navigation = run.navigation.emplace();
   const SelfDriving driving = find_map(scenario, seed, control, world, navigation);
   Simulation simulation(scenario, driving, seed);
-  NavigationWatch watch(world);
-  const Pace pace(scenario.real_time);
-  while (!simulation.finished() && !stopped(control)) {
-    simulation.step(run.recording);
-    watch.look(simulation, navigation);
-    if (control.on_progress) {
-      control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
-    }
-    pace.wait_for(simulation.now());
-  }
+  drive(scenario, control, world, simulation, run);
   for (const Robot& robot : simulation.robots()) {
     if (robot.self_driver() == nullptr) continue;
     const std::vector<GoalOutcome>& goals = robot.self_driver()->outcomes();
@@ -194,44 +261,6 @@ SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const 
 /// Simulated time that went into the map.
 double mapping_s(const SeedRun& run) {
   return run.navigation && run.navigation->survey ? run.navigation->survey->simulated_s : 0.0;
-}
-
-NavigationSummary navigation_of(const std::vector<SeedRun>& runs, const NavigationWorld& world) {
-  NavigationSummary summary;
-  std::vector<double> positions;
-  std::vector<double> yaws;
-  bool first = true;
-  for (const SeedRun& run : runs) {
-    const NavigationRun& navigation = *run.navigation;
-    const MapComparison map = compare_maps(navigation.map, world.true_map);
-    const auto least = [&](double& kept, double value) {
-      kept = first ? value : std::min(kept, value);
-    };
-    const auto most = [&](double& kept, double value) {
-      kept = first ? value : std::max(kept, value);
-    };
-    least(summary.walls_found, map.found_share);
-    most(summary.walls_false, map.false_share);
-    most(summary.walls_double, map.double_wall_share);
-    least(summary.floor_known, map.known_share);
-    least(summary.closest_m, navigation.closest_m);
-    if (first && navigation.survey) {
-      summary.mapping_path_m = navigation.survey->path_length_m;
-      summary.mapping_s = mapping_s(run);
-    }
-    summary.goals += navigation.goals.size();
-    for (const GoalOutcome& goal : navigation.goals) {
-      if (goal.state == DriveState::kReached) ++summary.goals_reached;
-    }
-    summary.times_lost += static_cast<std::size_t>(navigation.times_lost);
-    positions.insert(positions.end(), navigation.position_errors_m.begin(),
-                     navigation.position_errors_m.end());
-    yaws.insert(yaws.end(), navigation.yaw_errors_rad.begin(), navigation.yaw_errors_rad.end());
-    first = false;
-  }
-  summary.position_error_m = statistics(positions);
-  summary.yaw_error_rad = statistics(yaws);
-  return summary;
 }
 
 }  // namespace
@@ -349,7 +378,7 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   if (scenario.pose.source != PoseSource::kTrue) {
     summary.pose_error = pose_error_of(scenario, runs);
   }
-  if (world != nullptr && first.navigation) summary.navigation = navigation_of(runs, *world);
+  if (world != nullptr && first.navigation) summary.navigation = navigation_summary(runs, *world);
   summary.warnings = diagnostics.warnings();
   return summary;
 }

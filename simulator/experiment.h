@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/navigation_world.h"
+#include "simulator/place_watch.h"
 #include "simulator/scenario.h"
 #include "simulator/self_driver.h"
 #include "simulator/simulation.h"
@@ -32,7 +33,9 @@ struct NavigationRun {
   std::vector<GoalOutcome> goals;
   std::vector<double> position_errors_m;  ///< Of the belief at 10 Hz,
   std::vector<double> yaw_errors_rad;     ///< absolute.
-  double closest_m = 0.0;                 ///< Least distance between a robot's rim and anything.
+  double closest_m = 0.0;         ///< Least distance between a robot's outline and anything,
+  int collisions = 0;             ///< and how often it came to touch; both while mapping, too.
+  std::vector<Finding> findings;  ///< Of all robots.
   int times_lost = 0;
 };
 

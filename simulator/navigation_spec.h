@@ -12,7 +12,16 @@
 
 namespace tagfield {
 
+/// What a robot that drives by itself is told of where it begins.
+enum class StartBelief {
+  kKnown,    ///< Where it is, to some centimetres.
+  kUnknown,  ///< Nothing.
+  kRandom,   ///< Nothing, and it is put anywhere that it could have driven to, at each seed
+             ///< elsewhere.
+};
+
 struct NavigationSpec {
+  StartBelief start = StartBelief::kKnown;
   std::string map;  ///< A map's YAML file to drive by; "" to make one first.
   /// Whether what is too low for the laser to see, but not for the robot to hit, is known to the
   /// driver from the world's file, as from a floor plan.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "simulator/floor.h"
 #include "simulator/navigation_spec.h"
 #include "simulator/robot_clearance.h"
 #include "simulator/robot_senses.h"
@@ -24,14 +25,17 @@ struct NavigationWorld {
   std::optional<OccupancyGrid> given_map;  ///< Where the scenario names one.
   OccupancyGrid true_map;                  ///< At the laser's height, to compare with.
   RobotClearance clearance;
+  /// Where a robot can get to from the start of the one that maps, with room to spare for what a
+  /// map and a belief may be off: two of the map's cells.
+  std::vector<Eigen::Vector2d> floor;
 };
 
-/// Throws Error where the scenario has no world, no robot that drives, or a robot in a wall, and on
-/// a map that can't be read.
+/// Throws Error where the scenario has no world, no robot that drives, or one that starts or is
+/// carried into a wall, and on a map that can't be read or is of no use.
 NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
                                  Diagnostics& diagnostics);
 
-/// The robot that makes the map: the first with waypoints. Throws Error if there is none.
+/// The robot that makes the map: the first that has anywhere to go. Throws Error if there is none.
 const RobotSpec& mapping_robot(const Scenario& scenario);
 
 /// The map that a robot drives by, as opposed to that it localizes on.

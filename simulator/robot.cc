@@ -1,11 +1,25 @@
 #include "simulator/robot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/self_driver.h"
 #include "tagfield/base/random.h"
+#include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
+
+double planned_length(const RobotSpec& robot) {
+  double length = 0.0;
+  Eigen::Vector2d at = position_of(robot.start);
+  const auto go_on = [&](const Eigen::Vector2d& next) {
+    length += (next - at).norm();
+    at = next;
+  };
+  for (const Eigen::Vector2d& waypoint : robot.waypoints) go_on(waypoint);
+  for (const PlanarPose& goal : robot.goals_W) go_on(position_of(goal));
+  return length;
+}
 
 Robot::Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed)
     : spec_(spec),
@@ -32,11 +46,20 @@ bool Robot::finished() const {
   return self_driver_ ? self_driver_->finished() : follower_.finished();
 }
 
+double Robot::progress() const {
+  if (finished()) return 1.0;
+  if (self_driver_) return self_driver_->progress();
+  return std::min(travelled_m_ / std::max(planned_length(spec_), 1e-9), 1.0);
+}
+
 void Robot::step(Time now, double seconds) {
   begin_ = advance(begin_, velocity_, step_seconds_);
   odometry_ = advance(odometry_, measured_, step_seconds_);
   error_begin_ = error_end_;
   step_seconds_ = seconds;
+  while (times_carried_ < spec_.carried.size() && spec_.carried[times_carried_].when <= now) {
+    begin_ = spec_.carried[times_carried_++].to_W.value_or(begin_);
+  }
 
   // Commands go through the wheels, which is all that a skid-steered robot has.
   const BodyVelocity wanted =

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,14 +18,33 @@
 
 namespace tagfield {
 
+/// A robot is picked up and put down elsewhere; its wheels don't notice.
+struct Carrying {
+  Time when;                       ///< Of the drive: mapping is over at 0.
+  std::optional<PlanarPose> to_W;  ///< None: anywhere that it could have driven to.
+  Location location;
+};
+
 struct RobotSpec {
   std::string name;
   PlanarPose start;
   DriveGeometry drive;
   DrivingStyle style;
   std::vector<Eigen::Vector2d> waypoints;  ///< [m, world]; none for a robot that stands.
-  Location location;                       ///< Where it was written, for messages.
+  // For robots that find their way by themselves; at most one of waypoints, goals, random goals.
+  std::vector<PlanarPose> goals_W;  ///< To be driven to, and to look along.
+  int random_goals = 0;             ///< So many, drawn anew at each seed.
+  std::vector<Carrying> carried;    ///< In order of time.
+  Location location;                ///< Where it was written, for messages.
 };
+
+/// Whether it has anywhere to go.
+inline bool drives(const RobotSpec& robot) {
+  return !robot.waypoints.empty() || !robot.goals_W.empty() || robot.random_goals > 0;
+}
+
+/// Length of the robot's path over its waypoints or goals, corners not rounded [m].
+double planned_length(const RobotSpec& robot);
 
 class SelfDriver;
 
@@ -32,7 +52,7 @@ class SelfDriver;
 class Robot {
  public:
   Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
-  /// Finds its way by itself, from spec.start on.
+  /// Finds its way by itself, from spec.start on. Each of spec.carried has its `to_W`.
   Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed);
   ~Robot();
   Robot(Robot&&) noexcept;
@@ -53,6 +73,9 @@ class Robot {
   [[nodiscard]] const SelfDriver* self_driver() const { return self_driver_.get(); }
   /// Way driven up to the current step's end [m].
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
+  [[nodiscard]] std::size_t times_carried() const { return times_carried_; }
+  /// Share of its way or of its goals that is behind it, 0 to 1.
+  [[nodiscard]] double progress() const;
 
  private:
   [[nodiscard]] PoseError error_at(double seconds) const;
@@ -67,6 +90,7 @@ class Robot {
   std::uint64_t steps_ = 0;
   double step_seconds_ = 0.0;
   double travelled_m_ = 0.0;
+  std::size_t times_carried_ = 0;
   PlanarPose begin_;       ///< True pose as the step begins.
   BodyVelocity velocity_;  ///< During the step.
   PlanarPose odometry_;    ///< Dead-reckoned pose as the step begins.

@@ -55,6 +55,7 @@ RobotSpec robot_of(YamlMap map) {
   for (const YamlValue& waypoint : map.list("waypoints")) {
     robot.waypoints.push_back(waypoint_of(waypoint));
   }
+  read_self_driving(map, robot);
   map.finish();
   return robot;
 }
@@ -231,14 +232,16 @@ Scenario scenario_of(YamlMap map) {
     scenario.localization = localization_of(YamlMap(map.at("localization")));
   }
   read_bodies(map, scenario);
+  if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
+    for (const YamlValue& robot : map.list("robots")) forbid_self_driving(YamlMap(robot));
+  }
   map.finish();
   return scenario;
 }
 
 void require_end(const Scenario& scenario, const std::string& path) {
-  const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                                  [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
-  if (!scenario.duration_s && !drives && !end_of_recordings(scenario.antennas)) {
+  const bool any_drives = std::any_of(scenario.robots.begin(), scenario.robots.end(), drives);
+  if (!scenario.duration_s && !any_drives && !end_of_recordings(scenario.antennas)) {
     fail({path, 0},
          "has no 'duration_s', which must be given where no robot has waypoints and no antenna is "
          "recorded");

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "navigation/goal_driver.h"
 #include "navigation/monte_carlo_localizer.h"
+#include "navigation/wander.h"
 #include "simulator/navigation_spec.h"
 #include "simulator/navigation_world.h"
 #include "simulator/robot_senses.h"
@@ -24,11 +26,17 @@ struct GoalOutcome {
   double seconds = 0.0;  ///< From when it was given.
 };
 
+/// While it does not know where it is it wanders about by its laser; its goal has to wait. After
+/// kSearchLimit_s of that it gives all goals up. A goal that can't be reached while the scans don't
+/// fit the map makes it look for its place anew.
 class SelfDriver {
  public:
-  /// Drives to `goals_M` one after another, at `speed_m_s`.
+  static constexpr double kSearchLimit_s = 300.0;
+
+  /// Drives to `goals_M` one after another, at `speed_m_s`. Without a `start` it may be anywhere on
+  /// the map.
   SelfDriver(const NavigationSpec& navigation, double speed_m_s, const NavigationWorld& world,
-             const OccupancyGrid& map, const PoseEstimate& start,
+             const OccupancyGrid& map, const std::optional<PoseEstimate>& start,
              const std::vector<PlanarPose>& goals_M, std::uint64_t seed, std::uint64_t key);
 
   /// Decides the velocity for the step that begins at `now` with the robot at `begin_W`, and lets
@@ -37,24 +45,39 @@ class SelfDriver {
 
   /// Believed pose `seconds` after the present step's beginning.
   [[nodiscard]] PoseEstimate believed(double seconds) const;
+  /// Whether it believes to know where it is.
+  [[nodiscard]] bool knows_place() const { return knows_place_; }
   /// Whether all goals are reached or given up.
   [[nodiscard]] bool finished() const { return outcomes_.size() == goals_.size(); }
+  /// Share of the goals that are behind it; 1 where there are none.
+  [[nodiscard]] double progress() const;
   [[nodiscard]] const std::vector<GoalOutcome>& outcomes() const { return outcomes_; }
-  [[nodiscard]] MonteCarloLocalizer& localizer() { return localizer_; }
   [[nodiscard]] const MonteCarloLocalizer& localizer() const { return localizer_; }
 
  private:
+  void look_after_place(Time now);
+  bool doubts_place();
   void look_after_goals(const PlanarPose& begin_W, const PlanarPose& pose_M, Time now);
+  void end_goal(DriveState state, const std::string& reason, const PlanarPose& begin_W, Time now);
+  BodyVelocity wanted(const PlanarPose& begin_W, Time now);
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> hidden_things(const PlanarPose& odometry) const;
 
   GoalDriverSettings settings_;
   RobotSenses senses_;
   MonteCarloLocalizer localizer_;
   GoalDriver driver_;
+  Wander wander_;
   std::vector<PlanarPose> goals_;
   std::vector<GoalOutcome> outcomes_;
   BodyVelocity velocity_;
-  bool has_goal_ = false;
-  Time goal_given_;
+  std::vector<Eigen::Vector2d> hidden_M_;  ///< Where the map has what the laser does not see.
+  bool knows_place_ = true;
+  Time lost_since_;
+  bool is_under_way_ = false;  ///< The driver has the present goal.
+  std::optional<Time> goal_given_;
+  bool has_looked_ = false;   ///< A scan has been laid onto the map.
+  bool has_doubted_ = false;  ///< For the present goal.
 };
 
 /// Goals at the waypoints, each looking along the way that led there.

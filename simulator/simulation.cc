@@ -43,27 +43,53 @@ RigidTransform mount_at(const AntennaSpec& antenna, Time stamp) {
 std::optional<Time> end_of(const Scenario& scenario) {
   if (scenario.duration_s) return time_from_seconds(*scenario.duration_s);
   if (const auto last = end_of_recordings(scenario.antennas)) return *last + Duration(1);
-  const bool drives = std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                                  [](const RobotSpec& robot) { return !robot.waypoints.empty(); });
-  if (!drives) throw Error("duration_s must be given where no robot has waypoints to drive");
-  return std::nullopt;
+  if (std::any_of(scenario.robots.begin(), scenario.robots.end(), drives)) return std::nullopt;
+  throw Error("duration_s must be given where no robot has waypoints to drive");
 }
+
+/// What a place is drawn for.
+enum class PlaceDraw : std::uint64_t { kStart, kGoal, kCarried };
 
 /// A robot that knows about where it is put.
 constexpr double kPlacedSigma_m = 0.02;
 constexpr double kPlacedSigma_rad = 0.01;
 
+/// A place that is drawn for this robot at this seed; `what` tells its draws apart.
+PlanarPose drawn_place(const NavigationWorld& world, const RobotSpec& robot, std::uint64_t seed,
+                       PlaceDraw what, std::uint64_t number) {
+  RandomStream stream(seed, Purpose::kPlaces, stream_key(robot.name),
+                      static_cast<std::uint64_t>(what), number);
+  return random_place(world.floor, stream);
+}
+
+std::vector<PlanarPose> goals_of(const NavigationWorld& world, const RobotSpec& robot,
+                                 std::uint64_t seed) {
+  if (!robot.waypoints.empty()) return goals_at(robot.start, robot.waypoints);
+  std::vector<PlanarPose> goals = robot.goals_W;
+  for (int i = 0; i < robot.random_goals; ++i) {
+    goals.push_back(
+        drawn_place(world, robot, seed, PlaceDraw::kGoal, static_cast<std::uint64_t>(i)));
+  }
+  return goals;
+}
+
 Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDriving& driving,
-                         bool first, std::uint64_t seed) {
-  const std::vector<PlanarPose> goals = goals_at(robot.start, robot.waypoints);
-  PoseEstimate start = placed_at(robot.start);
-  if (first) {
-    robot.start = driving.true_start;
-    start = driving.start;
+                         bool has_mapped, std::uint64_t seed) {
+  const NavigationWorld& world = *driving.world;
+  const std::vector<PlanarPose> goals = goals_of(world, robot, seed);
+  std::optional<PoseEstimate> start = has_mapped ? driving.start : placed_at(robot.start);
+  if (has_mapped) robot.start = driving.true_start;
+  if (scenario.navigation.start != StartBelief::kKnown) start.reset();
+  if (scenario.navigation.start == StartBelief::kRandom) {
+    robot.start = drawn_place(world, robot, seed, PlaceDraw::kStart, 0);
+  }
+  for (std::size_t i = 0; i < robot.carried.size(); ++i) {
+    std::optional<PlanarPose>& to_W = robot.carried[i].to_W;
+    if (!to_W) to_W = drawn_place(world, robot, seed, PlaceDraw::kCarried, i);
   }
   auto driver =
-      std::make_unique<SelfDriver>(scenario.navigation, robot.style.speed_m_s, *driving.world,
-                                   *driving.map, start, goals, seed, stream_key(robot.name));
+      std::make_unique<SelfDriver>(scenario.navigation, robot.style.speed_m_s, world, *driving.map,
+                                   start, goals, seed, stream_key(robot.name));
   return {robot, std::move(driver), seed};
 }
 
@@ -73,16 +99,6 @@ PoseEstimate placed_at(const PlanarPose& pose) {
   return {pose, Eigen::Vector3d(kPlacedSigma_m * kPlacedSigma_m, kPlacedSigma_m * kPlacedSigma_m,
                                 kPlacedSigma_rad * kPlacedSigma_rad)
                     .asDiagonal()};
-}
-
-double planned_length(const RobotSpec& robot) {
-  double length = 0.0;
-  Eigen::Vector2d at(robot.start.x, robot.start.y);
-  for (const Eigen::Vector2d& waypoint : robot.waypoints) {
-    length += (waypoint - at).norm();
-    at = waypoint;
-  }
-  return length;
 }
 
 Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
@@ -97,16 +113,17 @@ Simulation::Simulation(const Scenario& scenario, const SelfDriving* driving, std
       end_(end_of(scenario)),
       tags_(cell_size(scenario)) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
+  bool has_mapped = true;
   for (const RobotSpec& robot : scenario.robots) {
     if (robot_named(robot.name) != nullptr) {
       fail(robot.location, fmt::format("a second robot is called '{}'", robot.name));
     }
-    if (driving != nullptr && !robot.waypoints.empty()) {
-      robots_.push_back(self_driving_robot(scenario, robot, *driving, way_to_go_m_ == 0.0, seed_));
+    if (driving != nullptr && drives(robot)) {
+      robots_.push_back(self_driving_robot(scenario, robot, *driving, has_mapped, seed_));
+      has_mapped = false;
     } else {
       robots_.emplace_back(robot, scenario.pose, seed_);
     }
-    way_to_go_m_ += planned_length(robot);
   }
   for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
   plan_appearances(scenario.tags);
@@ -153,9 +170,10 @@ bool Simulation::finished() const {
 }
 
 double Simulation::progress() const {
-  const double share = end_ ? to_seconds(now_) / std::max(to_seconds(*end_), 1e-9)
-                            : travelled_m() / std::max(way_to_go_m_, 1e-9);
-  return finished() ? 1.0 : std::clamp(share, 0.0, 1.0);
+  if (end_) return std::clamp(to_seconds(now_) / std::max(to_seconds(*end_), 1e-9), 0.0, 1.0);
+  double slowest = 1.0;
+  for (const Robot& robot : robots_) slowest = std::min(slowest, robot.progress());
+  return slowest;
 }
 
 double Simulation::travelled_m() const {

@@ -27,8 +27,8 @@ struct Recording {
 struct SelfDriving {
   const NavigationWorld* world = nullptr;
   const OccupancyGrid* map = nullptr;
-  PlanarPose true_start;  ///< Of the first robot with waypoints; others begin where they are put.
-  PoseEstimate start;     ///< What that robot believes of it.
+  PlanarPose true_start;  ///< Of the robot that mapped; others begin where they are put.
+  PoseEstimate start;     ///< What that robot believes of it, where it is told.
 };
 
 /// Runs a scenario step by step. Tags and antennas can be added and removed between any two steps.
@@ -38,7 +38,8 @@ class Simulation {
   /// Throws Error on a scenario that can't be simulated: an ID used twice, an unknown robot, a
   /// parameter out of range.
   Simulation(const Scenario& scenario, std::uint64_t seed);
-  /// Robots with waypoints drive to them by themselves. What `driving` points to must outlive this.
+  /// Robots that have anywhere to go drive there by themselves. What `driving` points to must
+  /// outlive this.
   Simulation(const Scenario& scenario, const SelfDriving& driving, std::uint64_t seed);
 
   /// Goes on by one time step and appends to `recording` what came of it. Reads are stamped with
@@ -49,7 +50,7 @@ class Simulation {
   [[nodiscard]] Time now() const { return now_; }
   /// Whether the scenario's duration is over, or all robots have arrived.
   [[nodiscard]] bool finished() const;
-  /// Share done, 0 to 1: of the duration where it is set, else of the robots' ways.
+  /// Share done, 0 to 1: of the duration where it is set, else of the slowest robot's way.
   [[nodiscard]] double progress() const;
   /// Way driven by all robots [m].
   [[nodiscard]] double travelled_m() const;
@@ -93,7 +94,6 @@ class Simulation {
   std::uint64_t seed_;
   Duration time_step_;
   std::optional<Time> end_;
-  double way_to_go_m_ = 0.0;
   Time now_{};         ///< End of the last step.
   Time step_begin_{};  ///< Beginning of the last step.
   std::vector<Robot> robots_;
@@ -111,8 +111,5 @@ class Simulation {
 
 /// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
 PoseEstimate placed_at(const PlanarPose& pose);
-
-/// Length of the robot's path over its waypoints, corners not rounded [m].
-double planned_length(const RobotSpec& robot);
 
 }  // namespace tagfield

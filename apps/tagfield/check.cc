@@ -87,6 +87,9 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
         load_scenario_with_world(arguments.file, overrides, diagnostics);
     // Whatever would stop the run stops the check.
     const Simulation simulation(loaded.scenario, loaded.scenario.seed);
+    if (loaded.scenario.pose.source == PoseSource::kSlam) {
+      navigation_world(loaded.scenario, loaded.scene, diagnostics);
+    }
     Json json = {{"scenario", loaded.scenario.name}};
     json.update(describe(loaded.scene));
     add_scenario(loaded.scenario, json);

@@ -116,6 +116,37 @@ std::string compared_pose_line(const Summary& summary) {
   return text + '\n';
 }
 
+std::string finding_line(const std::string& name, const std::optional<FindingSummary>& finding) {
+  if (!finding) return "";
+  std::string text = fmt::format("{}: {} of {} found, {} wrong", name, finding->found,
+                                 finding->count, finding->wrong);
+  if (finding->seconds && finding->driven_m) {
+    text += fmt::format("; after {:.1f} m, {:.1f} s (mean), {:.1f} m, {:.1f} s (most)",
+                        finding->driven_m->mean, finding->seconds->mean, finding->driven_m->max,
+                        finding->seconds->max);
+  }
+  return text + '\n';
+}
+
+std::string navigation_lines(const Summary& summary) {
+  if (!summary.navigation) return "";
+  const NavigationSummary& navigation = *summary.navigation;
+  std::string text =
+      fmt::format("goals: {} of {} reached, {} collisions, nearest to anything {:.0f} mm\n",
+                  navigation.goals_reached, navigation.goals, navigation.collisions,
+                  millimetres(navigation.closest_m));
+  const auto& unreached = navigation.goals_unreached;
+  for (std::size_t i = 0; i < std::min(unreached.size(), kMostRows); ++i) {
+    text += fmt::format("  seed {}, ({:.2f}, {:.2f}) m: {}\n", unreached[i].seed,
+                        unreached[i].goal.x(), unreached[i].goal.y(), unreached[i].reason);
+  }
+  if (unreached.size() > kMostRows) {
+    text += fmt::format("  … and {} more (summary.json has all)\n", unreached.size() - kMostRows);
+  }
+  return text + finding_line("unknown starts", navigation.unknown_starts) +
+         finding_line("carried away", navigation.carried) + finding_line("lost", navigation.lost);
+}
+
 }  // namespace
 
 std::string table_of(const Summary& summary) {
@@ -124,7 +155,8 @@ std::string table_of(const Summary& summary) {
   text +=
       fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
                   count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
-  return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary);
+  return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary) +
+         navigation_lines(summary);
 }
 
 }  // namespace tagfield

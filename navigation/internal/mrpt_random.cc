@@ -13,7 +13,10 @@ std::mutex& generator_mutex() {
 }  // namespace
 
 MrptRandom::MrptRandom(RandomStream stream) : lock_(generator_mutex()) {
-  mrpt::random::getRandomGenerator().randomize(static_cast<std::uint32_t>(stream()));
+  // Not randomize(): normal draws come in pairs, and it would keep the half that the one before has
+  // left over.
+  mrpt::random::getRandomGenerator() =
+      mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(stream()));
 }
 
 }  // namespace tagfield

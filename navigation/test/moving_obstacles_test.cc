@@ -76,6 +76,39 @@ TEST(ObstacleTracker, FollowsFromARobotThatDrivesAndTurns) {
   EXPECT_LT((watch.moving()[0].velocity_M - Eigen::Vector2d(0.0, -1.0)).norm(), 0.15);
 }
 
+/// Abeam, half of somebody is beyond the edge of the view all the time.
+TEST(ObstacleTracker, FollowsWhoIsHalfInView) {
+  for (const double radius : {0.2, 0.25, 0.3}) {
+    for (const double side : {-1.0, 1.0}) {
+      Watch watch;
+      watch.obstacles = disc({0.2, 3.0 * side}, {0.0, -0.8 * side}, radius);
+      watch.until(2.5);
+      ASSERT_EQ(watch.moving().size(), 1U);
+      const MovingObstacle found = watch.moving()[0];
+      EXPECT_LT((found.velocity_M - Eigen::Vector2d(0.0, -0.8 * side)).norm(), 0.2);
+      EXPECT_LT((found.centre_M - Eigen::Vector2d(0.2, side)).norm(), 0.12);
+    }
+  }
+}
+
+/// A flat side of which the edge of the view or somebody's corner shows more and more.
+TEST(ObstacleTracker, AFlatSideThatComesIntoViewDoesNotMove) {
+  for (const double size : {0.4, 0.7}) {
+    Watch watch;
+    watch.robot = [](double t) { return PlanarPose{-0.6 + 0.3 * t, 0.0, 0.0}; };
+    watch.obstacles = [size](double) {
+      return Obstacles{{},
+                       {{{-0.2, 1.5}, {size, 0.5}, 0.0},
+                        {{2.0, 0.6}, {0.3, 0.3}, 0.0},
+                        {{3.0, 1.4}, {size, 0.4}, 0.2}}};
+    };
+    for (double t = 0.2; t < 4.0; t += 0.2) {
+      watch.until(t);
+      EXPECT_TRUE(watch.moving().empty()) << size << " at " << t;
+    }
+  }
+}
+
 TEST(ObstacleTracker, BoxesThatStandDoNotMove) {
   // Passed at 0.3 m/s, as near as 1 m.
   Watch watch;

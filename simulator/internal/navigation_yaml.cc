@@ -37,6 +37,25 @@ void check_at(const YamlMap& map, const Parameters& parameters) {
   }
 }
 
+StartBelief start_of(const YamlValue& value) {
+  constexpr StartBelief kStarts[] = {StartBelief::kKnown, StartBelief::kUnknown,
+                                     StartBelief::kRandom};
+  return kStarts[choice(value, {"known", "unknown", "random"})];
+}
+
+/// [t, x, y, yaw], or [t] for a place that is drawn.
+Carrying carrying_of(const YamlValue& row) {
+  const std::vector<double> n = row.numbers(1, 4);
+  if (n.size() != 1 && n.size() != 4) {
+    row.fail("must be [t, x, y, yaw], or [t] for a place that is drawn");
+  }
+  Carrying carrying;
+  carrying.location = row.location();
+  carrying.when = time_from_seconds(seconds_of(row.list().front(), kNotNegative));
+  if (n.size() == 4) carrying.to_W = PlanarPose{n[1], n[2], n[3]};
+  return carrying;
+}
+
 LaserParameters laser_of(YamlMap map) {
   LaserParameters laser;
   laser.beams = count_of(map, "beams", laser.beams, 2, 100'000);
@@ -98,6 +117,7 @@ PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation) {
   if (value.node().IsScalar()) return mode_of(value);
   YamlMap map(value);
   const PoseSource mode = map.has("mode") ? mode_of(map.at("mode")) : PoseSource::kSlam;
+  if (map.has("start")) navigation.start = start_of(map.at("start"));
   if (map.has("map")) navigation.map = resolve_path(map.at("map"));
   navigation.keep_out = map.boolean("keep_out", navigation.keep_out);
   if (map.has("laser")) navigation.laser = laser_of(YamlMap(map.at("laser")));
@@ -111,6 +131,31 @@ PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation) {
   if (map.has("driving")) navigation.driver = driver_of(YamlMap(map.at("driving")));
   map.finish();
   return mode;
+}
+
+void read_self_driving(YamlMap& map, RobotSpec& robot) {
+  for (const YamlValue& goal : map.list("goals")) {
+    const std::vector<double> n = goal.numbers(3, 3);
+    robot.goals_W.push_back({n[0], n[1], n[2]});
+  }
+  robot.random_goals = count_of(map, "random_goals", 0, 1, 100'000);
+  for (const YamlValue& row : map.list("carried")) {
+    const Carrying carrying = carrying_of(row);
+    if (!robot.carried.empty() && carrying.when <= robot.carried.back().when) {
+      row.fail("must be later than the one before it");
+    }
+    robot.carried.push_back(carrying);
+  }
+  const int kinds = static_cast<int>(!robot.waypoints.empty()) +
+                    static_cast<int>(!robot.goals_W.empty()) +
+                    static_cast<int>(robot.random_goals > 0);
+  if (kinds > 1) map.self().fail("must have one of 'waypoints', 'goals' and 'random_goals' only");
+}
+
+void forbid_self_driving(YamlMap map) {
+  for (const char* key : {"goals", "random_goals", "carried"}) {
+    if (map.has(key)) map.at(key).fail("is only for robots with 'navigation: slam'");
+  }
 }
 
 ObstacleSpec obstacle_of(YamlMap map) {

@@ -33,6 +33,10 @@ inline Eigen::Vector2d transformed(const PlanarPose& q_AB, const Eigen::Vector2d
   return {q_AB.x + c * p_B.x() - s * p_B.y(), q_AB.y + s * p_B.x() + c * p_B.y()};
 }
 
+inline bool is_finite(const PlanarPose& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
 /// The pose's place on the floor.
 inline Eigen::Vector2d position_of(const PlanarPose& pose) { return {pose.x, pose.y}; }
 

@@ -60,12 +60,47 @@ std::string pose_rows(const NavigationSummary& navigation) {
   return rows;
 }
 
+/// The first few, each with its reason.
+std::string unreached_rows(const NavigationSummary& navigation) {
+  constexpr std::size_t kMostRows = 10;
+  const auto& goals = navigation.goals_unreached;
+  std::string rows;
+  for (std::size_t i = 0; i < std::min(goals.size(), kMostRows); ++i) {
+    rows +=
+        row("Not reached", fmt::format("({:.2f}, {:.2f}) m", goals[i].goal.x(), goals[i].goal.y()),
+            fmt::format("with seed {}: {}", goals[i].seed, goals[i].reason));
+  }
+  if (goals.size() <= kMostRows) return rows;
+  return rows + row("Not reached", fmt::format("{} more", grouped(goals.size() - kMostRows)),
+                    "in summary.json");
+}
+
+std::string finding_row(const std::string& name, const std::string& what,
+                        const std::optional<FindingSummary>& finding) {
+  if (!finding) return "";
+  std::string words = what;
+  if (finding->seconds && finding->driven_m) {
+    words += fmt::format(", after {:.1f} m and {:.0f} s in the mean, {:.1f} m and {:.0f} s at most",
+                         finding->driven_m->mean, finding->seconds->mean, finding->driven_m->max,
+                         finding->seconds->max);
+  }
+  if (finding->wrong > 0) {
+    words += fmt::format("; took another place for its own {}", counted(finding->wrong, "time"));
+  }
+  return row(name, fmt::format("{} of {}", grouped(finding->found), grouped(finding->count)),
+             words);
+}
+
 std::string driving_rows(const NavigationSummary& navigation) {
   return row("Goals reached",
              fmt::format("{} of {}", grouped(navigation.goals_reached), grouped(navigation.goals)),
              "places that it was sent to") +
+         unreached_rows(navigation) +
          row("Least distance", spoken_length(std::max(navigation.closest_m, 0.0)),
-             "between its rim and anything else") +
+             "between its outline and anything else") +
+         row("Collisions", grouped(navigation.collisions), "times it came to touch anything") +
+         finding_row("Unknown starts", "found out where it was", navigation.unknown_starts) +
+         finding_row("Carried away", "found out where it was put", navigation.carried) +
          row("Times lost", grouped(navigation.times_lost), "times it no longer knew where it was");
 }
 

@@ -62,6 +62,23 @@ struct ComparedPose {
   std::size_t located = 0;
 };
 
+/// How robots found out where they are, over all seeds.
+struct FindingSummary {
+  std::size_t count = 0;                   ///< Times that they had to.
+  std::size_t noticed = 0;                 ///< Of these, times that they knew that they don't know.
+  std::size_t found = 0;                   ///< Of all, those that ended with the right place.
+  std::size_t wrong = 0;                   ///< Times that they took another place for theirs.
+  std::optional<ErrorStatistics> seconds;  ///< [s], of those found.
+  std::optional<ErrorStatistics> driven_m;  ///< Likewise.
+};
+
+/// A goal that was not reached.
+struct UnreachedGoal {
+  std::uint64_t seed = 0;
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();  ///< x, y [m], yaw [rad].
+  std::string reason;
+};
+
 /// How robots found their way by laser, map and wheels. Of several seeds the worst, where it does
 /// not say otherwise.
 struct NavigationSummary {
@@ -76,8 +93,14 @@ struct NavigationSummary {
   std::optional<ErrorStatistics> yaw_error_rad;
   std::size_t goals = 0;  ///< Over all seeds.
   std::size_t goals_reached = 0;
-  double closest_m = 0.0;      ///< Between a robot's rim and anything.
+  std::vector<UnreachedGoal> goals_unreached;
+  double closest_m = 0.0;      ///< Between a robot's outline and anything.
+  std::size_t collisions = 0;  ///< Times that it came to touch anything, over all seeds.
   std::size_t times_lost = 0;  ///< Over all seeds.
+  // None where it did not happen.
+  std::optional<FindingSummary> unknown_starts;
+  std::optional<FindingSummary> carried;
+  std::optional<FindingSummary> lost;  ///< By themselves.
 };
 
 /// Everything that a page needs besides the files in the run's folder.

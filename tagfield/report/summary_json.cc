@@ -44,6 +44,24 @@ Json compared_pose_json(const std::optional<ComparedPose>& compared) {
           {"located", compared->located}};
 }
 
+Json finding_json(const std::optional<FindingSummary>& finding) {
+  if (!finding) return nullptr;
+  return {{"count", finding->count},
+          {"noticed", finding->noticed},
+          {"found", finding->found},
+          {"wrong", finding->wrong},
+          {"seconds", statistics_json(finding->seconds)},
+          {"driven_m", statistics_json(finding->driven_m)}};
+}
+
+Json unreached_json(const std::vector<UnreachedGoal>& goals) {
+  Json list = Json::array();
+  for (const UnreachedGoal& goal : goals) {
+    list.push_back({{"seed", goal.seed}, {"goal", point(goal.goal)}, {"reason", goal.reason}});
+  }
+  return list;
+}
+
 Json navigation_json(const std::optional<NavigationSummary>& navigation) {
   if (!navigation) return nullptr;
   return {{"walls_found", number(navigation->walls_found)},
@@ -56,8 +74,13 @@ Json navigation_json(const std::optional<NavigationSummary>& navigation) {
           {"yaw_error_rad", statistics_json(navigation->yaw_error_rad)},
           {"goals", navigation->goals},
           {"goals_reached", navigation->goals_reached},
+          {"goals_unreached", unreached_json(navigation->goals_unreached)},
           {"closest_m", number(navigation->closest_m)},
-          {"times_lost", navigation->times_lost}};
+          {"collisions", navigation->collisions},
+          {"times_lost", navigation->times_lost},
+          {"unknown_starts", finding_json(navigation->unknown_starts)},
+          {"carried", finding_json(navigation->carried)},
+          {"lost", finding_json(navigation->lost)}};
 }
 
 /// One property of each candidate, best first.
@@ -152,6 +175,32 @@ std::optional<ComparedPose> compared_pose_at(const JsonPlace& top) {
   return result;
 }
 
+std::optional<FindingSummary> finding_at(const JsonPlace& place) {
+  if (is_null(place)) return std::nullopt;
+  FindingSummary result;
+  result.count = whole_at(member(place, "count"));
+  result.noticed = whole_at(member(place, "noticed"));
+  result.found = whole_at(member(place, "found"));
+  result.wrong = whole_at(member(place, "wrong"));
+  result.seconds = statistics_at(member(place, "seconds"));
+  result.driven_m = statistics_at(member(place, "driven_m"));
+  return result;
+}
+
+/// What summaries of an older version don't have.
+void take_findings(const JsonPlace& place, NavigationSummary& result) {
+  if (!place.value->contains("collisions")) return;
+  result.collisions = whole_at(member(place, "collisions"));
+  for (const JsonPlace& goal : elements(member(place, "goals_unreached"))) {
+    result.goals_unreached.push_back({whole_at(member(goal, "seed")),
+                                      point_at(member(goal, "goal")),
+                                      text_at(member(goal, "reason"))});
+  }
+  result.unknown_starts = finding_at(member(place, "unknown_starts"));
+  result.carried = finding_at(member(place, "carried"));
+  result.lost = finding_at(member(place, "lost"));
+}
+
 /// As compared_pose_at().
 std::optional<NavigationSummary> navigation_at(const JsonPlace& top) {
   if (!top.value->contains("navigation")) return std::nullopt;
@@ -170,6 +219,7 @@ std::optional<NavigationSummary> navigation_at(const JsonPlace& top) {
   result.goals_reached = whole_at(member(place, "goals_reached"));
   result.closest_m = number_or_zero(member(place, "closest_m"));
   result.times_lost = whole_at(member(place, "times_lost"));
+  take_findings(place, result);
   return result;
 }
 

@@ -104,6 +104,68 @@ ANTENNA_SENSOR = """\
 """
 WORLD_WITH_SENSORS = WORLD.replace("      </link>", ANTENNA_SENSOR + "      </link>")
 
+# A hall of 8 m by 5 m about the origin, with a pen of 2 m by 2 m in its corner without a door.
+HALL_BOXES = ((0, 2.6, 8.4, 0.2), (0, -2.6, 8.4, 0.2), (4.1, 0, 0.2, 5.4), (-4.1, 0, 0.2, 5.4),
+              (1.9, 1.5, 0.2, 2.0), (2.9, 0.4, 2.2, 0.2))
+HALL = """\
+<?xml version="1.0"?>
+<sdf version="1.6">
+  <world name="hall">
+    <model name="walls">
+      <static>true</static>
+      <link name="link">
+""" + "".join(f"""\
+        <collision name="box_{i}"><pose>{x} {y} 1 0 0 0</pose>
+          <geometry><box><size>{length} {width} 2</size></box></geometry></collision>
+""" for i, (x, y, length, width) in enumerate(HALL_BOXES)) + """\
+      </link>
+    </model>
+  </world>
+</sdf>
+"""
+NAVIGATION = """\
+name: driven
+time_step_s: 0.02
+world: {path: hall.sdf}
+robots:
+  - name: cart
+    start: [0, 0, 0]
+    goals: [[0.4, 0, 0]]
+    carried: [[300, -1, 0, 0]]
+antennas:
+  - {name: gate, pose: [2, 1, 1], rate_hz: 1}
+tags:
+  - {id: near, position: [1, 1, 1]}
+navigation:
+  mode: slam
+  map: hall.yaml
+  laser: {beams: 91}
+obstacles:
+  - {radius_m: 0.2, position: [-2, -1]}
+"""
+HALL_YAML = """\
+image: hall.pgm
+resolution: 0.1
+origin: [-4.2, -2.7, 0.0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+
+
+def hall_pgm(grey=None):
+    """The hall's map; all of one grey where that is given."""
+    columns, rows = 84, 54
+    def grey_at(column, row):
+        x, y = -4.2 + 0.1 * (column + 0.5), 2.7 - 0.1 * (row + 0.5)
+        is_wall = any(abs(x - box[0]) < box[2] / 2 and abs(y - box[1]) < box[3] / 2
+                      for box in HALL_BOXES)
+        return 0 if is_wall else 254
+    cells = bytes(grey if grey is not None else grey_at(column, row)
+                  for row in range(rows) for column in range(columns))
+    return f"P5\n{columns} {rows}\n255\n".encode() + cells
+
+
 READS = """\
 stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm
 0.0,r,a,one,865700000,1.0,-50
@@ -639,6 +701,107 @@ def two_tags_of_one_name_in_world_and_scenario(context):
                          "  - {name: door, pose: [0, 0, 0]}\n")
     expect_complaint(context, "an antenna of the world's name",
                      ["run", path, "--out", stranger(context)], "door")
+
+
+# --- Robots that find their way by themselves -----------------------------------------------------
+
+def write_hall(context):
+    context.write("hall.sdf", HALL)
+    context.write("hall.yaml", HALL_YAML)
+    context.write("hall.pgm", hall_pgm())
+
+
+@case
+def maps_that_are_no_maps(context):
+    write_hall(context)
+    path = context.write("driven.yaml", NAVIGATION)
+    context.run_well("run", path, "--out", "good", "--no-page")
+    whole = hall_pgm()
+    for name, content, says, file in (
+            ("hall.pgm", b"", "", "hall.pgm"), ("hall.pgm", whole[:2000], "", "hall.pgm"),
+            ("hall.pgm", whole.replace(b"84 54", b"84 55"), "", "hall.pgm"),
+            ("hall.pgm", whole.replace(b"84 54", b"84000000 54000000"), "", "hall.pgm"),
+            ("hall.pgm", whole.replace(b"84 54", b"0 0"), "", "hall.pgm"),
+            ("hall.pgm", whole.replace(b"84 54", b"-84 54"), "", "hall.pgm"),
+            ("hall.pgm", b"an image\n", "", "hall.pgm"), ("hall.pgm", None, "no such file", "hall.pgm"),
+            ("hall.pgm", hall_pgm(254), "no occupied cell", "hall.yaml"),
+            ("hall.pgm", hall_pgm(0), "no free cell", "hall.yaml"),
+            ("hall.pgm", hall_pgm(205), "no free cell", "hall.yaml"),
+            ("hall.yaml", "", "", "hall.yaml"), ("hall.yaml", None, "no such file", "hall.yaml"),
+            ("hall.yaml", HALL_YAML.replace("hall.pgm", "none.pgm"), "no such file", "none.pgm"),
+            ("hall.yaml", HALL_YAML.replace("0.1\n", "0\n"), "resolution", "hall.yaml"),
+            ("hall.yaml", HALL_YAML.replace("0.1\n", ".nan\n"), "resolution", "hall.yaml"),
+            ("hall.yaml", HALL_YAML.replace("0.0]", "0.5]"), "origin", "hall.yaml"),
+            ("hall.yaml", HALL_YAML.replace("0.65", "0.1"), "thresh", "hall.yaml"),
+            ("hall.yaml", HALL_YAML.replace("image: hall.pgm", ""), "image", "hall.yaml")):
+        write_hall(context)
+        if content is None:
+            (context.folder / name).unlink()
+        else:
+            context.write(name, content)
+        expect_complaint(context, f"{name} {content and content[:12]!r}",
+                         ["run", path, "--out", stranger(context)], says, file=file)
+
+
+@case
+def robots_in_walls(context):
+    write_hall(context)
+    for old, new, says, line in (
+            ("start: [0, 0, 0]", "start: [3.8, 0, 0]", "robots[0].start", 5),
+            ("start: [0, 0, 0]", "start: [-2, -0.7, 0]", "robots[0].start", 5),
+            ("start: [0, 0, 0]", "start: [1.9, 1.5, 0]", "robots[0].start", 5),
+            ("[300, -1, 0, 0]", "[3, 1.9, 1, 0]", "robots[0].carried[0]", 8),
+            ("[300, -1, 0, 0]", "[3], [4, -2, -1, 0]", "robots[0].carried[1]", 8)):
+        text = replaced(NAVIGATION, old, new)
+        expect_bad_scenario(context, new, text, [says, "wall or an obstacle"], line)
+        path = context.write("bad.yaml", text)
+        expect_complaint(context, f"check, {new}", ["check", path], says, line, path)
+
+
+@case
+def ways_to_find_that_make_no_sense(context):
+    write_hall(context)
+    for old, new, says in (
+            ("  mode: slam", "  mode: slam\n  start: anywhere", ["navigation.start", "unknown"]),
+            ("goals: [[0.4, 0, 0]]", "goals: [[0.4, 0]]", "robots[0].goals[0]"),
+            ("goals: [[0.4, 0, 0]]", "goals: [[0.4, 0, .nan]]", "robots[0].goals[0]"),
+            ("goals: [[0.4, 0, 0]]", "random_goals: 0", "robots[0].random_goals"),
+            ("goals: [[0.4, 0, 0]]", "random_goals: 1e9", "robots[0].random_goals"),
+            ("[[300, -1, 0, 0]]", "[[300, -1, 0]]", ["robots[0].carried[0]", "[t, x, y, yaw]"]),
+            ("[[300, -1, 0, 0]]", "[[30], [20]]", ["robots[0].carried[1]", "later"]),
+            ("[[300, -1, 0, 0]]", "[[-1]]", "robots[0].carried[0]"),
+            ("  mode: slam", "  mode: odometry", ["robots[0].goals", "navigation: slam"]),
+            ("{beams: 91}", "{beams: 1}", "navigation.laser.beams"),
+            ("radius_m: 0.2, position", "radius_m: -0.2, position", "obstacles[0].radius_m")):
+        text = replaced(NAVIGATION, old, new)
+        expect_bad_scenario(context, new.strip(), text, says)
+    two = replaced(NAVIGATION, "goals: [[0.4, 0, 0]]", "goals: [[0.4, 0, 0]]\n    random_goals: 2")
+    expect_bad_scenario(context, "two kinds of goals", two, ["robots[0]", "one of"])
+    none = replaced(NAVIGATION, "    goals: [[0.4, 0, 0]]\n", "") + "duration_s: 1\n"
+    expect_complaint(context, "no goals", ["run", context.write("bad.yaml", none), "--out",
+                                          stranger(context)], "waypoints or goals")
+
+
+@case
+def goals_that_cannot_be_reached(context):
+    """Each is refused with a reason, and the robot goes on to the next."""
+    write_hall(context)
+    goals = {"off the map": (9, 0), "on an obstacle": (1.9, 1.5), "to an obstacle": (-3.8, 0),
+             "no way there": (3, 1.5)}
+    text = replaced(NAVIGATION, "[[0.4, 0, 0]]",
+                    str([[x, y, 0] for x, y in goals.values()] + [[0.4, 0, 0]]))
+    context.write("far.yaml", text)
+    result = context.run_well("run", "far.yaml", "--out", "out")
+    navigation = read_json(context.folder / "out/summary.json")["navigation"]
+    check_equal((navigation["goals"], navigation["goals_reached"]), (5, 1), "goals")
+    check_equal([goal["goal"][:2] for goal in navigation["goals_unreached"]],
+                [list(place) for place in goals.values()], "the goals not reached")
+    for reason, goal in zip(goals, navigation["goals_unreached"]):
+        check_in(reason, goal["reason"], "the reason")
+        check_in(goal["reason"], result.out, "the table")
+        check_equal(goal["seed"], 1, "seed")
+    page = (context.folder / "out/report.html").read_text(encoding="utf-8")
+    check_in("no way there", page, "the page")
 
 
 # --- Reads, poses and heights ---------------------------------------------------------------------

@@ -31,6 +31,9 @@ Summary navigated_summary() {
   navigation.goals = 5;
   navigation.goals_reached = 4;
   navigation.closest_m = 0.49;
+  navigation.goals_unreached = {{7, {3.0, 1.5, 0.0}, "no way <there>"}};
+  navigation.carried =
+      FindingSummary{20, 20, 18, 1, statistics({10.0, 30.0}), statistics({2.0, 6.0})};
   summary.navigation = navigation;
   return summary;
 }
@@ -148,6 +151,14 @@ TEST(NavigationTable, SaysInWords) {
   EXPECT_TRUE(holds(table, "Heading off by</th><td>0.50°</td>"));
   EXPECT_TRUE(holds(table, "4 of 5"));
   EXPECT_TRUE(holds(table, "Least distance</th><td>490 mm</td>"));
+  EXPECT_TRUE(holds(table, "Not reached</th><td>(3.00, 1.50) m</td>")) << table;
+  EXPECT_TRUE(holds(table, "with seed 7: no way &lt;there&gt;"));
+  EXPECT_TRUE(holds(table, "Collisions</th><td>0</td>"));
+  EXPECT_TRUE(holds(table, "Carried away</th><td>18 of 20</td>"));
+  EXPECT_TRUE(holds(table,
+                    "4.0 m and 20 s in the mean, 6.0 m and 30 s at most; took another place"
+                    " for its own 1 time"));
+  EXPECT_FALSE(holds(table, "Unknown starts"));
 }
 
 TEST(RunFacts, StateNoNoiseOfARobotThatFindsItsWay) {

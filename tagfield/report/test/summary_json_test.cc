@@ -12,6 +12,21 @@
 namespace tagfield {
 namespace {
 
+NavigationSummary full_navigation() {
+  NavigationSummary navigation;
+  navigation.walls_found = 0.99;
+  navigation.goals = 3;
+  navigation.goals_reached = 2;
+  navigation.goals_unreached = {{7, {1.0, -2.0, 0.5}, "off the map"}};
+  navigation.closest_m = 0.1;
+  navigation.collisions = 4;
+  navigation.times_lost = 1;
+  navigation.unknown_starts =
+      FindingSummary{20, 20, 19, 1, statistics({10.0, 30.0}), statistics({2.0, 6.0})};
+  navigation.carried = FindingSummary{2, 1, 0, 0, std::nullopt, std::nullopt};
+  return navigation;
+}
+
 /// A summary with all that it can hold.
 Summary full_summary() {
   Summary summary = summary_of({});
@@ -24,6 +39,7 @@ Summary full_summary() {
   summary.warnings = {"first", "second"};
   summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.02, 0.0141, statistics({0.001, 0.004})};
   summary.compared_pose = ComparedPose{"odometry", 0.25, statistics({0.2, 0.5}), 2};
+  summary.navigation = full_navigation();
   summary.tags[0].truth_m.reset();
   summary.tags[0].moved = true;
   TagEstimate& estimate = summary.tags[1].estimate;
@@ -70,6 +86,34 @@ TEST(SummaryJson, ComparesPosesWhereThereAreTwo) {
   EXPECT_EQ(after.compared_pose->error_m->max, 0.5);
   EXPECT_EQ(after.compared_pose->located, 2U);
   EXPECT_TRUE(nlohmann::json::parse(to_json(summary_of({})))["compared_pose"].is_null());
+}
+
+TEST(SummaryJson, TellsHowRobotsFoundTheirWay) {
+  const Summary after = summary_from_json(to_json(full_summary()), "f");
+  ASSERT_TRUE(after.navigation);
+  const NavigationSummary& navigation = *after.navigation;
+  EXPECT_EQ(navigation.collisions, 4U);
+  ASSERT_EQ(navigation.goals_unreached.size(), 1U);
+  EXPECT_EQ(navigation.goals_unreached[0].seed, 7U);
+  EXPECT_EQ(navigation.goals_unreached[0].goal, Eigen::Vector3d(1.0, -2.0, 0.5));
+  EXPECT_EQ(navigation.goals_unreached[0].reason, "off the map");
+  ASSERT_TRUE(navigation.unknown_starts);
+  EXPECT_EQ(navigation.unknown_starts->found, 19U);
+  EXPECT_EQ(navigation.unknown_starts->driven_m->max, 6.0);
+  ASSERT_TRUE(navigation.carried);
+  EXPECT_EQ(navigation.carried->noticed, 1U);
+  EXPECT_FALSE(navigation.carried->seconds);
+  EXPECT_FALSE(navigation.lost);
+}
+
+TEST(SummaryFromJson, TakesSummariesFromBeforeRobotsWereCarried) {
+  auto json = nlohmann::ordered_json::parse(to_json(full_summary()));
+  for (const char* key : {"goals_unreached", "collisions", "unknown_starts", "carried", "lost"}) {
+    json["navigation"].erase(key);
+  }
+  const Summary after = summary_from_json(json.dump(), "f");
+  EXPECT_EQ(after.navigation->goals_reached, 2U);
+  EXPECT_FALSE(after.navigation->unknown_starts);
 }
 
 TEST(SummaryFromJson, TakesSummariesFromBeforePosesWereCompared) {
