@@ -61,6 +61,23 @@ bool is_in_view(const LaserScan& scan, double angle_L) {
   return beam_of(scan, scan.ranges_m[i]) != Beam::kInvalid;
 }
 
+OccupancyGrid empty_floor(const Eigen::Vector2d& middle) {
+  OccupancyGrid floor;
+  floor.resolution_m = kFloorCell;
+  floor.width = floor.height = static_cast<int>(std::lround(2.0 * kFloorHalf / kFloorCell));
+  floor.origin = middle - Eigen::Vector2d::Constant(kFloorHalf);
+  floor.cells.assign(static_cast<std::size_t>(floor.width) * static_cast<std::size_t>(floor.height),
+                     0);
+  return floor;
+}
+
+void mark(OccupancyGrid& floor, const std::vector<Eigen::Vector2d>& points) {
+  for (const Eigen::Vector2d& point : points) {
+    const Eigen::Vector2i cell = floor.cell_of(point);
+    if (floor.contains(cell.x(), cell.y())) floor.cells[floor.index(cell.x(), cell.y())] = 100;
+  }
+}
+
 }  // namespace
 
 double open_way(const std::vector<Eigen::Vector2d>& points_R, double angle_rad, double half_width_m,
@@ -131,41 +148,24 @@ double Wander::gain(std::size_t sector, double way, const PlanarPose& pose_O) co
          kPerCrumb * std::min(static_cast<int>(crumbs), kMostCrumbs);
 }
 
-/// Free, but for what was seen last: that stands there, as far as is known.
-OccupancyGrid Wander::floor_around(const Eigen::Vector2d& here_O) const {
-  OccupancyGrid floor;
-  floor.resolution_m = kFloorCell;
-  floor.width = floor.height = static_cast<int>(std::lround(2.0 * kFloorHalf / kFloorCell));
-  floor.origin = here_O - Eigen::Vector2d::Constant(kFloorHalf);
-  floor.cells.assign(static_cast<std::size_t>(floor.width) * static_cast<std::size_t>(floor.height),
-                     0);
-  for (const std::vector<Eigen::Vector2d>* points : {&ends_O_, &hidden_O_}) {
-    for (const Eigen::Vector2d& point : *points) {
-      const Eigen::Vector2i cell = floor.cell_of(point);
-      if (floor.contains(cell.x(), cell.y())) floor.cells[floor.index(cell.x(), cell.y())] = 100;
-    }
-  }
-  return floor;
-}
-
-void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, Time now) {
+void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn, Time now) {
   goal_O_ = position_of(goal_O);
-  driver_.set_map(floor_around(position_of(pose_O)));
+  OccupancyGrid floor = empty_floor(position_of(pose_O));
+  // For a turn on the spot there need not be the room that a goal must have.
+  if (!is_turn) {
+    mark(floor, ends_O_);
+    mark(floor, hidden_O_);
+  }
+  driver_.set_map(floor);
   driver_.set_goal(goal_O, pose_O, now);
-}
-
-void Wander::turn(const PlanarPose& pose_O, Time now) {
-  --turns_left_;
-  go({pose_O.x, pose_O.y, wrap_to_pi(pose_O.yaw + kTwoPi / kThirds)}, pose_O, now);
 }
 
 void Wander::choose(const PlanarPose& pose_O, Time now) {
   chosen_ = now;
   if (turns_left_ > 0) {
-    turn(pose_O, now);
-    // Too near to something for a turn: it drives on instead.
-    if (driver_.state() == DriveState::kDriving) return;
-    turns_left_ = 0;
+    --turns_left_;
+    const double yaw = wrap_to_pi(pose_O.yaw + kTwoPi / kThirds);
+    return go({pose_O.x, pose_O.y, yaw}, pose_O, true, now);
   }
   std::optional<std::size_t> best;
   double best_way = 0.0;
@@ -185,7 +185,7 @@ void Wander::choose(const PlanarPose& pose_O, Time now) {
   const double yaw = yaw_of_sector(*best);
   const Eigen::Vector2d goal =
       position_of(pose_O) + (std::min(best_way, kLeg) - kSpare) * direction_of(yaw);
-  go({goal.x(), goal.y(), yaw}, pose_O, now);
+  go({goal.x(), goal.y(), yaw}, pose_O, false, now);
 }
 
 BodyVelocity Wander::next(const PlanarPose& pose_O, const BodyVelocity& velocity, Time now) {
@@ -198,7 +198,9 @@ BodyVelocity Wander::next(const PlanarPose& pose_O, const BodyVelocity& velocity
   if (chosen_ && now < *chosen_) chosen_.reset();
   const bool is_due = !chosen_ || to_seconds(now - *chosen_) >= kBetweenChoices;
   if (driver_.state() != DriveState::kDriving && is_due && has_seen_) {
-    if (driver_.state() == DriveState::kFailed) crumbs_O_.push_back(goal_O_);
+    const bool has_given_up =
+        driver_.state() == DriveState::kFailed || driver_.state() == DriveState::kRefused;
+    if (has_given_up) crumbs_O_.push_back(goal_O_);
     choose(pose_O, now);
   }
   return driver_.next(pose_O, velocity, now);

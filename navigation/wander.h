@@ -48,11 +48,9 @@ class Wander {
   };
 
   void choose(const PlanarPose& pose_O, Time now);
-  void go(const PlanarPose& goal_O, const PlanarPose& pose_O, Time now);
-  void turn(const PlanarPose& pose_O, Time now);
+  void go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn, Time now);
   [[nodiscard]] double way_towards(std::size_t sector, const Eigen::Vector2d& here_O) const;
   [[nodiscard]] double gain(std::size_t sector, double way_m, const PlanarPose& pose_O) const;
-  [[nodiscard]] OccupancyGrid floor_around(const Eigen::Vector2d& here_O) const;
 
   RigidTransform X_RL_;
   double half_width_m_;

@@ -19,9 +19,9 @@ constexpr double kMostSigma_rad = 0.2;
 /// Wandering, it heeds what it does not see so far around it [m]: more than a way is long.
 constexpr double kHiddenWithin_m = 5.0;
 
-/// A goal that can't be reached while less than this of a scan fits the map is no fault of the
-/// goal's.
-constexpr double kDoubtfulFit = 0.6;
+/// While less than this of a scan fits the map, it believes neither that a goal is reached nor that
+/// it can't be: the localizer's own limit, which waits for several such scans.
+constexpr double kDoubtfulFit = 0.5;
 
 /// Where `full` is occupied and `map`, of the same cells, is not.
 std::vector<Eigen::Vector2d> occupied_beside(const OccupancyGrid& full, const OccupancyGrid& map) {
@@ -111,11 +111,9 @@ void SelfDriver::end_goal(DriveState state, const std::string& reason, const Pla
   has_doubted_ = false;
 }
 
-/// Once for each goal it looks for its place anew before it gives the goal up.
+/// Once for each goal it looks for its place anew before it is done with the goal.
 bool SelfDriver::doubts_place() {
-  const bool is_in_doubt = driver_.state() != DriveState::kReached && has_looked_ &&
-                           !has_doubted_ && localizer_.fit() < kDoubtfulFit;
-  if (!is_in_doubt) return false;
+  if (!has_looked_ || has_doubted_ || localizer_.fit() >= kDoubtfulFit) return false;
   has_doubted_ = true;
   localizer_.start_anywhere();
   return true;

@@ -27,8 +27,8 @@ struct GoalOutcome {
 };
 
 /// While it does not know where it is it wanders about by its laser; its goal has to wait. After
-/// kSearchLimit_s of that it gives all goals up. A goal that can't be reached while the scans don't
-/// fit the map makes it look for its place anew.
+/// kSearchLimit_s of that it gives all goals up. Where its scans don't fit the map at a goal's end,
+/// reached or not, it looks for its place anew.
 class SelfDriver {
  public:
   static constexpr double kSearchLimit_s = 300.0;

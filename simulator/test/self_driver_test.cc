@@ -36,6 +36,7 @@ struct Ride {
   void step() {
     const BodyVelocity velocity = driver.step(truth, time_from_seconds(count * kStep), kStep);
     truth = advance(truth, velocity, kStep);
+    was_lost = was_lost || !driver.knows_place();
     nearest_m = std::min(nearest_m, world().clearance.distance(truth, {}));
     ++count;
   }
@@ -49,6 +50,7 @@ struct Ride {
   SelfDriver driver;
   PlanarPose truth;
   double nearest_m = 1.0;
+  bool was_lost = false;
   int count = 0;
 };
 
@@ -111,7 +113,7 @@ TEST(SelfDriver, FindsItselfAgainWhenCarriedAway) {
   ride.truth = {1.5, 0.8, -2.0};
   ride.run(120.0);
   ASSERT_TRUE(ride.driver.finished());
-  EXPECT_GE(ride.driver.localizer().times_lost(), 1);
+  EXPECT_TRUE(ride.was_lost);
   EXPECT_EQ(ride.driver.outcomes().back().state, DriveState::kReached);
   EXPECT_LT(ride.error_m(), 0.05);
   EXPECT_GT(ride.nearest_m, 0.0);
