@@ -95,6 +95,7 @@ double open_way(const std::vector<Eigen::Vector2d>& points_R, double angle_rad, 
 
 Wander::Wander(const GoalDriverSettings& settings, const RigidTransform& X_RL)
     : X_RL_(X_RL),
+      radius_m_(settings.radius_m),
       half_width_m_(settings.radius_m + settings.margin_m + kBeside),
       driver_(careless(settings), X_RL) {
   begin();
@@ -160,8 +161,17 @@ void Wander::go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn
   driver_.set_goal(goal_O, pose_O, now);
 }
 
+/// Who says that something is where the robot stands is wrong about all of it.
+void Wander::doubt_hidden(const Eigen::Vector2d& here_O) {
+  const bool is_wrong =
+      std::any_of(hidden_O_.begin(), hidden_O_.end(),
+                  [&](const Eigen::Vector2d& p_O) { return (p_O - here_O).norm() < radius_m_; });
+  if (is_wrong) hidden_O_.clear();
+}
+
 void Wander::choose(const PlanarPose& pose_O, Time now) {
   chosen_ = now;
+  doubt_hidden(position_of(pose_O));
   if (turns_left_ > 0) {
     --turns_left_;
     const double yaw = wrap_to_pi(pose_O.yaw + kTwoPi / kThirds);
@@ -201,6 +211,7 @@ BodyVelocity Wander::next(const PlanarPose& pose_O, const BodyVelocity& velocity
     const bool has_given_up =
         driver_.state() == DriveState::kFailed || driver_.state() == DriveState::kRefused;
     if (has_given_up) crumbs_O_.push_back(goal_O_);
+    if (driver_.state() == DriveState::kRefused) turns_left_ = kThirds;
     choose(pose_O, now);
   }
   return driver_.next(pose_O, velocity, now);

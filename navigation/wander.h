@@ -34,7 +34,7 @@ class Wander {
   /// passed over.
   void see(const LaserScan& scan, const PlanarPose& pose_O);
   /// Where there may be something that the laser does not see; counts for the ways that are chosen
-  /// from now on, until the next call.
+  /// from now on, until the next call. Not heeded where the robot itself stands on it.
   void mind(std::vector<Eigen::Vector2d> hidden_O) { hidden_O_ = std::move(hidden_O); }
   /// What to drive from `now` until the next call: nothing without a scan of the last half second,
   /// or where the pose is not finite. `velocity` is the robot's present one.
@@ -47,12 +47,14 @@ class Wander {
     Eigen::Vector2d from_O = Eigen::Vector2d::Zero();
   };
 
+  void doubt_hidden(const Eigen::Vector2d& here_O);
   void choose(const PlanarPose& pose_O, Time now);
   void go(const PlanarPose& goal_O, const PlanarPose& pose_O, bool is_turn, Time now);
   [[nodiscard]] double way_towards(std::size_t sector, const Eigen::Vector2d& here_O) const;
   [[nodiscard]] double gain(std::size_t sector, double way_m, const PlanarPose& pose_O) const;
 
   RigidTransform X_RL_;
+  double radius_m_;
   double half_width_m_;
   GoalDriver driver_;
   std::vector<Room> rooms_;              ///< In directions at equal angles, the first along O's x.

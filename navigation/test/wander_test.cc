@@ -115,6 +115,21 @@ TEST_P(Wanders, AroundAndTouchNothing) {
   EXPECT_GT(farthest, 2.5);
 }
 
+TEST(Wander, DoesNotHeedWhatItStandsOn) {
+  DriveSimulation simulation = simulation_from({1.5, 1.2, 0.0});
+  Wander wander({}, simulation.laser.X_RL);
+  PlanarPose odometry;
+  std::vector<Eigen::Vector2d> everywhere_O;
+  for (double x = -6.0; x <= 6.0; x += 0.1) {
+    for (double y = -6.0; y <= 6.0; y += 0.1) everywhere_O.emplace_back(x, y);
+  }
+  while (simulation.step < std::int64_t{20} * DriveSimulation::kStepsPerSecond) {
+    wander.mind(everywhere_O);
+    advance_by(wander, simulation, odometry);
+  }
+  EXPECT_GT(simulation.driven_m, 1.0);
+}
+
 /// In a corner, nearer to its walls than a goal may be, and looking into it.
 TEST(Wander, ComesOutOfACorner) {
   DriveSimulation simulation = simulation_from({0.39, 0.39, -2.36});
