@@ -75,6 +75,7 @@ bool GridMapper::has_moved(const PlanarPose& increment) const {
 }
 
 bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
+  if (!is_finite(odometry)) return false;
   const PlanarPose increment = updates_ == 0 ? PlanarPose{} : between(odometry_, odometry);
   const bool moved = has_moved(increment);
   const bool enough = updates_ >= static_cast<std::uint64_t>(settings_.first_scans);

@@ -40,7 +40,7 @@ class GridMapper {
 
   /// Takes a scan whose beams are of one moment (deskewed() makes it so), and the odometry's pose
   /// then. Returns whether it was entered, which is not done before the robot has moved on. Scans
-  /// without any return are passed over.
+  /// without any return, or with an odometry that is not finite, are passed over.
   bool update(const LaserScan& scan, const PlanarPose& odometry);
 
   /// Goes over the whole drive once more: leaves the best particle alone, and fits each of its

@@ -26,9 +26,9 @@ struct HitCell {
   std::uint32_t last = 0;    ///< Number of the latest scan that is counted.
 
   [[nodiscard]] bool is_known() const { return ended + passed > 0; }
-  /// More than one beam ended here, and beams of one in seven scans. Scans are counted rather than
+  /// More than one beam ended here, and beams of one in ten scans. Scans are counted rather than
   /// beams, since most beams of a scan along a wall pass the cells in which others end.
-  [[nodiscard]] bool is_occupied() const { return hits > 1 && 7 * ended >= ended + passed; }
+  [[nodiscard]] bool is_occupied() const { return hits > 1 && 10 * ended >= ended + passed; }
 };
 
 /// Grows as it is needed. Copies share what has not changed since, so that a filter can copy maps

@@ -57,8 +57,8 @@ TEST(HitGrid, ScansAreCountedNotBeams) {
 TEST(HitGrid, WhatWentAwayIsForgottenInTime) {
   HitGrid grid(0.1);
   for (int i = 0; i < 2; ++i) grid.insert(beam_to(1.04), {0.0, 0.05, 0.0});
-  // Two of fourteen scans are one in seven.
-  for (int i = 0; i < 12; ++i) grid.insert(beam_to(3.04), {0.0, 0.05, 0.0});
+  // Two of twenty scans are one in ten.
+  for (int i = 0; i < 18; ++i) grid.insert(beam_to(3.04), {0.0, 0.05, 0.0});
   EXPECT_TRUE(grid.at(10, 0).is_occupied());
   grid.insert(beam_to(3.04), {0.0, 0.05, 0.0});
   EXPECT_FALSE(grid.at(10, 0).is_occupied());
