@@ -1,0 +1,67 @@
+/// @file
+/// All paths from an antenna to a tag by the method of images. docs/propagation.md has the method
+/// and where it departs from waves.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "tagfield/propagation/radio_path.h"
+#include "tagfield/propagation/radio_scene.h"
+
+namespace tagfield {
+
+struct TraceOptions {
+  int order = 0;              ///< Most bounces: 0 … kMostBounces.
+  bool occlusion = true;      ///< Off: nothing stands in the way, and there are no crossings.
+  bool keep_blocked = false;  ///< Paths through something opaque are kept, and marked so.
+  double most_length_m = std::numeric_limits<double>::infinity();  ///< Longer paths are left out.
+  /// An end that is inside a solid by no more than this counts as mounted on its surface, and is
+  /// seen from outside.
+  double mount_depth_m = 0.015;
+};
+
+/// An antenna mirrored by a facet, or an image mirrored once more.
+struct Image {
+  Eigen::Vector3d p_W;       ///< [m]
+  Eigen::Vector3d normal_W;  ///< Of the facet, to the side where the wave is before and after.
+  double offset_m = 0.0;     ///< Of the facet's plane: normal_W · p.
+  std::uint32_t facet = 0;   ///< Index into RadioScene::facets().
+  std::int32_t parent = -1;  ///< Index of the image that is mirrored; -1 for the antenna.
+  std::int32_t order = 1;    ///< Number of mirrors.
+  /// What is behind any of these (outward normals, in W) can't be seen through the mirror.
+};
+
+/// All images of one antenna position, shared by all tags of an update.
+struct ImageSet {
+  Eigen::Vector3d p_WA;       ///< The antenna [m].
+  std::vector<Image> images;  ///< By rising order, each after its parent.
+};
+
+/// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
+/// could see. None if `p_WA` is not finite. Throws Error if `options.order` is not 0 … kMostBounces
+/// or another option is out of range.
+ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                   const TraceOptions& options);
+
+/// All paths from the antenna of `images` to a tag at `p_WT` [m, world] with at most
+/// `options.order` bounces (and at most those that `images` was made for): the direct one first,
+/// then by rising number of bounces and facet indices. `paths` holds them and nothing else; its
+/// memory is reused. None if an end is not finite, or if the ends coincide. Throws as images_of().
+void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
+                 const TraceOptions& options, std::vector<RadioPath>& paths);
+
+/// Whether nothing opaque is on the straight way between two points [m, world]. True if one is not
+/// finite.
+bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
+             const TraceOptions& options = {});
+
+/// All solids that the straight way from `p_WA` to `p_WT` [m, world] goes through, opaque ones too,
+/// in order. None if an end is not finite.
+std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                                         const Eigen::Vector3d& p_WT,
+                                         const TraceOptions& options = {});
+
+}  // namespace tagfield
