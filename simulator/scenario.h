@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "simulator/pose_error.h"
 #include "simulator/robot.h"
 #include "tagfield/base/error.h"
+#include "tagfield/channel/radio_world.h"
 #include "tagfield/localization/hyperbola.h"
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
@@ -35,11 +37,12 @@ struct AntennaSpec {
 /// A tag and how it moves.
 struct TagSpec {
   std::string id;
-  std::string on;  ///< Name of a robot, or "" for the world.
-  /// Positions in P; one of them for a tag at rest in P. Before the first and after the last the
+  std::string on;                         ///< Name of a robot, or "" for the world.
+  std::shared_ptr<const TagModel> model;  ///< What kind it is, for the physical models.
+  /// Poses in P; one of them for a tag at rest in P. Before the first and after the last the
   /// tag stays where that is.
   Trajectory motion;
-  bool in_steps = false;  ///< Each position holds until the next; otherwise straight between them.
+  bool in_steps = false;  ///< Each pose holds until the next; otherwise straight between them.
   Time appears;
   std::optional<Time> disappears;
   Location location;
@@ -70,6 +73,9 @@ struct Scenario {
   std::string name;
   std::string description;
   WorldSpec world;
+  RadioWorldOptions materials;  ///< What the world is made of, for the physical models.
+  /// The world as waves see it; null for free space.
+  std::shared_ptr<const RadioWorld> radio_world;
   std::uint64_t seed = 1;
   double time_step_s = 0.01;
   std::optional<double> duration_s;  ///< Where not set: until all robots have arrived.

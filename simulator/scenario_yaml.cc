@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "simulator/internal/navigation_yaml.h"
+#include "simulator/internal/radio_yaml.h"
 #include "simulator/internal/yaml_map.h"
 #include "simulator/internal/yaml_values.h"
 #include "simulator/placements.h"
@@ -30,6 +32,9 @@ WorldSpec world_of(YamlMap map) {
   world.path = resolve_path(map.at("path"));
   for (const YamlValue& folder : map.list("model_paths")) {
     world.search_paths.push_back(resolve_path(folder));
+  }
+  for (const char* radio : {"materials", "default_material", "least_facet_m2"}) {
+    static_cast<void>(map.has(radio));  // radio_world_options_of() reads them.
   }
   map.finish();
   return world;
@@ -108,7 +113,7 @@ PaperModel paper_model_of(YamlMap& map) {
   return model;
 }
 
-AntennaSpec antenna_of(YamlMap map) {
+AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
   AntennaSpec antenna;
   AntennaParameters& parameters = antenna.parameters;
   antenna.location = map.self().location();
@@ -118,6 +123,7 @@ AntennaSpec antenna_of(YamlMap map) {
   parameters.range_m = map.number("range_m", parameters.range_m, kPositive);
   parameters.range_sigma = map.number("range_sigma", parameters.range_sigma, kNotNegative);
   parameters.model = paper_model_of(map);
+  parameters.radio = radio_model_of(map, radio, diagnostics);
   antenna.on = map.text("on", "");
   const bool is_recorded = map.has("recorded");
   if (!is_recorded || map.has("pose")) antenna.X_PA = pose_of(map.at("pose"));
@@ -136,7 +142,12 @@ AntennaSpec antenna_of(YamlMap map) {
   return antenna;
 }
 
-TagSpec tag_of(YamlMap map) {
+/// Every pose of the motion turned so.
+void turn(Trajectory& motion, const Eigen::Quaterniond& R_PT) {
+  for (StampedPose& pose : motion) pose.X_WB.rotation = R_PT;
+}
+
+TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
   TagSpec tag;
   tag.location = map.self().location();
   tag.id = map.at("id").text();
@@ -147,6 +158,9 @@ TagSpec tag_of(YamlMap map) {
   } else {
     tag.motion = {{Time{}, from_translation(position_of(map.at("position")))}};
   }
+  if (map.has("rpy"))
+    turn(tag.motion, from_xyz_rpy({0, 0, 0}, position_of(map.at("rpy"))).rotation);
+  tag.model = tag_model_of(map, radio, diagnostics);
   if (map.has("appears_s")) {
     tag.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
   }
@@ -180,21 +194,42 @@ LocalizationSpec localization_of(YamlMap map) {
   return spec;
 }
 
-void read_bodies(YamlMap& map, Scenario& scenario) {
+/// Antennas send on a power that some kind of tag can need.
+void require_power_for_tags(const Scenario& scenario) {
+  double most_dbm = -std::numeric_limits<double>::infinity();
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    const auto& radio = antenna.parameters.radio;
+    if (!radio) return;
+    most_dbm = std::max(most_dbm, radio->transmit_power_dbm);
+  }
+  for (const TagSpec& tag : scenario.tags) {
+    if (!tag.model || tag.model->sensitivity_dbm < most_dbm) continue;
+    fail(tag.location, fmt::format("tag '{}': sensitivity_dbm must be below the antennas' "
+                                   "transmit_power_dbm ({:g}), is {:g}",
+                                   tag.id, most_dbm, tag.model->sensitivity_dbm));
+  }
+}
+
+void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
+                 Diagnostics& diagnostics) {
   for (const YamlValue& robot : map.list("robots")) {
     scenario.robots.push_back(robot_of(YamlMap(robot)));
   }
   for (const YamlValue& antenna : map.list("antennas")) {
-    scenario.antennas.push_back(antenna_of(YamlMap(antenna)));
+    scenario.antennas.push_back(antenna_of(YamlMap(antenna), radio, diagnostics));
   }
-  for (const YamlValue& tag : map.list("tags")) scenario.tags.push_back(tag_of(YamlMap(tag)));
+  for (const YamlValue& tag : map.list("tags")) {
+    scenario.tags.push_back(tag_of(YamlMap(tag), radio, diagnostics));
+  }
   if (map.has("tag_table")) {
-    const std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
+    std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
+    for (TagSpec& tag : more) tag.model = radio.tag;
     scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
   }
   if (map.has("tag_recording")) {
     replay_tags(resolve_path(map.at("tag_recording")), scenario.tags);
   }
+  if (!scenario.antennas.empty()) require_power_for_tags(scenario);
 }
 
 double time_step_of(const YamlValue& value) {
@@ -205,11 +240,12 @@ double time_step_of(const YamlValue& value) {
   return seconds;
 }
 
-Scenario scenario_of(YamlMap map) {
+Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");
-  if (map.has("model")) choice(map.at("model"), {"paper"});
+  const RadioDefaults radio = radio_defaults_of(map, diagnostics);
+  scenario.materials = radio_world_options_of(map);
   if (map.has("seed")) scenario.seed = map.at("seed").whole_number();
   if (map.has("time_step_s")) scenario.time_step_s = time_step_of(map.at("time_step_s"));
   if (map.has("duration_s")) scenario.duration_s = seconds_of(map.at("duration_s"), kPositive);
@@ -231,12 +267,18 @@ Scenario scenario_of(YamlMap map) {
   if (map.has("localization")) {
     scenario.localization = localization_of(YamlMap(map.at("localization")));
   }
-  read_bodies(map, scenario);
+  read_bodies(map, scenario, radio, diagnostics);
   if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
     for (const YamlValue& robot : map.list("robots")) forbid_self_driving(YamlMap(robot));
   }
   map.finish();
   return scenario;
+}
+
+bool any_physical(const Scenario& scenario) {
+  return std::any_of(
+      scenario.antennas.begin(), scenario.antennas.end(),
+      [](const AntennaSpec& antenna) { return antenna.parameters.radio != nullptr; });
 }
 
 void require_end(const Scenario& scenario, const std::string& path) {
@@ -258,14 +300,20 @@ Override parse_override(const std::string& argument) {
   return {argument.substr(0, equals), argument.substr(equals + 1)};
 }
 
-Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
+                       Diagnostics& diagnostics) {
   const YAML::Node root = read_yaml(path);
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
-    return scenario_of(YamlMap(YamlValue(root, path, "")));
+    return scenario_of(YamlMap(YamlValue(root, path, "")), diagnostics);
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
+  Diagnostics unheard;
+  return load_scenario(path, overrides, unheard);
 }
 
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
@@ -273,10 +321,14 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            Diagnostics& diagnostics) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
-  scenario = load_scenario(path, overrides);
+  scenario = load_scenario(path, overrides, diagnostics);
   if (!scenario.world.path.empty()) {
     loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
     add_placements(loaded.scene, scenario, diagnostics);
+  }
+  if (any_physical(scenario)) {
+    scenario.radio_world = std::make_shared<const RadioWorld>(
+        radio_world(loaded.scene, scenario.materials, diagnostics));
   }
   if (scenario.antennas.empty()) {
     fail({path, 0}, "no antennas: neither the scenario nor its world has one");

@@ -19,6 +19,9 @@ Override parse_override(const std::string& argument);
 
 /// Reads a scenario. Paths in the file are relative to the file; those in `overrides` to the
 /// current folder. Throws Error "FILE:LINE: …".
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
+                       Diagnostics& diagnostics);
+/// Likewise, warnings unheard.
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides);
 
 /// A scenario and the world that it plays in.

@@ -47,6 +47,12 @@ std::optional<Time> end_of(const Scenario& scenario) {
   throw Error("duration_s must be given where no robot has waypoints to drive");
 }
 
+std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario) {
+  if (scenario.radio_world) return scenario.radio_world;
+  Diagnostics nothing_to_say;
+  return std::make_shared<const RadioWorld>(radio_world(Scene{}, {}, nothing_to_say));
+}
+
 /// What a place is drawn for.
 enum class PlaceDraw : std::uint64_t { kStart, kGoal, kCarried };
 
@@ -111,7 +117,8 @@ Simulation::Simulation(const Scenario& scenario, const SelfDriving* driving, std
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
       end_(end_of(scenario)),
-      tags_(cell_size(scenario)) {
+      tags_(cell_size(scenario)),
+      air_(radio_world_of(scenario), seed) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
   bool has_mapped = true;
   for (const RobotSpec& robot : scenario.robots) {
@@ -187,6 +194,8 @@ std::uint32_t Simulation::place_new(const TagSpec& tag) {
     const std::uint32_t slot = tags_.add(tag.id, tag.motion.front().X_WB.translation);
     if (slot >= specs_.size()) specs_.resize(slot + std::size_t{1});
     specs_[slot] = tag;
+    tags_.turn(slot, tag.motion.front().X_WB.rotation);
+    if (tag.model) tags_.set_model(slot, tag.model);
     return slot;
   } catch (const Error& error) {
     fail(tag.location, error.what());
@@ -207,6 +216,7 @@ void Simulation::remove_tag(const std::string& id) {
   const std::optional<std::uint32_t> found = tags_.find(id);
   if (!found) throw Error(fmt::format("there is no tag with the ID '{}'", id));
   const std::uint32_t slot = *found;
+  air_.forget_tag(slot);
   tags_.remove(slot);
   for (std::vector<std::uint32_t>* list : {&moving_slots_, &new_slots_}) {
     list->erase(std::remove(list->begin(), list->end(), slot), list->end());
@@ -227,6 +237,7 @@ void Simulation::add_antenna(const AntennaSpec& antenna) {
     fail(antenna.location, fmt::format("antenna '{}': {}", name, error.what()));
   }
   antennas_.push_back(antenna);
+  if (antenna.parameters.radio) air_.add(antenna.parameters);
 }
 
 void Simulation::remove_antenna(const std::string& name) {
@@ -235,6 +246,7 @@ void Simulation::remove_antenna(const std::string& name) {
                    [&](const AntennaSpec& antenna) { return antenna.parameters.name == name; });
   if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
   antennas_.erase(found);
+  air_.remove(name);
   recorded_fixed_.erase(std::remove(recorded_fixed_.begin(), recorded_fixed_.end(), name),
                         recorded_fixed_.end());
 }
@@ -297,11 +309,11 @@ void Simulation::handle_events(Time until) {
 
 double Simulation::seconds_into_step(Time stamp) const { return to_seconds(stamp - step_begin_); }
 
-Eigen::Vector3d Simulation::tag_position(const TagSpec& tag, Time stamp) const {
-  Eigen::Vector3d p_PT = tag.in_steps ? row_at(tag.motion, stamp).X_WB.translation
-                                      : held_pose_at(tag.motion, stamp).translation;
-  if (tag.on.empty()) return p_PT;
-  return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * p_PT;
+RigidTransform Simulation::tag_pose(const TagSpec& tag, Time stamp) const {
+  const RigidTransform X_PT =
+      tag.in_steps ? row_at(tag.motion, stamp).X_WB : held_pose_at(tag.motion, stamp);
+  if (tag.on.empty()) return X_PT;
+  return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * X_PT;
 }
 
 void Simulation::record_new_tags(Recording& recording) {
@@ -319,7 +331,9 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
   moved_to_ = stamp;
   for (const std::uint32_t slot : moving_slots_) {
     const TagSpec& tag = specs_[slot];
-    tags_.move(slot, tag_position(tag, stamp));
+    const RigidTransform X_WT = tag_pose(tag, stamp);
+    tags_.move(slot, X_WT.translation);
+    tags_.turn(slot, X_WT.rotation);
     recording.truth.tag_positions.push_back({stamp, tag.id, tags_.position(slot)});
   }
   const double seconds = seconds_into_step(stamp);
@@ -358,12 +372,16 @@ RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
 void Simulation::update_antenna(const Update& update, Recording& recording) {
   const AntennaSpec& antenna = antennas_[update.antenna];
   const RigidTransform X_WA = place_antenna(antenna, update.stamp, recording);
-  read_tags(antenna.parameters, X_WA.translation, update.stamp, seed_, tags_, replies_);
+  if (antenna.parameters.radio) {
+    air_.update(antenna.parameters.name, X_WA, update.stamp, tags_, replies_);
+  } else {
+    read_tags(antenna.parameters, X_WA.translation, update.stamp, seed_, tags_, replies_);
+  }
   for (const TagReply& reply : replies_) {
     const std::string& id = tags_.id(reply.slot);
-    recording.reads.push_back(to_read(antenna.parameters, id, update.stamp, reply));
+    recording.reads.push_back(to_read(antenna.parameters, id, reply));
     recording.truth.distances.push_back(
-        {update.stamp, antenna.parameters.name, id, reply.distance_m});
+        {reply.stamp, antenna.parameters.name, id, reply.distance_m});
   }
 }
 

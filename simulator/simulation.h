@@ -11,6 +11,7 @@
 #include "simulator/navigation_world.h"
 #include "simulator/robot.h"
 #include "simulator/scenario.h"
+#include "tagfield/reader/radio_air.h"
 #include "tagfield/reader/tag_population.h"
 #include "tagfield/report/truth.h"
 
@@ -86,7 +87,7 @@ class Simulation {
   RigidTransform place_antenna(const AntennaSpec& antenna, Time stamp, Recording& recording);
   void record_robots(Time stamp, Recording& recording);
   [[nodiscard]] const Robot* robot_named(const std::string& name) const;
-  [[nodiscard]] Eigen::Vector3d tag_position(const TagSpec& tag, Time stamp) const;
+  [[nodiscard]] RigidTransform tag_pose(const TagSpec& tag, Time stamp) const;
   [[nodiscard]] double seconds_into_step(Time stamp) const;
   std::uint32_t place_new(const TagSpec& tag);
   void require_robot(const std::string& name, const Location& location) const;
@@ -100,6 +101,7 @@ class Simulation {
   std::vector<AntennaSpec> antennas_;
   std::vector<std::string> recorded_fixed_;  ///< Fixed antennas whose pose is recorded.
   TagPopulation tags_;
+  RadioAir air_;                             ///< Antennas of physical models.
   std::vector<TagSpec> specs_;               ///< By slot.
   std::vector<std::uint32_t> moving_slots_;  ///< Rising.
   std::vector<std::uint32_t> new_slots_;     ///< Tags at rest whose place is not recorded yet.

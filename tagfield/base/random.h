@@ -21,6 +21,9 @@ enum class Purpose : std::uint64_t {
   kMapping = 8,        ///< Particles of a filter that maps.
   kLocalization = 9,   ///< Particles of a filter that localizes on a map.
   kPlaces = 10,        ///< Places where a robot begins, is carried to, or is sent.
+  kHopping = 11,       ///< Order of a reader's channels, and their phase offsets.
+  kDiffuse = 12,       ///< Waves that come from everywhere.
+  kMeasuring = 14,     ///< Noise of what a reader measures of one reply.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "tagfield/base/time.h"
 #include "tagfield/channel/paper_model.h"
 #include "tagfield/link/link_geometry.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/reader/tag_read.h"
 
 namespace tagfield {
@@ -20,6 +22,7 @@ struct AntennaParameters {
   double range_m = 7.0;           ///< Nominal range r; greater than 0.
   double range_sigma = 0.05;      ///< σr: relative spread of the range; 0 or more.
   PaperModel model;
+  std::shared_ptr<const RadioModel> radio;  ///< Instead of `model` and the range, where it is set.
 };
 
 /// Throws Error naming the parameter that is out of its range or not finite.

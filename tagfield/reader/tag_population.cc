@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -21,9 +24,16 @@ std::uint32_t TagPopulation::add(const std::string& id, const Eigen::Vector3d& p
   } else {
     free_slots_.pop_back();
   }
-  tags_[slot] = {id, stream_key(id), true};
+  tags_[slot] = {id, stream_key(id), true, Eigen::Quaterniond::Identity(), models_.front().get()};
   slots_.emplace(id, slot);
   return slot;
+}
+
+void TagPopulation::set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model) {
+  tags_[slot].model = model.get();
+  if (std::find(models_.begin(), models_.end(), model) == models_.end()) {
+    models_.push_back(std::move(model));
+  }
 }
 
 void TagPopulation::remove(std::uint32_t slot) {
@@ -49,14 +59,14 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
   for (const std::uint32_t slot : slots) {
     const LinkGeometry link = link_between(p_WA, tags.position(slot));
     const Signal signal = read_signal(antenna, antenna_key, tags.key(slot), link, stamp, seed);
-    replies.push_back({slot, signal.phase_rad, signal.rssi_dbm, link.distance_m});
+    replies.push_back({slot, stamp, antenna.model.frequency_hz, signal.phase_rad, signal.rssi_dbm,
+                       link.distance_m, std::nullopt});
   }
 }
 
-TagRead to_read(const AntennaParameters& antenna, const std::string& tag, Time stamp,
-                const TagReply& reply) {
-  return {stamp,           antenna.reader, antenna.name, tag, antenna.model.frequency_hz,
-          reply.phase_rad, reply.rssi_dbm};
+TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply) {
+  return {reply.stamp,        antenna.reader,  antenna.name,   tag,
+          reply.frequency_hz, reply.phase_rad, reply.rssi_dbm, reply.doppler_hz};
 }
 
 }  // namespace tagfield

@@ -2,6 +2,7 @@
 /// What a reader reports: the one record that a simulated and a real reader both hand over.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tagfield/base/time.h"
@@ -17,6 +18,7 @@ struct TagRead {
   double frequency_hz = 0.0;  ///< Carrier.
   double phase_rad = 0.0;     ///< In [0, 2π), growing with distance (eq. 3 of the paper).
   double rssi_dbm = 0.0;
+  std::optional<double> doppler_hz{};  ///< Where the reader tells it; positive when coming nearer.
 };
 
 }  // namespace tagfield

@@ -60,26 +60,38 @@ class SceneGatherer {
     sdf_internal::require_all_read(context_, element, "sensor", link.SensorCount());
     const RigidTransform X_WL =
         X_WM * sdf_internal::pose_in_parent(context_, link.SemanticPose(), element);
+    const std::string scope = model + "::" + link.Name() + "::";
+    const std::vector<std::string> looks = looks_of(link, scope);
     for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
-      add_collision(*link.CollisionByIndex(i), X_WL, model + "::" + link.Name() + "::");
-    }
-    for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
-      sdf_internal::add_materials(context_, *link.VisualByIndex(i), materials_);
+      add_collision(*link.CollisionByIndex(i), X_WL, scope, looks);
     }
     for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
       add_sensor(*link.SensorByIndex(i), X_WL, model, link.Name());
     }
   }
 
+  /// Names of the link's visuals and of what they wear.
+  std::vector<std::string> looks_of(const sdf::Link& link, const std::string& scope) {
+    std::set<std::string> looks;
+    for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
+      sdf_internal::add_materials(context_, *link.VisualByIndex(i), looks);
+    }
+    materials_.insert(looks.begin(), looks.end());
+    for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
+      looks.insert(scope + link.VisualByIndex(i)->Name());
+    }
+    return {looks.begin(), looks.end()};
+  }
+
   void add_collision(const sdf::Collision& collision, const RigidTransform& X_WL,
-                     const std::string& scope) {
+                     const std::string& scope, const std::vector<std::string>& looks) {
     const std::string name = scope + collision.Name();
     const sdf::ElementPtr element = collision.Element();
     const auto shape = sdf_internal::read_shape(context_, *collision.Geom(), element, name);
     if (!shape) return;
     const RigidTransform X_LC =
         sdf_internal::pose_in_parent(context_, collision.SemanticPose(), element);
-    scene_.collisions.push_back({name, *shape, X_WL * X_LC});
+    scene_.collisions.push_back({name, *shape, X_WL * X_LC, looks});
   }
 
   void add_sensor(const sdf::Sensor& sensor, const RigidTransform& X_WL, const std::string& model,

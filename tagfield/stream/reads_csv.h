@@ -1,5 +1,6 @@
 /// @file
-/// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`.
+/// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`, and
+/// `doppler_hz` where a read tells it.
 #pragma once
 
 #include <string>

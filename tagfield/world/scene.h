@@ -46,6 +46,8 @@ struct Collision {
   std::string name;  ///< Scoped: "model::link::collision".
   Shape shape;       ///< In its frame C.
   RigidTransform X_WC;
+  /// How it looks: scoped names of its link's visuals, and the names of the materials they wear.
+  std::vector<std::string> looks{};
 };
 
 /// A tag or an antenna found in the world.

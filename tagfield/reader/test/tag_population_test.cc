@@ -86,7 +86,7 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const std::string& id = tags.id(replies[i].slot);
     RC_ASSERT(i == 0 || replies[i - 1].slot < replies[i].slot);
-    const TagRead read = to_read(antenna(), id, stamp, replies[i]);
+    const TagRead read = to_read(antenna(), id, replies[i]);
     const LinkGeometry link = link_between(p_WA, expected.at(id));
     const TagRead alone = read_tag(antenna(), id, link, stamp, 7);
     RC_ASSERT(read.phase_rad == alone.phase_rad && read.rssi_dbm == alone.rssi_dbm);

@@ -1,0 +1,190 @@
+#include "tagfield/channel/antenna_pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLeastGain = -60.0;
+constexpr double kMostGain = 40.0;
+/// A lobe's exponent above this is a pencil of under 2°.
+constexpr double kLeastBeam_rad = radians(2.0);
+constexpr double kMostBeam_rad = radians(179.0);
+/// Steps in which a table is integrated.
+constexpr int kIntegrationSteps = 720;
+
+double from_db(double db) { return std::pow(10.0, db / 10.0); }
+
+/// cosⁿ falls to ½ at half of the width.
+double lobe_exponent(double beam_width_rad) {
+  return std::log(0.5) / std::log(std::cos(0.5 * beam_width_rad));
+}
+
+/// Between the two cuts' values by the direction around the boresight: cos² of it counts for the
+/// horizontal one.
+double between_cuts(double horizontal, double vertical, const Eigen::Vector3d& u_A) {
+  const double y = u_A.y() * u_A.y();
+  const double z = u_A.z() * u_A.z();
+  if (!(y + z > 0.0)) return 0.5 * (horizontal + vertical);
+  return (y * horizontal + z * vertical) / (y + z);
+}
+
+double patch_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
+  const double back = from_db(-pattern.front_to_back_db);
+  if (u_A.x() <= 0.0) return back;
+  const double exponent = between_cuts(lobe_exponent(pattern.beam_width_rad),
+                                       lobe_exponent(pattern.vertical_beam_width_rad), u_A);
+  return std::max(back, std::pow(u_A.x(), exponent));
+}
+
+/// The wire's direction in A.
+Eigen::Vector3d wire(const AntennaPattern& pattern) {
+  return {0.0, std::sin(pattern.tilt_rad), std::cos(pattern.tilt_rad)};
+}
+
+double dipole_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
+  const double cosine = wire(pattern).dot(u_A);
+  const double sine_squared = 1.0 - cosine * cosine;
+  if (!(sine_squared > 1e-15)) return 0.0;
+  const double amplitude = std::cos(0.5 * kPi * cosine);
+  return amplitude * amplitude / sine_squared;
+}
+
+double table_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
+  const std::vector<PatternSample>& table = pattern.table;
+  const double angle = std::acos(std::clamp(u_A.x(), -1.0, 1.0));
+  const auto after =
+      std::upper_bound(table.begin(), table.end(), angle,
+                       [](double a, const PatternSample& sample) { return a < sample.angle_rad; });
+  if (after == table.begin())
+    return from_db(between_cuts(after->horizontal_dbi, after->vertical_dbi, u_A));
+  const PatternSample& a = *std::prev(after);
+  if (after == table.end()) return from_db(between_cuts(a.horizontal_dbi, a.vertical_dbi, u_A));
+  const double share = (angle - a.angle_rad) / (after->angle_rad - a.angle_rad);
+  const double horizontal = a.horizontal_dbi + share * (after->horizontal_dbi - a.horizontal_dbi);
+  const double vertical = a.vertical_dbi + share * (after->vertical_dbi - a.vertical_dbi);
+  return from_db(between_cuts(horizontal, vertical, u_A));
+}
+
+void require(bool holds, const char* what, const char* allowed, double value) {
+  if (!holds) throw Error(fmt::format("{} must be {}, is {:g}", what, allowed, value));
+}
+
+void check_table(const std::vector<PatternSample>& table) {
+  if (table.size() < 2) throw Error("table must have two rows or more");
+  double before = -1.0;
+  for (const PatternSample& sample : table) {
+    require(sample.angle_rad > before && sample.angle_rad <= kPi + 1e-9, "table's angles",
+            "rising, from 0 to 180 degrees", sample.angle_rad * 180.0 / kPi);
+    for (const double gain_dbi : {sample.horizontal_dbi, sample.vertical_dbi}) {
+      require(gain_dbi >= -200.0 && gain_dbi <= kMostGain, "table's gain", "from -200 to 40 dBi",
+              gain_dbi);
+    }
+    before = sample.angle_rad;
+  }
+}
+
+double peak_dbi(const AntennaPattern& pattern) {
+  if (pattern.shape != PatternShape::kTable) return pattern.gain_dbi;
+  double peak = -std::numeric_limits<double>::infinity();
+  for (const PatternSample& sample : pattern.table) {
+    peak = std::max({peak, sample.horizontal_dbi, sample.vertical_dbi});
+  }
+  return peak;
+}
+
+/// Mean over the sphere.
+double mean_gain(const AntennaPattern& pattern) {
+  double sum = 0.0;
+  for (int i = 0; i < kIntegrationSteps; ++i) {
+    const double x = -1.0 + 2.0 * (i + 0.5) / kIntegrationSteps;
+    const double radius = std::sqrt(1.0 - x * x);
+    constexpr int kAround = 16;
+    for (int k = 0; k < kAround; ++k) {
+      const double around = kTwoPi * (k + 0.5) / kAround;
+      sum += gain(pattern, {x, radius * std::cos(around), radius * std::sin(around)}) / kAround;
+    }
+  }
+  return sum / kIntegrationSteps;
+}
+
+/// Of a vector across the boresight: what the rotation that takes the boresight to `u_A` makes of
+/// it.
+Eigen::Vector3d turned(const Eigen::Vector3d& across, const Eigen::Vector3d& u_A) {
+  const double denominator = 1.0 + u_A.x();
+  // Straight back every turn is as good as another.
+  if (denominator < 1e-12) return across;
+  return across - across.dot(u_A) / denominator * (Eigen::Vector3d::UnitX() + u_A);
+}
+
+Eigen::Vector3d along_wire(const Eigen::Vector3d& axis, const Eigen::Vector3d& u_A) {
+  const Eigen::Vector3d across = axis - axis.dot(u_A) * u_A;
+  const double length = across.norm();
+  return length > 1e-9 ? Eigen::Vector3d(across / length) : Eigen::Vector3d(u_A.unitOrthogonal());
+}
+
+}  // namespace
+
+double peak_gain(const AntennaPattern& pattern) { return from_db(peak_dbi(pattern)); }
+
+double directivity_dbi(const AntennaPattern& pattern) {
+  return 10.0 * std::log10(peak_gain(pattern) / mean_gain(pattern));
+}
+
+void check(const AntennaPattern& pattern, Diagnostics& diagnostics) {
+  require(pattern.gain_dbi >= kLeastGain && pattern.gain_dbi <= kMostGain, "gain_dbi",
+          "from -60 to 40 dBi", pattern.gain_dbi);
+  require(std::isfinite(pattern.tilt_rad), "tilt_deg", "finite", pattern.tilt_rad);
+  if (pattern.shape == PatternShape::kPatch) {
+    for (const double width : {pattern.beam_width_rad, pattern.vertical_beam_width_rad}) {
+      require(width >= kLeastBeam_rad && width <= kMostBeam_rad, "beam_width_deg",
+              "from 2 to 179 degrees", width * 180.0 / kPi);
+    }
+    require(pattern.front_to_back_db >= 0.0 && pattern.front_to_back_db <= 100.0,
+            "front_to_back_db", "from 0 to 100 dB", pattern.front_to_back_db);
+  }
+  if (pattern.shape == PatternShape::kTable) check_table(pattern.table);
+  const double stated_dbi = peak_dbi(pattern);
+  const double most_dbi = directivity_dbi(pattern);
+  if (pattern.shape != PatternShape::kIsotropic && stated_dbi > most_dbi + 0.5) {
+    diagnostics.warn(fmt::format(
+        "a gain of {:.1f} dBi is more than the {:.1f} dBi that its pattern's shape allows",
+        stated_dbi, most_dbi));
+  }
+}
+
+double gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
+  switch (pattern.shape) {
+    case PatternShape::kIsotropic:
+      return from_db(pattern.gain_dbi);
+    case PatternShape::kPatch:
+      return from_db(pattern.gain_dbi) * patch_gain(pattern, u_A);
+    case PatternShape::kDipole:
+      return from_db(pattern.gain_dbi) * dipole_gain(pattern, u_A);
+    case PatternShape::kTable:
+      return table_gain(pattern, u_A);
+  }
+  return 0.0;
+}
+
+Eigen::Vector3cd field_direction(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
+  if (pattern.shape == PatternShape::kDipole)
+    return along_wire(wire(pattern), u_A).cast<std::complex<double>>();
+  if (pattern.polarization == PolarizationKind::kLinear) {
+    return turned(wire(pattern), u_A).cast<std::complex<double>>();
+  }
+  const std::complex<double> turn(0.0, pattern.polarization == PolarizationKind::kRightCircular
+                                           ? -std::sqrt(0.5)
+                                           : std::sqrt(0.5));
+  // y, z and the boresight x form a right-handed set, as u, v and k do.
+  return std::sqrt(0.5) * turned(Eigen::Vector3d::UnitY(), u_A).cast<std::complex<double>>() +
+         turn * turned(Eigen::Vector3d::UnitZ(), u_A).cast<std::complex<double>>();
+}
+
+}  // namespace tagfield

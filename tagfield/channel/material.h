@@ -1,0 +1,43 @@
+/// @file
+/// What surfaces are made of, as waves see it. See docs/link_budget.md.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tagfield {
+
+/// A material by Recommendation ITU-R P.2040, section 3: at f [GHz] its relative permittivity is
+/// a·f^b and its conductivity c·f^d [S/m].
+struct Material {
+  std::string name;
+  double permittivity_a = 1.0;  ///< 1 or more.
+  double permittivity_b = 0.0;
+  double conductivity_c = 0.0;  ///< [S/m] 0 or more.
+  double conductivity_d = 0.0;
+  /// Thickness [m] of the wall that each surface stands for, as of a cardboard box. Where not
+  /// given, objects are solid.
+  std::optional<double> wall_m;
+  std::optional<double> crossing_db;  ///< Loss of each object crossed, instead of the slab's.
+  bool is_opaque = false;             ///< Nothing passes through: metal.
+};
+
+/// Table 3 of Recommendation ITU-R P.2040-1: concrete, brick, plasterboard, wood, glass, chipboard,
+/// plywood, ceiling_board, marble, metal; and `cardboard`, `perfect_conductor`, `air`. The table
+/// holds from 1 GHz up (wood and a few others from 0.001): 0.87 to 0.93 GHz is a small
+/// extrapolation.
+const std::vector<Material>& known_materials();
+
+/// The one of this name. Throws Error with the nearest name if there is none.
+const Material& find_material(const std::vector<Material>& materials, const std::string& name);
+
+/// Throws Error naming the parameter that is out of its range.
+void check(const Material& material);
+
+/// Complex relative permittivity η = a·f^b − j·c·f^d/(2π ε0 f), eqs. (28) and (29) of P.2040-1, at
+/// `frequency_hz` > 0.
+std::complex<double> permittivity(const Material& material, double frequency_hz);
+
+}  // namespace tagfield

@@ -1,0 +1,51 @@
+/// @file
+/// A world as waves see it: its surfaces, and what each is made of.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/channel/material.h"
+#include "tagfield/propagation/radio_scene.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield {
+
+/// Says that what is called so is made of `material`: a model, a link or a collision by its scoped
+/// name ("rack", "rack::link", "rack::link::shelf"), or all that wear a visual's material of that
+/// name; `*` stands for any characters.
+struct MaterialRule {
+  std::string name;
+  Material material;
+  Location location;  ///< Where it was written, for messages.
+};
+
+struct RadioWorldOptions {
+  std::vector<MaterialRule> rules;                      ///< The last that fits counts.
+  std::vector<Material> materials = known_materials();  ///< What guesses are taken from.
+  std::string otherwise = "concrete";  ///< Of all that no rule fits and no name tells.
+  double least_facet_m2 = 0.1;         ///< Smaller flat pieces block waves but do not mirror them.
+};
+
+/// Surfaces and materials. May be used by several threads at once.
+struct RadioWorld {
+  RadioScene scene;
+  std::vector<Material> materials;         ///< Those in use.
+  std::vector<std::uint32_t> material_of;  ///< Index into `materials` by collision.
+  std::vector<std::string> solids;         ///< Scoped names of the collisions.
+};
+
+/// Makes a world ready. Collisions without a rule are guessed from their names ("metal_shelf",
+/// "wooden_crate", "glass_door") or become `otherwise`, with one warning that says what was
+/// guessed. A rule that fits nothing is warned of. Throws Error as RadioScene does, or where
+/// `materials` lacks one that is guessed.
+RadioWorld radio_world(const Scene& scene, const RadioWorldOptions& options,
+                       Diagnostics& diagnostics);
+
+/// Permittivity of each of the world's materials at `frequency_hz` > 0.
+std::vector<std::complex<double>> permittivities(const RadioWorld& world, double frequency_hz);
+
+}  // namespace tagfield

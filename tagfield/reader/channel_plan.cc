@@ -1,0 +1,106 @@
+#include "tagfield/reader/channel_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
+#include "tagfield/base/spelling.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLeastCarrier = 1e6;
+constexpr double kMostCarrier = 300e9;
+/// EIRP over ERP: a half-wave dipole's gain [dB].
+constexpr double kDipole_db = 2.15;
+
+std::vector<double> evenly(double first_hz, double step_hz, int count) {
+  std::vector<double> carriers;
+  for (int i = 0; i < count; ++i) carriers.push_back(first_hz + i * step_hz);
+  return carriers;
+}
+
+std::vector<ChannelPlan> make_plans() {
+  return {// ERC/REC 70-03, annex 11: four channels of 200 kHz, 2 W ERP; EN 302 208: 4 s at most.
+          {"etsi_low", {865.7e6, 866.3e6, 866.9e6, 867.5e6}, 4.0, 865e6, 868e6, 33.01},
+          // ERC/REC 70-03, annex 11: 400 kHz wide, 4 W ERP.
+          {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02},
+          // 47 CFR 15.247: 50 channels, 0.4 s in 20 s at most, 1 W into 6 dBi: 36 dBm EIRP.
+          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_db},
+          // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, 2 s at most.
+          {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01}};
+}
+
+void check_carrier(const ChannelPlan& plan, double carrier_hz) {
+  if (!(carrier_hz >= kLeastCarrier && carrier_hz <= kMostCarrier)) {
+    throw Error(fmt::format("a carrier must be from 1 MHz to 300 GHz, is {:g} Hz", carrier_hz));
+  }
+  const bool has_band = plan.band_high_hz > 0.0;
+  if (has_band && !(carrier_hz > plan.band_low_hz && carrier_hz < plan.band_high_hz)) {
+    throw Error(fmt::format("carrier {:g} MHz is outside the plan's band, {:g} to {:g} MHz",
+                            carrier_hz * 1e-6, plan.band_low_hz * 1e-6, plan.band_high_hz * 1e-6));
+  }
+}
+
+/// Fisher and Yates's shuffle.
+std::vector<std::size_t> hop_order(std::size_t count, std::uint64_t reader_key,
+                                   std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  RandomStream stream(seed, Purpose::kHopping, reader_key);
+  for (std::size_t left = count; left > 1; --left) {
+    std::swap(order[left - 1], order[static_cast<std::size_t>(stream() % left)]);
+  }
+  return order;
+}
+
+}  // namespace
+
+const std::vector<ChannelPlan>& known_plans() {
+  static const std::vector<ChannelPlan> all = make_plans();
+  return all;
+}
+
+const ChannelPlan& known_plan(const std::string& name) {
+  const std::vector<ChannelPlan>& all = known_plans();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const ChannelPlan& plan) { return plan.name == name; });
+  if (found != all.end()) return *found;
+  std::vector<std::string> names;
+  for (const ChannelPlan& plan : all) names.push_back(plan.name);
+  throw Error(fmt::format("there is no channel plan '{}'{}", name, suggestion(name, names)));
+}
+
+ChannelPlan fixed_plan(double frequency_hz) {
+  ChannelPlan plan;
+  plan.name = "fixed";
+  plan.carriers_hz = {frequency_hz};
+  return plan;
+}
+
+void check(const ChannelPlan& plan) {
+  if (plan.carriers_hz.empty()) throw Error("a channel plan needs one carrier or more");
+  if (!(plan.dwell_s >= 1e-3 && plan.dwell_s <= 1e6)) {
+    throw Error(fmt::format("dwell_s must be from 0.001 to 1e6 s, is {:g}", plan.dwell_s));
+  }
+  for (const double carrier : plan.carriers_hz) check_carrier(plan, carrier);
+}
+
+std::size_t channel_at(const ChannelPlan& plan, Time time, std::uint64_t reader_key,
+                       std::uint64_t seed, std::size_t turn) {
+  const std::size_t count = plan.carriers_hz.size();
+  if (count == 1) return 0;
+  const auto dwell = static_cast<std::int64_t>(std::llround(plan.dwell_s * 1e9));
+  const std::int64_t nanoseconds = time.time_since_epoch().count();
+  std::int64_t number = nanoseconds / dwell;
+  if (nanoseconds % dwell < 0) --number;
+  const auto periods = static_cast<std::int64_t>(count);
+  const auto place = static_cast<std::size_t>(((number % periods) + periods) % periods);
+  return hop_order(count, reader_key, seed)[(place + turn) % count];
+}
+
+}  // namespace tagfield

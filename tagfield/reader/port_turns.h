@@ -1,0 +1,38 @@
+/// @file
+/// Whose turn it is among antennas that can't send at the same time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/reader/antenna.h"
+
+namespace tagfield {
+
+/// One antenna's turn within a cycle.
+struct PortTurn {
+  std::string antenna;
+  Duration begin;  ///< Within the cycle.
+  Duration end;
+};
+
+/// Antennas that take turns, over and over from the epoch on.
+using PortCycle = std::vector<PortTurn>;
+
+/// Cycles of the antennas that take inventory, in the order given: those of one reader take turns
+/// for their port_dwell_s each, and those of all readers that share the air by time take them
+/// together. Antennas without an inventory have none.
+std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antennas);
+
+/// Whose turn it is at `time`.
+const std::string& antenna_on_turn(const PortCycle& cycle, Time time);
+
+/// When the antenna's next turn begins, or `time` while it has its turn; none where it has none.
+std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna, Time time);
+
+/// When the first turn after `time` ends; none where nobody takes turns.
+std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time);
+
+}  // namespace tagfield

@@ -1,0 +1,71 @@
+/// @file
+/// One antenna, one tag, now: is it powered, is it heard, and with which phase. Eq. (1) of the
+/// paper in full; see docs/link_budget.md.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/channel/path_gain.h"
+#include "tagfield/reader/radio_model.h"
+
+namespace tagfield {
+
+/// An antenna at one moment, with all that its links to the tags have in common.
+struct RadioView {
+  const RadioModel& model;
+  const RadioWorld& world;
+  Carrier carrier;
+  TraceOptions tracing;
+  RigidTransform X_WA;
+  RigidTransform X_WR;            ///< Receiving antenna; X_WA where it is one and the same.
+  ImageSet images;                ///< Of the antenna,
+  ImageSet receiver_images;       ///< and of the receiving one where it is another.
+  std::uint64_t diffuse_key = 0;  ///< Tells this antenna's diffuse waves from another's.
+  std::uint64_t seed = 0;
+};
+
+/// The view of an antenna at `X_WA` on a carrier.
+RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+                    double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed);
+
+/// The tag's end of a link.
+struct TagEnd {
+  const TagModel& model;
+  RigidTransform X_WT;
+  std::uint64_t key = 0;  ///< stream_key() of its ID.
+};
+
+/// A link's powers.
+struct RadioLink {
+  std::complex<double> forward;   ///< Amplitude gains, one way;
+  std::complex<double> backward;  ///< the same as `forward` with one antenna.
+  double tag_dbm = 0.0;           ///< At the chip.
+  double reply_dbm = 0.0;         ///< At the reader's port.
+  /// How fast the phase of forward·backward grows with time for a unit of speed: its gradient with
+  /// the antenna's place [rad/m].
+  Eigen::Vector3d phase_slope_W = Eigen::Vector3d::Zero();
+};
+
+/// Powers and gains; `paths` is workspace.
+RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths);
+
+/// Margins [dB]: what there is beyond what it takes.
+inline double tag_margin_db(const RadioLink& link, const TagModel& tag) {
+  return link.tag_dbm - tag.sensitivity_dbm;
+}
+inline double reader_margin_db(const RadioLink& link, const RadioModel& model) {
+  return link.reply_dbm - model.hardware.sensitivity_dbm;
+}
+
+/// Whether the tag answers and the reader hears it.
+inline bool is_heard(const RadioLink& link, const TagModel& tag, const RadioModel& model) {
+  return tag_margin_db(link, tag) >= 0.0 && reader_margin_db(link, model) >= 0.0;
+}
+
+/// What comes in of a link before the receiver adds its own: phase −arg(h·h') and offset, power,
+/// and Doppler for an antenna that moves at `v_AT_W` against the tag [m/s].
+Reply reply_of(const RadioLink& link, double phase_offset_rad, const Eigen::Vector3d& v_AT_W);
+
+}  // namespace tagfield

@@ -1,0 +1,103 @@
+#include "tagfield/reader/reader_hardware.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+/// kT at 290 K [dBm/Hz].
+constexpr double kThermal_dbm_hz = -173.98;
+/// Phase noise of a reply that drowns: any phase.
+constexpr double kMostSigma = 10.0;
+/// Weaker than any report.
+constexpr double kLeastRssi = -200.0;
+
+double snr(const ReaderHardware& hardware, double reply_dbm) {
+  return std::pow(10.0, (reply_dbm - noise_dbm(hardware)) / 10.0);
+}
+
+double in_steps(double value, double step) {
+  return step > 0.0 ? std::round(value / step) * step : value;
+}
+
+void add_noise(const ReaderHardware& hardware, const Reply& reply, RandomStream& noise,
+               Measured& measured) {
+  const double sigma = phase_sigma(hardware, reply.power_dbm);
+  const auto [of_phase, of_amplitude] = standard_normal_pair(noise);
+  measured.phase_rad += sigma * of_phase;
+  // A relative error x of the amplitude is 20 log10(1 + x) dB.
+  const double amplitude = std::abs(1.0 + std::min(sigma, 1.0) * of_amplitude);
+  measured.rssi_dbm += 20.0 * std::log10(std::max(amplitude, 1e-6));
+  // Doppler is how the phase turns from the reply's first half to its second.
+  const double turn = 2.0 * sigma / (kPi * hardware.reply_s);
+  measured.doppler_hz += turn * standard_normal(noise);
+}
+
+void quantize(const ReaderHardware& hardware, Measured& measured) {
+  if (hardware.phase_steps > 0.0) {
+    measured.phase_rad = in_steps(measured.phase_rad, kTwoPi / hardware.phase_steps);
+  }
+  measured.rssi_dbm = in_steps(measured.rssi_dbm, hardware.rssi_step_db);
+  measured.doppler_hz = in_steps(measured.doppler_hz, hardware.doppler_step_hz);
+}
+
+struct Limit {
+  const char* name;
+  double value;
+  double least;
+  double most;
+};
+
+}  // namespace
+
+void check(const ReaderHardware& hardware) {
+  const std::array<Limit, 9> limits = {{
+      {"sensitivity_dbm", hardware.sensitivity_dbm, -150.0, 30.0},
+      {"noise_figure_db", hardware.noise_figure_db, 0.0, 100.0},
+      {"bandwidth_hz", hardware.bandwidth_hz, 1e3, 1e8},
+      {"averaged_bits", hardware.averaged_bits, 1.0, 1e6},
+      {"phase_floor_rad", hardware.phase_floor_rad, 0.0, 10.0},
+      {"phase_steps", hardware.phase_steps, 0.0, 1e9},
+      {"rssi_step_db", hardware.rssi_step_db, 0.0, 20.0},
+      {"doppler_step_hz", hardware.doppler_step_hz, 0.0, 1e6},
+      {"reply_s", hardware.reply_s, 1e-5, 1.0},
+  }};
+  for (const auto& [name, value, least, most] : limits) {
+    if (value >= least && value <= most) continue;
+    throw Error(fmt::format("{} must be from {:g} to {:g}, is {:g}", name, least, most, value));
+  }
+}
+
+double noise_dbm(const ReaderHardware& hardware) {
+  return kThermal_dbm_hz + 10.0 * std::log10(hardware.bandwidth_hz) + hardware.noise_figure_db;
+}
+
+double phase_sigma(const ReaderHardware& hardware, double reply_dbm) {
+  const double thermal = 1.0 / std::sqrt(2.0 * hardware.averaged_bits * snr(hardware, reply_dbm));
+  return std::min(kMostSigma, std::hypot(hardware.phase_floor_rad, thermal));
+}
+
+double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits) {
+  const double wrong = 0.5 * std::erfc(std::sqrt(0.5 * snr(hardware, reply_dbm)));
+  return std::exp(bits * std::log1p(-wrong));
+}
+
+Measured measure(const ReaderHardware& hardware, const ReceiverEffects& effects, const Reply& reply,
+                 RandomStream& noise) {
+  Measured measured{reply.phase_rad, reply.power_dbm, reply.doppler_hz};
+  if (effects.noise) add_noise(hardware, reply, noise, measured);
+  if (effects.half_turns && (noise() & 1U) != 0) measured.phase_rad += kPi;
+  if (effects.quantization) quantize(hardware, measured);
+  measured.phase_rad = wrap_to_two_pi(measured.phase_rad);
+  measured.rssi_dbm = std::max(measured.rssi_dbm, kLeastRssi);
+  return measured;
+}
+
+}  // namespace tagfield
