@@ -21,6 +21,7 @@ enum class Purpose : std::uint64_t {
   kMapping = 8,        ///< Particles of a filter that maps.
   kLocalization = 9,   ///< Particles of a filter that localizes on a map.
   kPlaces = 10,        ///< Places where a robot begins, is carried to, or is sent.
+  kGen2 = 13,          ///< Slots that tags draw and replies made out, in one inventory round.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

@@ -31,7 +31,7 @@ class TagMemories {
 
   /// One more antenna powers the tag from `time` on.
   void power_on(std::uint32_t tag, Time time);
-  /// One antenna less powers the tag; it must have been one of them.
+  /// One antenna less powers the tag. Nothing if none did.
   void power_off(std::uint32_t tag, Time time);
   [[nodiscard]] bool powered(std::uint32_t tag) const;
 
@@ -39,8 +39,8 @@ class TagMemories {
   [[nodiscard]] Flag flag(std::uint32_t tag, Session session, Time time) const;
   /// When the flag of a tag with power will fall back to A by itself; Time::max() for never.
   [[nodiscard]] Time falls_back(std::uint32_t tag, Session session) const;
-  /// The tag was inventoried at `time`. In S1 its clock starts anew.
-  void invert(std::uint32_t tag, Session session, Time time);
+  /// The tag, which has power, changes its flag at `time`. B in S1 lasts from then on.
+  void set_flag(std::uint32_t tag, Session session, Flag flag, Time time);
 
   /// The slot is another tag's from now on, without power and with A in all sessions. Inventories
   /// that have the old one in their field must forget() it first.
