@@ -299,17 +299,26 @@ void Inventory::adapt_q() {
 
 void Inventory::choose_command() {
   const bool frame_ends = slots_left_ == 0;
-  if (frame_ends) next_ += durations_.round_overhead;
-  if (frame_ends && frame_quiet_) begin_anew();
+  if (frame_ends) end_frame();
   const int q = static_cast<int>(std::lround(qfp_));
   command_ = frame_ends ? Command::kQuery : q != q_ ? Command::kQueryAdjust : Command::kQueryRep;
   q_ = q;
 }
 
-/// Nobody of this target is left.
-void Inventory::begin_anew() {
+void Inventory::end_frame() {
+  next_ += durations_.round_overhead;
+  if (settings_.carrier_off_between_rounds) interrupt_carrier();
+  if (!frame_quiet_) return;
+  // Nobody of this target is left.
   qfp_ = settings_.start_q;
   if (settings_.target == Target::kAlternate) target_ = inverted(target_);
+}
+
+/// Too short for the clocks of S1 to S3 to notice.
+void Inventory::interrupt_carrier() {
+  for (const TagOnAir& tag : field_.tags()) memories_.power_off(tag.tag, slot_.end);
+  for (const TagOnAir& tag : field_.tags()) memories_.power_on(tag.tag, slot_.end);
+  next_ += durations_.power_up;
 }
 
 }  // namespace tagfield

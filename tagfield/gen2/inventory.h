@@ -104,7 +104,8 @@ class Inventory {
   void set_inventoried(std::uint32_t tag);
   void adapt_q();
   void choose_command();
-  void begin_anew();
+  void end_frame();
+  void interrupt_carrier();
 
   InventorySettings settings_;
   Durations durations_;

@@ -29,6 +29,10 @@ struct InventorySettings {
   /// 0 or more. None: never.
   std::optional<double> capture_db;
 
+  /// Whether the carrier is off for a moment after each round, as when a reader hops or changes
+  /// port: tags lose what S0 remembers, and power_up_s precedes each Query.
+  bool carrier_off_between_rounds = false;
+
   // What real readers lose in addition to the time on the air [s]; 0 or more.
   double power_up_s =
       1.5e-3;  ///< Carrier before the first Query; the standard's longest settling time.
