@@ -23,6 +23,7 @@ enum class Purpose : std::uint64_t {
   kPlaces = 10,        ///< Places where a robot begins, is carried to, or is sent.
   kHopping = 11,       ///< Order of a reader's channels, and their phase offsets.
   kDiffuse = 12,       ///< Waves that come from everywhere.
+  kGen2 = 13,          ///< Slots that tags draw and replies made out, in one inventory round.
   kMeasuring = 14,     ///< Noise of what a reader measures of one reply.
 };
 

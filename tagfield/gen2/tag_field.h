@@ -1,0 +1,39 @@
+/// @file
+/// Which tags an antenna powers now.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tagfield {
+
+/// A tag that has power.
+struct TagOnAir {
+  std::uint32_t tag = 0;            ///< Its slot in the population.
+  double reply_dbm = 0.0;           ///< Strength of its reply at the reader [dBm].
+  double decode_probability = 1.0;  ///< That its RN16 and EPC are made out when it replies alone.
+};
+
+/// A list of tags in which each is found at once.
+class TagField {
+ public:
+  /// Throws Error, and leaves all as it was, if a tag is there twice, its strength is not finite or
+  /// its probability is not from 0 to 1.
+  void assign(const std::vector<TagOnAir>& tags);
+  void remove(std::uint32_t tag);
+
+  [[nodiscard]] const std::vector<TagOnAir>& tags() const { return tags_; }
+  [[nodiscard]] bool has(std::uint32_t tag) const {
+    return tag < places_.size() && places_[tag] != kNone;
+  }
+  /// The tag, which must be there.
+  [[nodiscard]] const TagOnAir& at(std::uint32_t tag) const { return tags_[places_[tag]]; }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  std::vector<TagOnAir> tags_;
+  std::vector<std::uint32_t> places_;  ///< In `tags_`, by tag.
+};
+
+}  // namespace tagfield

@@ -1,0 +1,340 @@
+#include "tagfield/gen2/inventory.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tagfield/base/test/error_text.h"
+#include "tagfield/gen2/test/inventories.h"
+
+namespace tagfield {
+namespace {
+
+using Tags = std::vector<std::uint32_t>;
+
+InventorySettings in_session(Session session) {
+  InventorySettings settings;
+  settings.session = session;
+  return settings;
+}
+
+// --- One slot
+// -------------------------------------------------------------------------------------
+
+TEST(Inventory, OneTagsFirstReadIsWhereTheStandardsTimesPutIt) {
+  InventorySettings settings = fixed_q(0);
+  settings.round_overhead_s = 3e-3;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(1.0));
+  std::vector<Singulation> out;
+  // Power-up and overhead, then Query (185.333 + 13 data-0 + 9 data-1), 1451.5 up to the EPC and
+  // the rest of the slot, in microseconds: see link_timing_test.cc.
+  const double query = 1.0 + (1500 + 3000 + 185.333333 + 13 * 25.0 + 9 * 37.5) * 1e-6;
+  bench.inventory.run_until(at(query + 3907.4e-6), out);
+  EXPECT_TRUE(out.empty());
+  bench.inventory.run_until(at(query + 3907.6e-6), out);
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_NEAR(to_seconds(out[0].stamp), query + 1451.5e-6, 2e-9);
+  EXPECT_EQ(bench.inventory.counts().read, 1);
+}
+
+TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
+  InventorySettings settings = fixed_q(0);
+  settings.target = Target::kAlternate;
+  settings.slot_overhead_s = 1e-3;
+  settings.read_overhead_s = 2e-3;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  // A round that reads it, and one that finds nobody left; 847.833 a Query.
+  const double cycle = (2 * 847.833333 + 3907.5 + 125.0 + 2 * 1000.0 + 2000.0) * 1e-6;
+  EXPECT_NEAR(static_cast<double>(bench.read_until(100.0).size()), 100.0 / cycle, 2.0);
+}
+
+TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
+  // -50 dBm against twice -58: 4.99 dB.
+  const std::vector<TagOnAir> tags = {{0, -58.0, 1.0}, {1, -50.0, 1.0}, {2, -58.0, 1.0}};
+  const auto counts = [&](std::optional<double> capture_db) {
+    InventorySettings settings = fixed_q(0);
+    settings.capture_db = capture_db;
+    Bench bench(settings);
+    bench.inventory.set_field(at(0.0), tags);
+    bench.inventory.start(at(0.0));
+    const Tags read = bench.read_until(1.0);
+    EXPECT_EQ(read, bench.inventory.counts().captured == 1 ? Tags{1} : Tags{});
+    return bench.inventory.counts();
+  };
+  EXPECT_EQ(counts(4.98).captured, 1);
+  EXPECT_EQ(counts(5.0).captured, 0);
+  EXPECT_EQ(counts(std::nullopt).captured, 0);
+  EXPECT_GT(counts(std::nullopt).collided, 100);
+}
+
+TEST(Inventory, WithoutTagsAllSlotsAreEmpty) {
+  Bench bench(InventorySettings{});
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(1.0).empty());
+  EXPECT_GT(bench.inventory.counts().empty, 1000);
+  EXPECT_EQ(slots(bench.inventory.counts()), bench.inventory.counts().empty);
+}
+
+// --- Flags
+// ----------------------------------------------------------------------------------------
+
+TEST(Inventory, InS2EachTagIsReadOnceUntilItsFlagFallsBack) {
+  Bench bench(in_session(Session::kS2));
+  bench.inventory.set_field(at(0.0), alike(200));
+  bench.inventory.start(at(0.0));
+  Tags read = bench.read_until(60.0);
+  std::sort(read.begin(), read.end());
+  Tags all(200);
+  for (std::uint32_t tag = 0; tag < 200; ++tag) all[tag] = tag;
+  EXPECT_EQ(read, all);
+  bench.inventory.stop(at(60.0));
+  bench.inventory.start(at(69.9));
+  EXPECT_TRUE(bench.read_until(80.0).empty());
+  bench.inventory.stop(at(80.0));
+  bench.inventory.start(at(90.1));
+  EXPECT_EQ(bench.read_until(100.0).size(), 200U);
+}
+
+TEST(Inventory, InS1EachTagIsReadAgainOnceItsPersistenceIsOver) {
+  Bench bench(in_session(Session::kS1));
+  bench.inventory.set_field(at(0.0), alike(20));
+  bench.inventory.start(at(0.0));
+  std::vector<Singulation> out;
+  bench.inventory.run_until(at(30.0), out);
+  std::map<std::uint32_t, Time> last;
+  for (const Singulation& read : out) {
+    const auto [place, first] = last.try_emplace(read.tag, read.stamp);
+    // 2 s from the end of the reply, and then the round in progress and a slot in the next.
+    if (first) continue;
+    EXPECT_GT(to_seconds(read.stamp - place->second), 2.0);
+    EXPECT_LT(to_seconds(read.stamp - place->second), 2.3);
+    place->second = read.stamp;
+  }
+  EXPECT_EQ(last.size(), 20U);
+  EXPECT_GE(out.size(), 13U * 20U);
+}
+
+TEST(Inventory, DualTargetReadsAllByTurns) {
+  InventorySettings settings = in_session(Session::kS2);
+  settings.target = Target::kAlternate;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), alike(50));
+  bench.inventory.start(at(0.0));
+  const Tags read = bench.read_until(20.0);
+  ASSERT_GT(read.size(), 500U);
+  for (std::size_t begin = 0; begin + 50 <= read.size(); begin += 50) {
+    const auto from = read.begin() + static_cast<std::ptrdiff_t>(begin);
+    EXPECT_EQ(std::set<std::uint32_t>(from, from + 50).size(), 50U);
+  }
+}
+
+TEST(Inventory, TargetBAsksForThoseInB) {
+  InventorySettings settings = in_session(Session::kS3);
+  settings.target = Target::kB;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), alike(5));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(1.0).empty());
+  bench.memories.set_flag(3, Session::kS3, Flag::kB, at(1.0));
+  EXPECT_EQ(bench.read_until(2.0), Tags{3});
+  EXPECT_EQ(bench.inventory.target(), Flag::kB);
+}
+
+/// Tag 0 is read in the first second; how often in the next two when it is away for `away` seconds.
+std::size_t reads_after_absence(Session session, double away) {
+  Bench bench(in_session(session));
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  EXPECT_EQ(bench.read_until(1.0).size(), 1U);
+  bench.inventory.set_field(at(1.0), {});
+  EXPECT_TRUE(bench.read_until(1.0 + away).empty());
+  bench.inventory.set_field(at(1.0 + away), alike(1));
+  return bench.read_until(1.9 + away).size();
+}
+
+TEST(Inventory, WhoComesBackIsReadAgainAsItsSessionRemembers) {
+  EXPECT_EQ(reads_after_absence(Session::kS0, 0.001), 1U);
+  EXPECT_EQ(reads_after_absence(Session::kS1, 0.05), 0U);
+  EXPECT_EQ(reads_after_absence(Session::kS1, 2.0), 1U);
+  EXPECT_EQ(reads_after_absence(Session::kS2, 9.9), 0U);
+  EXPECT_EQ(reads_after_absence(Session::kS2, 10.1), 1U);
+}
+
+TEST(Inventory, CarrierOffBetweenRoundsStartsS0Anew) {
+  InventorySettings settings = fixed_q(0);
+  settings.carrier_off_between_rounds = true;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  const double cycle = (1500.0 + 847.833333 + 3907.5) * 1e-6;
+  EXPECT_NEAR(static_cast<double>(bench.read_until(50.0).size()), 50.0 / cycle, 2.0);
+}
+
+// --- Antennas
+// -------------------------------------------------------------------------------------
+
+TEST(Inventory, AntennasShareTheTagsMemory) {
+  TagMemories memories;
+  const InventorySettings settings = in_session(Session::kS2);
+  Inventory first({}, settings, memories, 1, 1);
+  Inventory second({}, settings, memories, 1, 2);
+  std::vector<Singulation> out;
+  first.set_field(at(0.0), alike(3));
+  second.set_field(at(0.0), alike(6));
+  first.start(at(0.0));
+  first.run_until(at(1.0), out);
+  EXPECT_EQ(out.size(), 3U);
+  first.stop(at(1.0));
+  EXPECT_FALSE(first.on());
+  out.clear();
+  second.start(at(1.0));
+  second.run_until(at(2.0), out);
+  std::set<std::uint32_t> rest;
+  for (const Singulation& read : out) rest.insert(read.tag);
+  EXPECT_EQ(rest, (std::set<std::uint32_t>{3, 4, 5}));
+  EXPECT_EQ(out.size(), 3U);
+}
+
+TEST(Inventory, InS0ASwitchForgetsUnlessAnotherAntennaGivesPower) {
+  TagMemories memories;
+  const InventorySettings settings = in_session(Session::kS0);
+  Inventory first({}, settings, memories, 1, 1);
+  Inventory second({}, settings, memories, 1, 2);
+  std::vector<Singulation> out;
+  first.set_field(at(0.0), alike(2));
+  second.set_field(at(0.0), {{1, -50.0, 1.0}});
+  first.start(at(0.0));
+  second.start(at(0.0));
+  first.run_until(at(1.0), out);
+  first.stop(at(1.0));
+  out.clear();
+  first.start(at(1.0));
+  first.run_until(at(2.0), out);
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_EQ(out[0].tag, 0U);
+}
+
+TEST(Inventory, WhatIsOffReadsNothing) {
+  Bench bench(InventorySettings{});
+  bench.inventory.set_field(at(0.0), alike(3));
+  EXPECT_TRUE(bench.read_until(1.0).empty());
+  EXPECT_FALSE(bench.memories.powered(0));
+  bench.inventory.start(at(1.0));
+  EXPECT_TRUE(bench.memories.powered(0));
+  bench.inventory.stop(at(1.004));  // In the first round.
+  EXPECT_FALSE(bench.memories.powered(0));
+  EXPECT_TRUE(bench.read_until(2.0).empty());
+  bench.inventory.stop(at(2.0));
+  bench.inventory.start(at(3.0));
+  EXPECT_EQ(bench.read_until(4.0).size(), 3U);
+}
+
+// --- Tags that come and go within a round
+// ---------------------------------------------------------
+
+TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
+  Bench bench(fixed_q(0));
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(0.004).empty());  // Amid the first slot.
+  bench.inventory.set_field(at(0.004), {});
+  EXPECT_TRUE(bench.read_until(0.1).empty());
+  EXPECT_EQ(bench.inventory.counts().failed, 1);
+  EXPECT_EQ(bench.memories.flag(0, Session::kS0, at(0.1)), Flag::kA);
+}
+
+TEST(Inventory, ANewcomerJoinsWithTheNextQuery) {
+  Bench bench(fixed_q(8));  // A frame of 256 slots, most of them empty.
+  bench.inventory.start(at(0.0));
+  bench.read_until(0.01);
+  bench.inventory.set_field(at(0.01), alike(30));
+  const double frame = 0.0015 + 848e-6 + 256 * 125e-6 + 255 * 200e-6;
+  EXPECT_TRUE(bench.read_until(frame - 0.001).empty());
+  EXPECT_EQ(bench.inventory.counts().rounds, 1);
+  EXPECT_FALSE(bench.read_until(2 * frame).empty());
+}
+
+TEST(Inventory, ASlotsNextTagIsReadThoughTheOldOneWas) {
+  Bench bench(in_session(Session::kS2));
+  bench.inventory.set_field(at(0.0), alike(2));
+  bench.inventory.start(at(0.0));
+  EXPECT_EQ(bench.read_until(1.0).size(), 2U);
+  bench.inventory.forget(1);
+  bench.memories.forget(1);
+  EXPECT_TRUE(bench.read_until(2.0).empty());
+  bench.inventory.set_field(at(2.0), alike(2));
+  EXPECT_EQ(bench.read_until(3.0), Tags{1});
+}
+
+// --- Time and seeds
+// -------------------------------------------------------------------------------
+
+RC_GTEST_PROP(Inventory, PiecesOfTimeGiveWhatTheWholeGives, ()) {
+  InventorySettings settings;
+  settings.session = *rc::gen::element(Session::kS0, Session::kS1, Session::kS2);
+  settings.target = *rc::gen::element(Target::kA, Target::kAlternate);
+  settings.adaptive_q = *rc::gen::arbitrary<bool>();
+  settings.start_q = *rc::gen::inRange(0, 7);
+  settings.slot_overhead_s = *rc::gen::element(0.0, 1e-3);
+  settings.carrier_off_between_rounds = *rc::gen::arbitrary<bool>();
+  const std::vector<TagOnAir> tags = alike(*rc::gen::inRange(0, 40), 0.8);
+  const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 30));
+  const auto pieces = *rc::gen::container<std::vector<int>>(count, rc::gen::inRange(0, 200'000));
+
+  Bench whole(settings);
+  Bench parts(settings);
+  std::vector<Singulation> expected;
+  std::vector<Singulation> found;
+  Time time{};
+  for (Bench* bench : {&whole, &parts}) {
+    bench->inventory.set_field(time, tags);
+    bench->inventory.start(time);
+  }
+  for (const int piece : pieces) {
+    time += std::chrono::microseconds(piece);
+    parts.inventory.run_until(time, found);
+  }
+  whole.inventory.run_until(time, expected);
+  RC_ASSERT(found == expected);
+  RC_ASSERT(slots(parts.inventory.counts()) == slots(whole.inventory.counts()));
+  RC_ASSERT(std::is_sorted(found.begin(), found.end(),
+                           [](const auto& a, const auto& b) { return a.stamp < b.stamp; }));
+}
+
+Tags reads_with(std::uint64_t seed, std::uint64_t key) {
+  Bench bench(in_session(Session::kS2), seed, key);
+  bench.inventory.set_field(at(0.0), alike(100));
+  bench.inventory.start(at(0.0));
+  return bench.read_until(10.0);
+}
+
+TEST(Inventory, TheSameSeedAndKeyGiveTheSameReads) {
+  EXPECT_EQ(reads_with(1, 1), reads_with(1, 1));
+  EXPECT_NE(reads_with(1, 1), reads_with(2, 1));
+  EXPECT_NE(reads_with(1, 1), reads_with(1, 2));
+}
+
+TEST(Inventory, TimeDoesNotGoBack) {
+  Bench bench(InventorySettings{});
+  bench.inventory.start(at(2.0));
+  const std::string back = "an inventory at 2 s cannot go back to 1 s";
+  EXPECT_EQ(error_of([&] { bench.read_until(1.0); }), back);
+  EXPECT_EQ(error_of([&] { bench.inventory.stop(at(1.0)); }), back);
+  EXPECT_EQ(error_of([&] { bench.inventory.set_field(at(1.0), {}); }), back);
+}
+
+TEST(Inventory, BadSettingsAreRefused) {
+  EXPECT_THROW(Bench(fixed_q(16)), Error);
+  LinkSettings link;
+  link.tari_s = 1.0;
+  EXPECT_THROW(Bench(fixed_q(4), 1, 1, link), Error);
+}
+
+}  // namespace
+}  // namespace tagfield
