@@ -14,10 +14,11 @@ inline constexpr int kMostBounces = 3;
 
 /// Where a facet mirrors the wave.
 struct Bounce {
-  std::uint32_t solid = 0;   ///< Index into Scene::collisions.
-  std::uint32_t facet = 0;   ///< Index into RadioScene::facets().
-  Eigen::Vector3d p_W;       ///< [m]
-  Eigen::Vector3d normal_W;  ///< Unit vector, to the side where the wave is.
+  std::uint32_t solid = 0;                        ///< Index into Scene::collisions.
+  std::uint32_t facet = 0;                        ///< Index into RadioScene::facets().
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d normal_W =
+      Eigen::Vector3d::Zero();  ///< Unit vector, to the side where the wave is.
 };
 
 /// A solid that the wave goes through on one leg.
@@ -26,9 +27,10 @@ struct Crossing {
   int leg = 0;                 ///< 0 is the one that leaves the antenna.
   double length_m = 0.0;       ///< Inside, along the leg; 0 for a single sheet.
   double cos_incidence = 1.0;  ///< At p_W, between the leg and the surface's normal: 0 … 1.
-  Eigen::Vector3d normal_W;    ///< Unit vector at p_W, against the wave's direction of travel.
+  Eigen::Vector3d normal_W =
+      Eigen::Vector3d::Zero();  ///< Unit vector at p_W, against the wave's direction of travel.
   /// Where the wave enters, or leaves if the leg begins inside [m].
-  Eigen::Vector3d p_W;
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
 };
 
 /// The legs are antenna to bounces[0], from bounce to bounce, and from the last one to the tag:
@@ -38,9 +40,11 @@ struct RadioPath {
   std::array<Bounce, kMostBounces> bounces;  ///< The first `bounce_count` are set.
   std::vector<Crossing> crossings;           ///< In the order in which the wave meets them.
   double length_m = 0.0;                     ///< Of all legs.
-  Eigen::Vector3d departure_W;               ///< Unit vector: direction of travel at the antenna.
-  Eigen::Vector3d arrival_W;                 ///< Unit vector: direction of travel at the tag.
-  bool blocked = false;  ///< Goes through something opaque; only when asked to keep such.
+  Eigen::Vector3d departure_W =
+      Eigen::Vector3d::Zero();  ///< Unit vector: direction of travel at the antenna.
+  Eigen::Vector3d arrival_W =
+      Eigen::Vector3d::Zero();  ///< Unit vector: direction of travel at the tag.
+  bool blocked = false;         ///< Goes through something opaque; only when asked to keep such.
 };
 
 }  // namespace tagfield

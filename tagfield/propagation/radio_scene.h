@@ -78,13 +78,14 @@ class RadioScene {
   [[nodiscard]] std::uint32_t shell_of(std::uint32_t collision, std::uint32_t triangle) const {
     return triangle_shells_[first_triangles_[collision] + triangle];
   }
-  /// Whether facet `to` has a part on the side of facet `from` where that mirrors, and the other
-  /// way about: only then can a wave go from one to the other.
-  [[nodiscard]] bool may_see(std::size_t from, std::size_t to) const {
-    return may_see_[from * facets_.size() + to] != 0;
-  }
+  /// Whether facet `to` has points in front of (to the side of the normal), or behind, the plane of
+  /// facet `from`: only then can a wave go there from that side of `from`.
+  [[nodiscard]] bool reaches(std::size_t from, bool front, std::size_t to) const;
 
  private:
+  void add_plane(const Collision& collision, std::uint32_t solid);
+  void add_solid(const Collision& collision, std::uint32_t solid, double least_m2);
+
   RayScene rays_;
   std::vector<char> opaque_;
   std::vector<Facet> facets_;
@@ -92,7 +93,7 @@ class RadioScene {
   std::vector<Shell> shells_;
   std::vector<std::size_t> first_triangles_;
   std::vector<std::uint32_t> triangle_shells_;
-  std::vector<char> may_see_;
+  std::vector<char> sides_;  ///< By pair; empty where there are too many.
 };
 
 }  // namespace tagfield

@@ -30,14 +30,18 @@ struct Image {
   double offset_m = 0.0;     ///< Of the facet's plane: normal_W · p.
   std::uint32_t facet = 0;   ///< Index into RadioScene::facets().
   std::int32_t parent = -1;  ///< Index of the image that is mirrored; -1 for the antenna.
-  std::int32_t order = 1;    ///< Number of mirrors.
-  /// What is behind any of these (outward normals, in W) can't be seen through the mirror.
+  int order = 1;             ///< Number of mirrors.
 };
+
+/// Where an image can be seen, and a bit more: the points p with n·p + w ≥ 0 for each row (n, w), n
+/// a unit vector. Rows that aren't needed are (0, 0, 0, 1).
+using Beam = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// All images of one antenna position, shared by all tags of an update.
 struct ImageSet {
   Eigen::Vector3d p_WA;       ///< The antenna [m].
   std::vector<Image> images;  ///< By rising order, each after its parent.
+  std::vector<Beam> beams;    ///< Of each image.
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place

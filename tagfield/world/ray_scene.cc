@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "tagfield/base/error.h"
+#include "tagfield/world/internal/ray_scene_impl.h"
 #include "tagfield/world/world_mesh.h"
 
 namespace tagfield {
@@ -20,29 +21,21 @@ constexpr std::size_t kPacket = 16;
 /// How far beyond a triangle's rim a hit is still taken if Embree takes it; barycentric.
 constexpr double kRimTolerance = 0.01;
 
-/// The points p with normal · p = offset.
-struct WorldPlane {
-  Eigen::Vector3d normal;  ///< Unit vector [world].
-  double offset = 0.0;     ///< [m]
-};
-
-struct Triangles {
-  std::vector<Eigen::Vector3d> vertices;  ///< [m, world]
-  std::vector<std::array<std::uint32_t, 3>> indices;
-};
-
-WorldPlane world_plane(const Collision& collision, const Plane& plane) {
+WorldPlane world_plane(const Collision& collision, const Plane& plane, std::size_t index) {
   const double length = plane.normal.norm();
   if (!(length > 0.0) || !std::isfinite(length)) {
     throw Error(collision.name + ": the plane's normal has no direction");
   }
   const Eigen::Vector3d normal = collision.X_WC.rotation * (plane.normal / length);
-  return {normal, normal.dot(collision.X_WC.translation)};
+  return {normal, normal.dot(collision.X_WC.translation), static_cast<std::uint32_t>(index)};
 }
 
-void add_solid(Triangles& triangles, const Collision& collision) {
+void add_solid(Triangles& triangles, const Collision& collision, std::size_t index) {
   const TriangleMesh mesh = world_mesh(collision);
   const auto first = static_cast<std::uint32_t>(triangles.vertices.size());
+  triangles.firsts.back() = static_cast<std::uint32_t>(triangles.indices.size());
+  triangles.collisions.insert(triangles.collisions.end(), mesh.triangles.size(),
+                              static_cast<std::uint32_t>(index));
   triangles.vertices.insert(triangles.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles.indices.push_back({first + a, first + b, first + c});
@@ -117,6 +110,7 @@ void attach(RTCDevice device, RTCScene scene, Triangles& triangles) {
             static_cast<std::array<std::uint32_t, 3>*>(indices));
   rtcSetGeometryUserData(geometry, &triangles);
   rtcSetGeometryIntersectFilterFunction(geometry, refine);
+  rtcSetGeometryOccludedFilterFunction(geometry, gather_surfaces);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -169,37 +163,24 @@ RTCRayHit single(const Ray& ray) {
 
 }  // namespace
 
-struct RayScene::Impl {
-  // One thread: Embree would start its own to build, and nothing else here does unasked.
-  Impl() : device(rtcNewDevice("threads=1")) {
-    if (device == nullptr) throw Error("rays can't be made ready: Embree has no device");
-    scene = rtcNewScene(device);
-  }
-  ~Impl() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+RayScene::Impl::Impl() : device(rtcNewDevice("threads=1")) {
+  if (device == nullptr) throw Error("rays can't be made ready: Embree has no device");
+  scene = rtcNewScene(device);
+}
 
-  /// `ray` and what the triangles answered, with the planes before it.
-  [[nodiscard]] float with_planes(const Ray& ray, float distance) const {
-    // Up to most_m, but an endless ray doesn't meet a plane at infinity.
-    float nearest = distance == kNothing ? std::nextafter(ray.most_m, kNothing) : distance;
-    const float limit = nearest;
-    for (const WorldPlane& plane : planes) nearest = nearer(plane, ray, nearest);
-    return nearest < limit ? nearest : distance;
-  }
+RayScene::Impl::~Impl() {
+  rtcReleaseScene(scene);
+  rtcReleaseDevice(device);
+}
 
-  void intersect(const Ray* rays, std::size_t count, float* distances) const;
+float RayScene::Impl::with_planes(const Ray& ray, float distance) const {
+  // Up to most_m, but an endless ray doesn't meet a plane at infinity.
+  float nearest = distance == kNothing ? std::nextafter(ray.most_m, kNothing) : distance;
+  const float limit = nearest;
+  for (const WorldPlane& plane : planes) nearest = nearer(plane, ray, nearest);
+  return nearest < limit ? nearest : distance;
+}
 
-  RTCDevice device;
-  RTCScene scene = nullptr;
-  Triangles triangles;
-  std::vector<WorldPlane> planes;
-};
-
-/// Up to kPacket rays at once.
 void RayScene::Impl::intersect(const Ray* rays, std::size_t count, float* distances) const {
   alignas(64) std::array<int, kPacket> valid{};
   RTCRayHit16 packet{};
@@ -221,11 +202,13 @@ void RayScene::Impl::intersect(const Ray* rays, std::size_t count, float* distan
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   Triangles& triangles = impl_->triangles;
-  for (const Collision& collision : scene.collisions) {
+  for (std::size_t i = 0; i < scene.collisions.size(); ++i) {
+    const Collision& collision = scene.collisions[i];
+    triangles.firsts.push_back(0);
     if (const auto* plane = std::get_if<Plane>(&collision.shape)) {
-      impl_->planes.push_back(world_plane(collision, *plane));
+      impl_->planes.push_back(world_plane(collision, *plane, i));
     } else {
-      add_solid(triangles, collision);
+      add_solid(triangles, collision, i);
     }
   }
   // Robust: a ray at an edge meets at least one of the triangles that share it.

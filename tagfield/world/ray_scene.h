@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -14,6 +16,26 @@ struct Ray {
   Eigen::Vector3f origin;     ///< [m, world]
   Eigen::Vector3f direction;  ///< Unit vector.
   float most_m = 0.0F;        ///< How far it goes.
+};
+
+/// The points origin + s·direction with from_m ≤ s ≤ to_m.
+struct Stretch {
+  Eigen::Vector3d origin;     ///< [m, world]
+  Eigen::Vector3d direction;  ///< Unit vector.
+  double from_m = 0.0;
+  double to_m = 0.0;
+  /// The search may end at a hit with stop_from_m < s < stop_to_m on a stopping collision.
+  double stop_from_m = -std::numeric_limits<double>::infinity();
+  double stop_to_m = std::numeric_limits<double>::infinity();
+};
+
+/// Where a line meets a surface.
+struct SurfaceHit {
+  double distance_m = 0.0;      ///< s, from the line's origin.
+  double slope = 0.0;           ///< Direction · normal: below 0 where it meets the front.
+  std::uint32_t collision = 0;  ///< Index into Scene::collisions.
+  std::uint32_t triangle = 0;   ///< Of world_mesh(); 0 for a plane.
+  Eigen::Vector3d normal;       ///< Unit vector [world]; of a triangle by its right-hand rule.
 };
 
 /// All collisions of a scene, ready for rays. Boxes, meshes, cylinders and spheres are the
@@ -38,6 +60,16 @@ class RayScene {
   /// `rays`. May differ from distance() by its rounding errors, and where a ray just meets the rim
   /// of something.
   void distances(const std::vector<Ray>& rays, std::vector<float>& distances) const;
+
+  /// All surfaces that a stretch of a line meets, in no order: `hits` holds them and nothing else.
+  /// A line through an edge may meet both triangles there, and in rare cases a triangle twice.
+  /// False if it met a collision for which `stops` (by index; may be empty) is not 0; `hits` may
+  /// then lack others. Distances are computed in double precision; a line is decided to meet a
+  /// triangle in single precision, so to about 1e-6 of the coordinates at the triangle's rim, and
+  /// no line slips through an edge that triangles share. A stretch that is not finite meets
+  /// nothing.
+  bool surfaces(const Stretch& stretch, const std::vector<char>& stops,
+                std::vector<SurfaceHit>& hits) const;
 
  private:
   struct Impl;

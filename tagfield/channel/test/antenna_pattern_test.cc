@@ -99,17 +99,17 @@ std::complex<double> dot(const Eigen::Vector3cd& a, const Eigen::Vector3cd& b) {
 
 /// Of an antenna that looks along x and one that looks back at it, turned by `roll` about that.
 std::complex<double> face_to_face(const AntennaPattern& a, const AntennaPattern& b, double roll) {
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(roll, Vector3d::UnitX()) *
-                             Eigen::AngleAxisd(kPi, Vector3d::UnitZ()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(roll, Vector3d::UnitX()) * Eigen::AngleAxisd(kPi, Vector3d::UnitZ()))
+          .toRotationMatrix();
   return dot(field_direction(a, Vector3d::UnitX()), R * field_direction(b, Vector3d::UnitX()));
 }
 
 TEST(Polarization, LinearToLinearGoesWithTheCosine) {
   AntennaPattern linear;
   for (const double angle : {0.0, 0.3, 1.0, kPi / 2}) {
-    EXPECT_NEAR(std::norm(face_to_face(linear, linear, angle)),
-                std::cos(angle) * std::cos(angle), 1e-12);
+    EXPECT_NEAR(std::norm(face_to_face(linear, linear, angle)), std::cos(angle) * std::cos(angle),
+                1e-12);
   }
 }
 

@@ -1,0 +1,85 @@
+#include "tagfield/channel/radio_world.h"
+
+#include <gtest/gtest.h>
+
+namespace tagfield {
+namespace {
+
+Scene scene_of(const std::vector<std::string>& names) {
+  Scene scene;
+  for (const std::string& name : names) scene.collisions.push_back({name, Box{{1, 1, 1}}, {}});
+  return scene;
+}
+
+std::string material_of(const RadioWorld& world, std::size_t solid) {
+  return world.materials[world.material_of[solid]].name;
+}
+
+MaterialRule rule(const std::string& name, const std::string& material) {
+  return {name, find_material(known_materials(), material), {"s.yaml", 7}};
+}
+
+TEST(RadioWorld, GuessesFromTheInnermostNameOutwardsAndSaysSo) {
+  Diagnostics diagnostics;
+  const RadioWorld world = radio_world(
+      scene_of({"rack_1::link::frame", "rack_1::link::cardboard_box", "hall::link::north_wall",
+                "aws_robomaker_warehouse_ShelfE_01_001::link::collision", "thing::link::c"}),
+      {}, diagnostics);
+  EXPECT_EQ(material_of(world, 0), "metal");
+  EXPECT_EQ(material_of(world, 1), "cardboard");
+  EXPECT_EQ(material_of(world, 2), "concrete");
+  EXPECT_EQ(material_of(world, 3), "metal");
+  EXPECT_EQ(material_of(world, 4), "concrete");
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_NE(
+      diagnostics.warnings()[0].find("metal for aws_robomaker_warehouse_ShelfE_01_001, rack_1"),
+      std::string::npos)
+      << diagnostics.warnings()[0];
+  EXPECT_TRUE(world.scene.is_opaque(0));
+  EXPECT_FALSE(world.scene.is_opaque(1));
+}
+
+TEST(RadioWorld, LastRuleThatFitsCounts) {
+  RadioWorldOptions options;
+  options.rules = {rule("rack*", "wood"), rule("rack_2::link", "glass"), rule("*::shelf", "brick")};
+  Diagnostics diagnostics;
+  const RadioWorld world =
+      radio_world(scene_of({"rack_1::link::a", "rack_2::link::a", "rack_2::link::shelf"}), options,
+                  diagnostics);
+  EXPECT_EQ(material_of(world, 0), "wood");
+  EXPECT_EQ(material_of(world, 1), "glass");
+  EXPECT_EQ(material_of(world, 2), "brick");
+  EXPECT_TRUE(diagnostics.warnings().empty());
+}
+
+TEST(RadioWorld, RuleMayNameAVisualOrWhatItWears) {
+  Scene scene = scene_of({"a::link::c", "b::link::c"});
+  scene.collisions[0].looks = {"a::link::painted", "Gazebo/Wood"};
+  scene.collisions[1].looks = {"b::link::shine"};
+  RadioWorldOptions options;
+  options.rules = {rule("Gazebo/Wood", "plywood"), rule("b::link::shine", "metal")};
+  Diagnostics diagnostics;
+  const RadioWorld world = radio_world(scene, options, diagnostics);
+  EXPECT_EQ(material_of(world, 0), "plywood");
+  EXPECT_EQ(material_of(world, 1), "metal");
+}
+
+TEST(RadioWorld, WarnsOfARuleThatFitsNothing) {
+  RadioWorldOptions options;
+  options.rules = {rule("*", "brick"), rule("shelv", "wood")};
+  Diagnostics diagnostics;
+  radio_world(scene_of({"shelf::link::c"}), options, diagnostics);
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_EQ(diagnostics.warnings()[0],
+            "s.yaml:7: no solid part of the world is called 'shelv'; 'wood' is not used there");
+}
+
+TEST(RadioWorld, MayBeEmpty) {
+  Diagnostics diagnostics;
+  const RadioWorld world = radio_world(Scene{}, {}, diagnostics);
+  EXPECT_TRUE(permittivities(world, 900e6).empty());
+  EXPECT_TRUE(diagnostics.warnings().empty());
+}
+
+}  // namespace
+}  // namespace tagfield

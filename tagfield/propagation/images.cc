@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/propagation/internal/beam.h"
+#include "tagfield/propagation/internal/check_options.h"
+#include "tagfield/propagation/internal/inside.h"
+#include "tagfield/propagation/trace_paths.h"
+
+namespace tagfield {
+namespace {
+
+/// An antenna or image must be further than this before a facet's plane to be mirrored [m].
+constexpr double kLeastHeight = 1e-6;
+
+class Builder {
+ public:
+  Builder(const RadioScene& scene, const Eigen::Vector3d& p_WA, const TraceOptions& options)
+      : scene_(scene), options_(options), inside_(shells_around(scene, p_WA)) {
+    set_.p_WA = p_WA;
+  }
+
+  ImageSet build() {
+    for (int order = 1; order <= options_.order; ++order) {
+      const auto end = static_cast<std::int32_t>(set_.images.size());
+      if (order == 1) mirror(-1);
+      for (; order > 1 && first_ < end; ++first_) mirror(first_);
+    }
+    return std::move(set_);
+  }
+
+ private:
+  /// Adds all images of one image, or of the antenna.
+  void mirror(std::int32_t parent) {
+    for (std::uint32_t facet = 0; facet < scene_.facets().size(); ++facet) {
+      if (parent >= 0 && !is_before_mirror(at(parent), facet)) continue;
+      add(parent, facet);
+    }
+  }
+
+  [[nodiscard]] const Image& at(std::int32_t image) const {
+    return set_.images[static_cast<std::size_t>(image)];
+  }
+
+  [[nodiscard]] bool is_front(std::uint32_t facet, const Eigen::Vector3d& normal) const {
+    return scene_.facets()[facet].normal_W.dot(normal) > 0.0;
+  }
+
+  /// Whether some of `facet` is before the mirror of `image`.
+  [[nodiscard]] bool is_before_mirror(const Image& image, std::uint32_t facet) const {
+    return image.facet != facet &&
+           scene_.reaches(image.facet, is_front(image.facet, image.normal_W), facet);
+  }
+
+  /// 1 where the facet mirrors in front for a wave from `p`, -1 behind, 0 not at all.
+  [[nodiscard]] int side(const Facet& facet, const Eigen::Vector3d& p) const {
+    const double height = facet.normal_W.dot(p) - facet.offset_m;
+    const int there = height > kLeastHeight ? 1 : (height < -kLeastHeight ? -1 : 0);
+    if (facet.two_sided) return there;
+    const int mirrors = inside_[facet.shell] != 0 ? -1 : 1;
+    return there == mirrors ? there : 0;
+  }
+
+  void add(std::int32_t parent, std::uint32_t index) {
+    const Facet& facet = scene_.facets()[index];
+    const Eigen::Vector3d p = parent < 0 ? set_.p_WA : at(parent).p_W;
+    const int way = side(facet, p);
+    if (way == 0) return;
+    if (parent >= 0 && !scene_.reaches(index, way > 0, at(parent).facet)) return;
+    Image image;
+    image.normal_W = way * facet.normal_W;
+    image.offset_m = way * facet.offset_m;
+    image.p_W = p - 2.0 * (image.normal_W.dot(p) - image.offset_m) * image.normal_W;
+    image.facet = index;
+    image.parent = parent;
+    image.order = parent < 0 ? 1 : at(parent).order + 1;
+    add_seen(image, facet);
+  }
+
+  /// Adds the image unless no place could see it.
+  void add_seen(const Image& image, const Facet& facet) {
+    if (facet.unbounded) {
+      add_endless(image);
+      return;
+    }
+    Window window = whole_window(facet);
+    if (image.parent >= 0) {
+      const auto part =
+          window_in(set_.beams[static_cast<std::size_t>(image.parent)], at(image.parent), facet);
+      if (!part) return;
+      window = *part;
+    }
+    if (distance_to(window, facet, image.p_W) > options_.most_length_m) return;
+    push(image, beam_through(window, image, facet));
+  }
+
+  void add_endless(const Image& image) {
+    if (image.offset_m - image.normal_W.dot(image.p_W) > options_.most_length_m) return;
+    const bool first = image.parent < 0;
+    push(image, first ? open_beam()
+                      : mirrored_beam(set_.beams[static_cast<std::size_t>(image.parent)], image));
+  }
+
+  void push(const Image& image, const Beam& beam) {
+    set_.images.push_back(image);
+    set_.beams.push_back(beam);
+  }
+
+  const RadioScene& scene_;
+  const TraceOptions& options_;
+  std::vector<char> inside_;
+  ImageSet set_;
+  std::int32_t first_ = 0;  ///< The first image that is not mirrored yet.
+};
+
+}  // namespace
+
+ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                   const TraceOptions& options) {
+  check(options);
+  if (!p_WA.allFinite()) return {p_WA, {}, {}};
+  return Builder(scene, p_WA, options).build();
+}
+
+}  // namespace tagfield

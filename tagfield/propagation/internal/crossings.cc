@@ -1,0 +1,128 @@
+#include "tagfield/propagation/internal/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tagfield {
+namespace {
+
+/// Hits of one solid that are nearer to each other are at one place: touching parts of the solid, a
+/// sheet with two faces, or an edge that two triangles share [m].
+constexpr double kSame = 1e-5;
+
+/// A stretch inside, and the hit that stands for it.
+struct Inside {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  const SurfaceHit* hit = nullptr;
+};
+
+using Hits = std::vector<SurfaceHit>::iterator;
+
+bool is_before(const SurfaceHit& one, const SurfaceHit& other) {
+  return one.collision != other.collision ? one.collision < other.collision
+                                          : one.distance_m < other.distance_m;
+}
+
+bool is_closed(const RadioScene& scene, const SurfaceHit& hit) {
+  return scene.shells()[scene.shell_of(hit.collision, hit.triangle)].closed;
+}
+
+/// One solid's hits in order: at one place those that enter first, and each way only once.
+Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
+  const auto enters_it = [&](const SurfaceHit& hit) { return enters(scene, hit); };
+  Hits out = begin;
+  for (Hits place = begin; place != end;) {
+    const double limit = place->distance_m + kSame;
+    const Hits next =
+        std::find_if(place, end, [&](const SurfaceHit& hit) { return hit.distance_m > limit; });
+    const Hits leaving = std::partition(place, next, enters_it);
+    const bool in = leaving != place;
+    const bool left = leaving != next;
+    const SurfaceHit entering_hit = *place;
+    const SurfaceHit leaving_hit = left ? *leaving : *place;
+    if (in) *out++ = entering_hit;
+    if (left) *out++ = leaving_hit;
+    place = next;
+  }
+  return out;
+}
+
+/// One solid's brackets.
+std::vector<Inside> match(const RadioScene& scene, Hits begin, Hits end, double length_m) {
+  std::vector<Inside> found;
+  std::vector<const SurfaceHit*> open;
+  for (Hits hit = begin; hit != end; ++hit) {
+    const double at = hit->distance_m;
+    if (enters(scene, *hit)) {
+      open.push_back(&*hit);
+    } else if (!open.empty()) {
+      found.push_back({open.back()->distance_m, at, open.back()});
+      open.pop_back();
+    } else {
+      found.push_back({is_closed(scene, *hit) ? 0.0 : at, at, &*hit});
+    }
+  }
+  for (const SurfaceHit* hit : open) {
+    const double at = hit->distance_m;
+    found.push_back({at, is_closed(scene, *hit) ? length_m : at, hit});
+  }
+  return found;
+}
+
+std::vector<Inside> joined(std::vector<Inside> parts) {
+  std::sort(parts.begin(), parts.end(), [](const Inside& one, const Inside& other) {
+    return one.from_m != other.from_m ? one.from_m < other.from_m : one.to_m > other.to_m;
+  });
+  std::vector<Inside> all;
+  for (const Inside& part : parts) {
+    if (!all.empty() && part.from_m <= all.back().to_m + kSame) {
+      all.back().to_m = std::max(all.back().to_m, part.to_m);
+    } else {
+      all.push_back(part);
+    }
+  }
+  return all;
+}
+
+Crossing crossing_of(const Leg& leg, const Eigen::Vector3d& direction_W, const Inside& inside) {
+  const SurfaceHit& hit = *inside.hit;
+  Crossing crossing;
+  crossing.solid = hit.collision;
+  crossing.leg = leg.number;
+  crossing.length_m = inside.to_m - inside.from_m;
+  crossing.cos_incidence = std::min(std::abs(hit.slope), 1.0);
+  crossing.normal_W = hit.slope < 0.0 ? hit.normal : Eigen::Vector3d(-hit.normal);
+  crossing.p_W = leg.from_W + hit.distance_m * direction_W;
+  return crossing;
+}
+
+}  // namespace
+
+bool enters(const RadioScene& scene, const SurfaceHit& hit) {
+  const bool inverted = scene.shells()[scene.shell_of(hit.collision, hit.triangle)].inverted;
+  return (hit.slope < 0.0) != inverted;
+}
+
+void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W,
+                   double length_m, std::vector<SurfaceHit>& hits,
+                   std::vector<Crossing>& crossings) {
+  std::sort(hits.begin(), hits.end(), is_before);
+  std::vector<Inside> found;
+  for (Hits begin = hits.begin(); begin != hits.end();) {
+    const Hits end = std::find_if(begin, hits.end(), [&](const SurfaceHit& hit) {
+      return hit.collision != begin->collision;
+    });
+    const Hits last = tidy(scene, begin, end);
+    for (const Inside& inside : joined(match(scene, begin, last, length_m))) {
+      found.push_back(inside);
+    }
+    begin = end;
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Inside& one, const Inside& other) {
+    return one.hit->distance_m < other.hit->distance_m;
+  });
+  for (const Inside& inside : found) crossings.push_back(crossing_of(leg, direction_W, inside));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+/// @file
+/// Facets of one solid.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/propagation/internal/welded_mesh.h"
+#include "tagfield/propagation/radio_scene.h"
+
+namespace tagfield {
+
+/// Triangles that are flat to 0.1 mm and joined by edges, of those that `mirrors` (by triangle of
+/// `mesh`) allows. Their `solid` and `shell` are left 0; `shell` is the piece's index.
+std::vector<Facet> flat_pieces(const WeldedMesh& mesh, const std::vector<Edge>& edges,
+                               const Pieces& pieces, const std::vector<char>& mirrors);
+
+/// The endless facet of a plane.
+Facet endless_facet(const Eigen::Vector3d& normal_W, double offset_m);
+
+}  // namespace tagfield

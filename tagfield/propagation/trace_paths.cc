@@ -1,0 +1,211 @@
+#include "tagfield/propagation/trace_paths.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/propagation/internal/check_options.h"
+#include "tagfield/propagation/internal/legs.h"
+#include "tagfield/propagation/internal/on_facet.h"
+
+namespace tagfield {
+namespace {
+
+/// A tag must be further than this before a facet's plane to be seen by it [m].
+constexpr double kLeastHeight = 1e-6;
+/// Paths by way of the same points are one path [m].
+constexpr double kSamePoint = 1e-6;
+
+/// The paths found so far, in memory that is there from before.
+class Collector {
+ public:
+  explicit Collector(std::vector<RadioPath>& paths) : paths_(paths) {}
+  ~Collector() { paths_.resize(count_); }
+  Collector(const Collector&) = delete;
+  Collector& operator=(const Collector&) = delete;
+
+  /// A path to fill in, which counts once it is kept.
+  RadioPath& blank() {
+    if (count_ == paths_.size()) paths_.emplace_back();
+    RadioPath& path = paths_[count_];
+    path.crossings.clear();
+    path.blocked = false;
+    return path;
+  }
+  void keep() { ++count_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  RadioPath& operator[](std::size_t i) { return paths_[i]; }
+
+ private:
+  std::vector<RadioPath>& paths_;
+  std::size_t count_ = 0;
+};
+
+bool is_seen(const Beam& beam, const Image& image, const Eigen::Vector3d& p) {
+  if (!(image.normal_W.dot(p) - image.offset_m > kLeastHeight)) return false;
+  for (int i = 0; i < 4; ++i) {
+    const double height = beam(i, 0) * p.x() + beam(i, 1) * p.y() + beam(i, 2) * p.z() + beam(i, 3);
+    if (height < -kLeastHeight) return false;
+  }
+  return true;
+}
+
+/// Finds the bounces from the tag backwards. False if the way misses a facet.
+bool find_bounces(const RadioScene& scene, const ImageSet& set, const Image& last,
+                  const Eigen::Vector3d& p_WT, RadioPath& path) {
+  path.bounce_count = last.order;
+  Eigen::Vector3d p = p_WT;
+  const Image* image = &last;
+  for (auto i = static_cast<std::size_t>(last.order); i-- > 0;) {
+    const double height = image->normal_W.dot(p) - image->offset_m;
+    const double below = image->offset_m - image->normal_W.dot(image->p_W);
+    if (!(height > 0.0 && below > 0.0)) return false;
+    p += height / (height + below) * (image->p_W - p);
+    const Facet& facet = scene.facets()[image->facet];
+    if (!is_on(facet, p)) return false;
+    path.bounces[i] = {facet.solid, image->facet, p, image->normal_W};
+    if (i > 0) image = &set.images[static_cast<std::size_t>(image->parent)];
+  }
+  return true;
+}
+
+void set_ends(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT, RadioPath& path) {
+  const auto count = static_cast<std::size_t>(path.bounce_count);
+  const Eigen::Vector3d& first = count == 0 ? p_WT : path.bounces[0].p_W;
+  const Eigen::Vector3d& last = count == 0 ? p_WA : path.bounces[count - 1].p_W;
+  path.departure_W = (first - p_WA).normalized();
+  path.arrival_W = (p_WT - last).normalized();
+}
+
+Leg leg_of(const RadioPath& path, int number, const Eigen::Vector3d& p_WA,
+           const Eigen::Vector3d& p_WT) {
+  Leg leg{number, p_WA, p_WT};
+  const auto i = static_cast<std::size_t>(number);
+  if (number > 0) {
+    leg.from_W = path.bounces[i - 1].p_W;
+    leg.from_normal_W = &path.bounces[i - 1].normal_W;
+  }
+  if (number < path.bounce_count) {
+    leg.to_W = path.bounces[i].p_W;
+    leg.to_normal_W = &path.bounces[i].normal_W;
+  }
+  return leg;
+}
+
+/// Sets what the path goes through. False if it is not to be kept.
+bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
+              const TraceOptions& options, RadioPath& path) {
+  if (!options.occlusion) return true;
+  thread_local LegScratch scratch;
+  for (int number = 0; number <= path.bounce_count; ++number) {
+    const Leg leg = leg_of(path, number, p_WA, p_WT);
+    if (walk(scene, leg, options.mount_depth_m, options.keep_blocked, scratch, path.crossings)) {
+      continue;
+    }
+    if (!options.keep_blocked) return false;
+    path.blocked = true;
+  }
+  return true;
+}
+
+bool is_same_way(const RadioPath& one, const RadioPath& other) {
+  if (one.bounce_count != other.bounce_count) return false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
+    if (!((one.bounces[i].p_W - other.bounces[i].p_W).norm() < kSamePoint)) return false;
+  }
+  return true;
+}
+
+/// Of facets flush with each other the opaque one counts, or else that of the first solid.
+bool is_better(const RadioScene& scene, const RadioPath& one, const RadioPath& other) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
+    const Bounce& a = one.bounces[i];
+    const Bounce& b = other.bounces[i];
+    if (scene.is_opaque(a.solid) != scene.is_opaque(b.solid)) return scene.is_opaque(a.solid);
+    if (a.facet != b.facet) return a.facet < b.facet;
+  }
+  return false;
+}
+
+/// Keeps the blank, which is filled in, unless its way is known already.
+void keep_once(const RadioScene& scene, RadioPath& path, Collector& paths) {
+  for (std::size_t i = paths.size(); i-- > 0;) {
+    if (paths[i].bounce_count != path.bounce_count) break;
+    if (!is_same_way(paths[i], path)) continue;
+    if (is_better(scene, path, paths[i])) std::swap(path, paths[i]);
+    return;
+  }
+  paths.keep();
+}
+
+void trace_direct(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
+                  const TraceOptions& options, Collector& paths) {
+  RadioPath& path = paths.blank();
+  path.bounce_count = 0;
+  path.length_m = (p_WT - p_WA).norm();
+  if (path.length_m > options.most_length_m) return;
+  set_ends(p_WA, p_WT, path);
+  if (walk_all(scene, p_WA, p_WT, options, path)) paths.keep();
+}
+
+void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& image,
+                    const Eigen::Vector3d& p_WT, const TraceOptions& options, Collector& paths) {
+  RadioPath& path = paths.blank();
+  path.length_m = (p_WT - image.p_W).norm();
+  if (path.length_m > options.most_length_m) return;
+  if (!find_bounces(scene, set, image, p_WT, path)) return;
+  set_ends(set.p_WA, p_WT, path);
+  if (walk_all(scene, set.p_WA, p_WT, options, path)) keep_once(scene, path, paths);
+}
+
+void require(bool right, const char* name, double value, const char* expected) {
+  if (!right) throw Error(fmt::format("paths: {} must be {}, is {}", name, expected, value));
+}
+
+}  // namespace
+
+void check(const TraceOptions& options) {
+  require(options.order >= 0 && options.order <= kMostBounces, "order", options.order, "0 to 3");
+  require(options.most_length_m >= 0.0, "most_length_m", options.most_length_m, "at least 0");
+  require(options.mount_depth_m >= 0.0 && options.mount_depth_m <= 1.0, "mount_depth_m",
+          options.mount_depth_m, "0 to 1");
+}
+
+void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
+                 const TraceOptions& options, std::vector<RadioPath>& paths) {
+  check(options);
+  Collector found(paths);
+  if (!images.p_WA.allFinite() || !p_WT.allFinite() || images.p_WA == p_WT) return;
+  trace_direct(scene, images.p_WA, p_WT, options, found);
+  for (std::size_t i = 0; i < images.images.size(); ++i) {
+    const Image& image = images.images[i];
+    if (image.order > options.order) break;
+    if (is_seen(images.beams[i], image, p_WT)) {
+      trace_mirrored(scene, images, image, p_WT, options, found);
+    }
+  }
+}
+
+bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
+             const TraceOptions& options) {
+  check(options);
+  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return true;
+  LegScratch scratch;
+  std::vector<Crossing> crossings;
+  return walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, false, scratch, crossings);
+}
+
+std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                                         const Eigen::Vector3d& p_WT, const TraceOptions& options) {
+  check(options);
+  std::vector<Crossing> crossings;
+  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return crossings;
+  LegScratch scratch;
+  walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, true, scratch, crossings);
+  return crossings;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,138 @@
+// RayScene::surfaces(): one pass of Embree's occlusion query, whose filter takes down each hit and
+// turns it away, so that the ray goes on.
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/world/internal/ray_scene_impl.h"
+
+namespace tagfield {
+namespace {
+
+/// What single precision may be off by, of the greatest coordinate, with room to spare. Embree's
+/// stretch is longer by it at each end; what is beyond the true ends is turned away in double
+/// precision.
+constexpr double kSingle = 1e-6;
+
+/// A query on its way through Embree, which hands the context to the filter.
+struct Query {
+  RTCIntersectContext context{};  // First: the filter gets its address.
+  const Stretch* stretch = nullptr;
+  const std::vector<char>* stops = nullptr;
+  std::vector<SurfaceHit>* hits = nullptr;
+};
+
+bool stops_at(const Stretch& stretch, const std::vector<char>& stops, const SurfaceHit& hit) {
+  return !stops.empty() && stops[hit.collision] != 0 && hit.distance_m > stretch.stop_from_m &&
+         hit.distance_m < stretch.stop_to_m;
+}
+
+/// Takes the hit down if it is on the stretch; true if the search may end there.
+bool take(const Stretch& stretch, const std::vector<char>& stops, const SurfaceHit& hit,
+          std::vector<SurfaceHit>& hits) {
+  // False too for a line along the surface, whose distance is not finite.
+  if (!(hit.distance_m >= stretch.from_m && hit.distance_m <= stretch.to_m)) return false;
+  hits.push_back(hit);
+  return stops_at(stretch, stops, hit);
+}
+
+double greatest(const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff(); }
+
+/// How far the line passes from an edge from `a` to `b`, both seen from the line's origin: above 0
+/// if it goes around it as the right hand's fingers around the thumb `direction`.
+double beside(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+              const Eigen::Vector3d& direction) {
+  return direction.dot(a.cross(b)) / direction.cross(b - a).norm();
+}
+
+/// Whether the line meets the triangle (corners seen from the line's origin) or passes within the
+/// tolerance [m] of it. Across the line, as rounding errors are: a grazing line's point in the
+/// triangle's plane can be far from the rim and yet the line be near it.
+bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+           const Stretch& stretch, double slope, double tolerance) {
+  const double turn = slope < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector3d& d = stretch.direction;
+  // Written so that an edge without a direction, which gives NaN, lets the line pass.
+  return !(turn * beside(a, b, d) < -tolerance) && !(turn * beside(b, c, d) < -tolerance) &&
+         !(turn * beside(c, a, d) < -tolerance);
+}
+
+bool take_triangle(const Query& query, const Triangles& triangles, unsigned triangle) {
+  const Stretch& stretch = *query.stretch;
+  const auto& [i, j, k] = triangles.indices[triangle];
+  const Eigen::Vector3d a = triangles.vertices[i] - stretch.origin;
+  const Eigen::Vector3d b = triangles.vertices[j] - stretch.origin;
+  const Eigen::Vector3d c = triangles.vertices[k] - stretch.origin;
+  const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+  const double slope = stretch.direction.dot(normal);
+  const double tolerance = kSingle * (1.0 + greatest(stretch.origin) + greatest(a));
+  if (!meets(a, b, c, stretch, slope, tolerance)) return false;
+  const std::uint32_t collision = triangles.collisions[triangle];
+  const SurfaceHit hit{normal.dot(a) / slope, slope, collision,
+                       triangle - triangles.firsts[collision], normal};
+  return take(stretch, *query.stops, hit, *query.hits);
+}
+
+bool take_planes(const std::vector<WorldPlane>& planes, const Stretch& stretch,
+                 const std::vector<char>& stops, std::vector<SurfaceHit>& hits) {
+  for (const WorldPlane& plane : planes) {
+    const double slope = stretch.direction.dot(plane.normal);
+    const double distance = (plane.offset - plane.normal.dot(stretch.origin)) / slope;
+    if (take(stretch, stops, {distance, slope, plane.collision, 0, plane.normal}, hits)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Embree's ray begins at 0.
+RTCRay single_precision(const Stretch& stretch, double margin) {
+  const Eigen::Vector3f begin =
+      (stretch.origin + (stretch.from_m - margin) * stretch.direction).cast<float>();
+  const Eigen::Vector3f direction = stretch.direction.cast<float>();
+  RTCRay ray{};
+  ray.org_x = begin.x();
+  ray.org_y = begin.y();
+  ray.org_z = begin.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tfar = static_cast<float>(stretch.to_m - stretch.from_m + 2.0 * margin);
+  ray.mask = ~0U;
+  return ray;
+}
+
+bool can_meet(const Stretch& stretch) {
+  return stretch.origin.allFinite() && stretch.direction.allFinite() &&
+         std::isfinite(stretch.from_m) && stretch.to_m >= stretch.from_m;
+}
+
+}  // namespace
+
+void gather_surfaces(const RTCFilterFunctionNArguments* hits) {
+  const auto& query = *reinterpret_cast<const Query*>(hits->context);
+  const auto& triangles = *static_cast<const Triangles*>(hits->geometryUserPtr);
+  for (unsigned i = 0; i < hits->N; ++i) {
+    if (hits->valid[i] != -1) continue;
+    const bool stop = take_triangle(query, triangles, RTCHitN_primID(hits->hit, hits->N, i));
+    if (!stop) hits->valid[i] = 0;
+  }
+}
+
+bool RayScene::surfaces(const Stretch& stretch, const std::vector<char>& stops,
+                        std::vector<SurfaceHit>& hits) const {
+  hits.clear();
+  if (!can_meet(stretch)) return true;
+  if (take_planes(impl_->planes, stretch, stops, hits)) return false;
+  if (impl_->triangles.indices.empty()) return true;
+  const double reach = std::min(std::max(std::abs(stretch.from_m), stretch.to_m), 1e9);
+  const double margin = kSingle * (1.0 + greatest(stretch.origin) + reach);
+  Query query{{}, &stretch, &stops, &hits};
+  rtcInitIntersectContext(&query.context);
+  RTCRay ray = single_precision(stretch, margin);
+  rtcOccluded1(impl_->scene, &query.context, &ray);
+  return ray.tfar >= 0.0F;
+}
+
+}  // namespace tagfield
