@@ -103,7 +103,7 @@ class Builder {
                       : mirrored_beam(set_.beams[static_cast<std::size_t>(image.parent)], image));
   }
 
-  void push(const Image& image, const Beam& beam) {
+  void push(const Image& image, const BeamSides& beam) {
     set_.images.push_back(image);
     set_.beams.push_back(beam);
   }

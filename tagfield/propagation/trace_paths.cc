@@ -44,7 +44,7 @@ class Collector {
   std::size_t count_ = 0;
 };
 
-bool is_seen(const Beam& beam, const Image& image, const Eigen::Vector3d& p) {
+bool is_seen(const BeamSides& beam, const Image& image, const Eigen::Vector3d& p) {
   if (!(image.normal_W.dot(p) - image.offset_m > kLeastHeight)) return false;
   for (int i = 0; i < 4; ++i) {
     const double height = beam(i, 0) * p.x() + beam(i, 1) * p.y() + beam(i, 2) * p.z() + beam(i, 3);

@@ -35,13 +35,13 @@ struct Image {
 
 /// Where an image can be seen, and a bit more: the points p with n·p + w ≥ 0 for each row (n, w), n
 /// a unit vector. Rows that aren't needed are (0, 0, 0, 1).
-using Beam = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using BeamSides = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// All images of one antenna position, shared by all tags of an update.
 struct ImageSet {
-  Eigen::Vector3d p_WA;       ///< The antenna [m].
-  std::vector<Image> images;  ///< By rising order, each after its parent.
-  std::vector<Beam> beams;    ///< Of each image.
+  Eigen::Vector3d p_WA;          ///< The antenna [m].
+  std::vector<Image> images;     ///< By rising order, each after its parent.
+  std::vector<BeamSides> beams;  ///< Of each image.
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place

@@ -61,7 +61,7 @@ Polygon outline(const Facet& facet, const Window& window) {
 }
 
 /// Whether the facet's bounding circle is behind one of the planes.
-bool misses(const Beam& beam, const Facet& facet) {
+bool misses(const BeamSides& beam, const Facet& facet) {
   const Eigen::Vector3d centre = point_of(facet, 0.5 * facet.size_m.x(), 0.5 * facet.size_m.y());
   const double least = -0.5 * facet.size_m.norm() - kMargin;
   for (int i = 0; i < 4; ++i) {
@@ -74,7 +74,7 @@ bool misses(const Beam& beam, const Facet& facet) {
 
 Window whole_window(const Facet& facet) { return {Eigen::Vector2d::Zero(), facet.size_m}; }
 
-std::optional<Window> window_in(const Beam& beam, const Image& image, const Facet& facet) {
+std::optional<Window> window_in(const BeamSides& beam, const Image& image, const Facet& facet) {
   if (misses(beam, facet)) return std::nullopt;
   Polygon polygon = outline(facet, whole_window(facet));
   Eigen::Vector4d mirror;
@@ -91,11 +91,11 @@ std::optional<Window> window_in(const Beam& beam, const Image& image, const Face
   return window;
 }
 
-Beam beam_through(const Window& window, const Image& image, const Facet& facet) {
+BeamSides beam_through(const Window& window, const Image& image, const Facet& facet) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin);
   const Polygon polygon = outline(facet, {window.low - margin, window.high + margin});
   const Eigen::Vector3d across = polygon[2] - image.p_W;
-  Beam beam;
+  BeamSides beam;
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d edge = polygon[(i + 1) % 4] - polygon[i];
     Eigen::Vector3d normal = edge.cross(polygon[i] - image.p_W).normalized();
@@ -109,8 +109,8 @@ Beam beam_through(const Window& window, const Image& image, const Facet& facet) 
   return across.allFinite() && beam.allFinite() ? beam : open_beam();
 }
 
-Beam mirrored_beam(const Beam& beam, const Image& image) {
-  Beam mirrored = beam;
+BeamSides mirrored_beam(const BeamSides& beam, const Image& image) {
+  BeamSides mirrored = beam;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector3d n = beam.row(i).head<3>();
     const double along = 2.0 * n.dot(image.normal_W);
@@ -120,8 +120,8 @@ Beam mirrored_beam(const Beam& beam, const Image& image) {
   return mirrored;
 }
 
-Beam open_beam() {
-  Beam beam = Beam::Zero();
+BeamSides open_beam() {
+  BeamSides beam = BeamSides::Zero();
   beam.col(3).setOnes();
   return beam;
 }

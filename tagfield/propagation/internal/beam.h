@@ -19,16 +19,16 @@ Window whole_window(const Facet& facet);
 
 /// What of `facet` lies in `beam` and in front of the mirror of `image`, bounded by a rectangle;
 /// nothing if nothing does. `facet` must be bounded.
-std::optional<Window> window_in(const Beam& beam, const Image& image, const Facet& facet);
+std::optional<Window> window_in(const BeamSides& beam, const Image& image, const Facet& facet);
 
 /// The beam from `image` through a window of its facet.
-Beam beam_through(const Window& window, const Image& image, const Facet& facet);
+BeamSides beam_through(const Window& window, const Image& image, const Facet& facet);
 
 /// The beam after an endless mirror.
-Beam mirrored_beam(const Beam& beam, const Image& image);
+BeamSides mirrored_beam(const BeamSides& beam, const Image& image);
 
 /// Everywhere.
-Beam open_beam();
+BeamSides open_beam();
 
 /// Distance from `p` to the nearest point of the window [m].
 double distance_to(const Window& window, const Facet& facet, const Eigen::Vector3d& p);

@@ -43,8 +43,8 @@ class Listener final : public FieldListener {
     log_.events.push_back("updated " + name);
     log_.reads[name].clear();
     for (const TagReply& reply : update.replies) {
-      log_.reads[name].push_back(to_read(
-          update.antenna.parameters, update.tags.population.id(reply.slot), update.stamp, reply));
+      log_.reads[name].push_back(
+          to_read(update.antenna.parameters, update.tags.population.id(reply.slot), reply));
     }
   }
   void antenna_added(const FieldAntenna& antenna) override {
