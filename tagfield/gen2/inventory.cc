@@ -4,23 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "tagfield/base/error.h"
+#include "tagfield/gen2/slot_draw.h"
 
 namespace tagfield {
 namespace {
-
-/// Uniform in (0, 1], in steps of 2^-53.
-double uniform(RandomStream& stream) {
-  return static_cast<double>((stream() >> 11U) + 1) * 0x1p-53;
-}
-
-/// Failures before the next success, where each trial succeeds with the probability whose
-/// complement has the logarithm `log_failure`.
-double failures(RandomStream& stream, double log_failure) {
-  return std::floor(std::log(uniform(stream)) / log_failure);
-}
 
 double milliwatts(double dbm) { return std::pow(10.0, 0.1 * dbm); }
 
@@ -55,8 +44,7 @@ Inventory::Inventory(const LinkSettings& link, const InventorySettings& settings
       qfp_(settings.start_q),
       stream_(seed, Purpose::kGen2, key) {}
 
-// --- What is told
-// ---------------------------------------------------------------------------------
+// --- What is told --------------------------------------------------------------------------------
 
 void Inventory::advance(Time time) {
   if (time < now_) {
@@ -128,8 +116,7 @@ void Inventory::run_until(Time time, std::vector<Singulation>& out) {
   }
 }
 
-// --- Commands
-// -------------------------------------------------------------------------------------
+// --- Commands ------------------------------------------------------------------------------------
 
 void Inventory::begin_slot() {
   Duration command = durations_.query_rep;
@@ -140,7 +127,7 @@ void Inventory::begin_slot() {
     redraw();
     command = durations_.query_adjust;
   }
-  draw_repliers();
+  draw_repliers(slots_left_, stream_, waiting_, repliers_);
   --slots_left_;
   judge_repliers();
   const Time begin = next_ + command;
@@ -180,7 +167,7 @@ void Inventory::gather_participants() {
   known_version_ = memories_.version();
 }
 
-/// All participants draw a slot anew. Which, comes out slot by slot in draw_repliers().
+/// All participants draw a slot anew. Which, draw_repliers() says slot by slot.
 void Inventory::redraw() {
   waiting_.insert(waiting_.end(), spent_.begin(), spent_.end());
   spent_.clear();
@@ -188,31 +175,7 @@ void Inventory::redraw() {
   frame_quiet_ = true;
 }
 
-// --- One slot
-// -------------------------------------------------------------------------------------
-
-/// A tag whose slot is not past is in the next of n slots left with probability 1/n, whatever the
-/// others do. The gaps between such tags in the list are geometric, so one draw a replier will do.
-void Inventory::draw_repliers() {
-  repliers_.clear();
-  if (slots_left_ == 1) {
-    repliers_.swap(waiting_);
-    return;
-  }
-  if (waiting_.empty()) return;
-  const double log_failure = std::log1p(-1.0 / static_cast<double>(slots_left_));
-  const auto count = static_cast<double>(waiting_.size());
-  for (double place = failures(stream_, log_failure); place < count;
-       place += 1.0 + failures(stream_, log_failure)) {
-    repliers_.push_back(static_cast<std::uint32_t>(place));
-  }
-  for (auto place = repliers_.rbegin(); place != repliers_.rend(); ++place) {
-    const std::uint32_t tag = waiting_[*place];
-    waiting_[*place] = waiting_.back();
-    waiting_.pop_back();
-    *place = tag;
-  }
-}
+// --- One slot ------------------------------------------------------------------------------------
 
 void Inventory::judge_repliers() {
   slot_.outcome = Outcome::kEmpty;

@@ -93,7 +93,6 @@ class Inventory {
   void gather_participants();
   void redraw();
 
-  void draw_repliers();
   void judge_repliers();
   [[nodiscard]] bool is_captured(std::uint32_t strongest) const;
   [[nodiscard]] bool is_decoded(std::uint32_t tag);
