@@ -68,8 +68,6 @@ void Inventory::stop(Time time) {
   if (!on_) return;
   on_ = false;
   in_slot_ = false;
-  participants_known_ = false;
-  for (std::vector<std::uint32_t>* list : {&waiting_, &spent_, &repliers_}) list->clear();
   for (const TagOnAir& tag : field_.tags()) memories_.power_off(tag.tag, time);
 }
 

@@ -46,6 +46,26 @@ TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
   EXPECT_NEAR(static_cast<double>(bench.read_until(100.0).size()), 100.0 / cycle, 2.0);
 }
 
+TEST(Inventory, ASlotIsFinishedAtItsEndAndBegunAfterItsBeginning) {
+  Bench bench(fixed_q(0));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(1.5e-3).empty());
+  bench.inventory.set_field(at(1.5e-3), alike(1));  // In time for the Query.
+  const double end = 1.5e-3 + (185.333333 + 13 * 25.0 + 9 * 37.5 + 3907.5) * 1e-6;
+  EXPECT_TRUE(bench.read_until(end - 1e-9).empty());
+  EXPECT_EQ(bench.read_until(end), Tags{0});
+}
+
+TEST(Inventory, AdaptiveQInAnEmptyFieldTakesTheTimeOfItsCommands) {
+  Bench bench(InventorySettings{});
+  bench.inventory.start(at(0.0));
+  bench.read_until(100.0);
+  // Qfp falls from 4 by 0.2 a slot: 3 slots with Q 4, 5 with Q 3, and then a whole frame with Q 2,
+  // which is quiet: back to 4. Query, 2 QueryAdjusts, 9 QueryReps and 12 empty slots.
+  const double cycle = (847.833333 + 2 * 375.0 + 9 * 200.0 + 12 * 125.0) * 1e-6;
+  EXPECT_NEAR(static_cast<double>(bench.inventory.counts().rounds), 100.0 / cycle, 1.5);
+}
+
 TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
   // -50 dBm against twice -58: 4.99 dB.
   const std::vector<TagOnAir> tags = {{0, -58.0, 1.0}, {1, -50.0, 1.0}, {2, -58.0, 1.0}};
@@ -84,6 +104,31 @@ TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
   EXPECT_TRUE(bench.read_until(0.1).empty());
   EXPECT_EQ(bench.inventory.counts().failed, 1);
   EXPECT_EQ(bench.memories.flag(0, Session::kS0, at(0.1)), Flag::kA);
+}
+
+TEST(Inventory, ACaptureFailsWhoseTagGoesBeforeItsEnd) {
+  InventorySettings settings = fixed_q(0);
+  settings.capture_db = 6.0;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), {{0, -50.0, 1.0}, {1, -60.0, 1.0}});
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(0.004).empty());
+  bench.inventory.set_field(at(0.004), {{1, -60.0, 1.0}});
+  EXPECT_EQ(bench.read_until(0.1), Tags{1});
+  EXPECT_EQ(bench.inventory.counts().captured, 0);
+  EXPECT_EQ(bench.inventory.counts().collided, 1);
+}
+
+TEST(Inventory, ASlotThatIsCutOffComesToNothing) {
+  Bench bench(fixed_q(0));
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(0.004).empty());
+  bench.inventory.stop(at(0.004));
+  bench.inventory.start(at(0.005));
+  EXPECT_TRUE(bench.read_until(0.010).empty());
+  EXPECT_EQ(slots(bench.inventory.counts()), 0);
+  EXPECT_EQ(bench.read_until(0.013), Tags{0});
 }
 
 TEST(Inventory, ANewcomerJoinsWithTheNextQuery) {
