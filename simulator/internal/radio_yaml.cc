@@ -1,6 +1,7 @@
 #include "simulator/internal/radio_yaml.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "simulator/internal/yaml_values.h"
 #include "simulator/profile.h"
@@ -68,13 +69,10 @@ const Material& material_named(const std::vector<Material>& materials, const Yam
 }  // namespace
 
 RawParameter raw_parameter(const std::string& key, const YamlValue& value) {
-  std::string text;
-  if (value.node().IsSequence()) {
-    for (const YamlValue& item : value.list()) text += (text.empty() ? "" : " ") + item.text();
-  } else {
-    text = value.text();
-  }
-  return {key, text, value.location()};
+  if (!value.node().IsSequence()) return {key, value.text(), value.location()};
+  std::vector<std::string> words;
+  for (const YamlValue& item : value.list()) words.push_back(item.text());
+  return {key, fmt::format("{}", fmt::join(words, " ")), value.location()};
 }
 
 RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {

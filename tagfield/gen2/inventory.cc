@@ -44,8 +44,7 @@ Inventory::Inventory(const LinkSettings& link, const InventorySettings& settings
       qfp_(settings.start_q),
       stream_(seed, Purpose::kGen2, key) {}
 
-// --- What is told
-// ---------------------------------------------------------------------------------
+// --- What is told --------------------------------------------------------------------------------
 
 void Inventory::advance(Time time) {
   if (time < now_) {
@@ -69,8 +68,6 @@ void Inventory::stop(Time time) {
   if (!on_) return;
   on_ = false;
   in_slot_ = false;
-  participants_known_ = false;
-  for (std::vector<std::uint32_t>* list : {&waiting_, &spent_, &repliers_}) list->clear();
   for (const TagOnAir& tag : field_.tags()) memories_.power_off(tag.tag, time);
 }
 
@@ -117,8 +114,7 @@ void Inventory::run_until(Time time, std::vector<Singulation>& out) {
   }
 }
 
-// --- Commands
-// -------------------------------------------------------------------------------------
+// --- Commands ------------------------------------------------------------------------------------
 
 void Inventory::begin_slot() {
   Duration command = durations_.query_rep;
@@ -177,8 +173,7 @@ void Inventory::redraw() {
   frame_quiet_ = true;
 }
 
-// --- One slot
-// -------------------------------------------------------------------------------------
+// --- One slot ------------------------------------------------------------------------------------
 
 void Inventory::judge_repliers() {
   slot_.outcome = Outcome::kEmpty;

@@ -34,8 +34,7 @@ struct InventorySettings {
   bool carrier_off_between_rounds = false;
 
   // What real readers lose in addition to the time on the air [s]; 0 or more.
-  double power_up_s =
-      1.5e-3;  ///< Carrier before the first Query; the standard's longest settling time.
+  double power_up_s = 1.5e-3;     ///< Carrier before the first Query; the longest settling time.
   double round_overhead_s = 0.0;  ///< Before each Query.
   double slot_overhead_s = 0.0;   ///< After each slot.
   double read_overhead_s = 0.0;   ///< After a slot in which a tag was read, besides.

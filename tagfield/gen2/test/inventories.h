@@ -2,7 +2,6 @@
 /// Inventories for tests.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "tagfield/gen2/inventory.h"
@@ -24,6 +23,12 @@ inline InventorySettings fixed_q(int q) {
   InventorySettings settings;
   settings.adaptive_q = false;
   settings.start_q = q;
+  return settings;
+}
+
+inline InventorySettings in_session(Session session) {
+  InventorySettings settings;
+  settings.session = session;
   return settings;
 }
 

@@ -4,7 +4,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/gen2/test/inventories.h"
@@ -14,14 +13,7 @@ namespace {
 
 using Tags = std::vector<std::uint32_t>;
 
-InventorySettings in_session(Session session) {
-  InventorySettings settings;
-  settings.session = session;
-  return settings;
-}
-
-// --- One slot
-// -------------------------------------------------------------------------------------
+// --- One slot ------------------------------------------------------------------------------------
 
 TEST(Inventory, OneTagsFirstReadIsWhereTheStandardsTimesPutIt) {
   InventorySettings settings = fixed_q(0);
@@ -54,6 +46,26 @@ TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
   EXPECT_NEAR(static_cast<double>(bench.read_until(100.0).size()), 100.0 / cycle, 2.0);
 }
 
+TEST(Inventory, ASlotIsFinishedAtItsEndAndBegunAfterItsBeginning) {
+  Bench bench(fixed_q(0));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(1.5e-3).empty());
+  bench.inventory.set_field(at(1.5e-3), alike(1));  // In time for the Query.
+  const double end = 1.5e-3 + (185.333333 + 13 * 25.0 + 9 * 37.5 + 3907.5) * 1e-6;
+  EXPECT_TRUE(bench.read_until(end - 1e-9).empty());
+  EXPECT_EQ(bench.read_until(end), Tags{0});
+}
+
+TEST(Inventory, AdaptiveQInAnEmptyFieldTakesTheTimeOfItsCommands) {
+  Bench bench(InventorySettings{});
+  bench.inventory.start(at(0.0));
+  bench.read_until(100.0);
+  // Qfp falls from 4 by 0.2 a slot: 3 slots with Q 4, 5 with Q 3, and then a whole frame with Q 2,
+  // which is quiet: back to 4. Query, 2 QueryAdjusts, 9 QueryReps and 12 empty slots.
+  const double cycle = (847.833333 + 2 * 375.0 + 9 * 200.0 + 12 * 125.0) * 1e-6;
+  EXPECT_NEAR(static_cast<double>(bench.inventory.counts().rounds), 100.0 / cycle, 1.5);
+}
+
 TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
   // -50 dBm against twice -58: 4.99 dB.
   const std::vector<TagOnAir> tags = {{0, -58.0, 1.0}, {1, -50.0, 1.0}, {2, -58.0, 1.0}};
@@ -81,162 +93,7 @@ TEST(Inventory, WithoutTagsAllSlotsAreEmpty) {
   EXPECT_EQ(slots(bench.inventory.counts()), bench.inventory.counts().empty);
 }
 
-// --- Flags
-// ----------------------------------------------------------------------------------------
-
-TEST(Inventory, InS2EachTagIsReadOnceUntilItsFlagFallsBack) {
-  Bench bench(in_session(Session::kS2));
-  bench.inventory.set_field(at(0.0), alike(200));
-  bench.inventory.start(at(0.0));
-  Tags read = bench.read_until(60.0);
-  std::sort(read.begin(), read.end());
-  Tags all(200);
-  for (std::uint32_t tag = 0; tag < 200; ++tag) all[tag] = tag;
-  EXPECT_EQ(read, all);
-  bench.inventory.stop(at(60.0));
-  bench.inventory.start(at(69.9));
-  EXPECT_TRUE(bench.read_until(80.0).empty());
-  bench.inventory.stop(at(80.0));
-  bench.inventory.start(at(90.1));
-  EXPECT_EQ(bench.read_until(100.0).size(), 200U);
-}
-
-TEST(Inventory, InS1EachTagIsReadAgainOnceItsPersistenceIsOver) {
-  Bench bench(in_session(Session::kS1));
-  bench.inventory.set_field(at(0.0), alike(20));
-  bench.inventory.start(at(0.0));
-  std::vector<Singulation> out;
-  bench.inventory.run_until(at(30.0), out);
-  std::map<std::uint32_t, Time> last;
-  for (const Singulation& read : out) {
-    const auto [place, first] = last.try_emplace(read.tag, read.stamp);
-    // 2 s from the end of the reply, and then the round in progress and a slot in the next.
-    if (first) continue;
-    EXPECT_GT(to_seconds(read.stamp - place->second), 2.0);
-    EXPECT_LT(to_seconds(read.stamp - place->second), 2.3);
-    place->second = read.stamp;
-  }
-  EXPECT_EQ(last.size(), 20U);
-  EXPECT_GE(out.size(), 13U * 20U);
-}
-
-TEST(Inventory, DualTargetReadsAllByTurns) {
-  InventorySettings settings = in_session(Session::kS2);
-  settings.target = Target::kAlternate;
-  Bench bench(settings);
-  bench.inventory.set_field(at(0.0), alike(50));
-  bench.inventory.start(at(0.0));
-  const Tags read = bench.read_until(20.0);
-  ASSERT_GT(read.size(), 500U);
-  for (std::size_t begin = 0; begin + 50 <= read.size(); begin += 50) {
-    const auto from = read.begin() + static_cast<std::ptrdiff_t>(begin);
-    EXPECT_EQ(std::set<std::uint32_t>(from, from + 50).size(), 50U);
-  }
-}
-
-TEST(Inventory, TargetBAsksForThoseInB) {
-  InventorySettings settings = in_session(Session::kS3);
-  settings.target = Target::kB;
-  Bench bench(settings);
-  bench.inventory.set_field(at(0.0), alike(5));
-  bench.inventory.start(at(0.0));
-  EXPECT_TRUE(bench.read_until(1.0).empty());
-  bench.memories.set_flag(3, Session::kS3, Flag::kB, at(1.0));
-  EXPECT_EQ(bench.read_until(2.0), Tags{3});
-  EXPECT_EQ(bench.inventory.target(), Flag::kB);
-}
-
-/// Tag 0 is read in the first second; how often in the next two when it is away for `away` seconds.
-std::size_t reads_after_absence(Session session, double away) {
-  Bench bench(in_session(session));
-  bench.inventory.set_field(at(0.0), alike(1));
-  bench.inventory.start(at(0.0));
-  EXPECT_EQ(bench.read_until(1.0).size(), 1U);
-  bench.inventory.set_field(at(1.0), {});
-  EXPECT_TRUE(bench.read_until(1.0 + away).empty());
-  bench.inventory.set_field(at(1.0 + away), alike(1));
-  return bench.read_until(1.9 + away).size();
-}
-
-TEST(Inventory, WhoComesBackIsReadAgainAsItsSessionRemembers) {
-  EXPECT_EQ(reads_after_absence(Session::kS0, 0.001), 1U);
-  EXPECT_EQ(reads_after_absence(Session::kS1, 0.05), 0U);
-  EXPECT_EQ(reads_after_absence(Session::kS1, 2.0), 1U);
-  EXPECT_EQ(reads_after_absence(Session::kS2, 9.9), 0U);
-  EXPECT_EQ(reads_after_absence(Session::kS2, 10.1), 1U);
-}
-
-TEST(Inventory, CarrierOffBetweenRoundsStartsS0Anew) {
-  InventorySettings settings = fixed_q(0);
-  settings.carrier_off_between_rounds = true;
-  Bench bench(settings);
-  bench.inventory.set_field(at(0.0), alike(1));
-  bench.inventory.start(at(0.0));
-  const double cycle = (1500.0 + 847.833333 + 3907.5) * 1e-6;
-  EXPECT_NEAR(static_cast<double>(bench.read_until(50.0).size()), 50.0 / cycle, 2.0);
-}
-
-// --- Antennas
-// -------------------------------------------------------------------------------------
-
-TEST(Inventory, AntennasShareTheTagsMemory) {
-  TagMemories memories;
-  const InventorySettings settings = in_session(Session::kS2);
-  Inventory first({}, settings, memories, 1, 1);
-  Inventory second({}, settings, memories, 1, 2);
-  std::vector<Singulation> out;
-  first.set_field(at(0.0), alike(3));
-  second.set_field(at(0.0), alike(6));
-  first.start(at(0.0));
-  first.run_until(at(1.0), out);
-  EXPECT_EQ(out.size(), 3U);
-  first.stop(at(1.0));
-  EXPECT_FALSE(first.on());
-  out.clear();
-  second.start(at(1.0));
-  second.run_until(at(2.0), out);
-  std::set<std::uint32_t> rest;
-  for (const Singulation& read : out) rest.insert(read.tag);
-  EXPECT_EQ(rest, (std::set<std::uint32_t>{3, 4, 5}));
-  EXPECT_EQ(out.size(), 3U);
-}
-
-TEST(Inventory, InS0ASwitchForgetsUnlessAnotherAntennaGivesPower) {
-  TagMemories memories;
-  const InventorySettings settings = in_session(Session::kS0);
-  Inventory first({}, settings, memories, 1, 1);
-  Inventory second({}, settings, memories, 1, 2);
-  std::vector<Singulation> out;
-  first.set_field(at(0.0), alike(2));
-  second.set_field(at(0.0), {{1, -50.0, 1.0}});
-  first.start(at(0.0));
-  second.start(at(0.0));
-  first.run_until(at(1.0), out);
-  first.stop(at(1.0));
-  out.clear();
-  first.start(at(1.0));
-  first.run_until(at(2.0), out);
-  ASSERT_EQ(out.size(), 1U);
-  EXPECT_EQ(out[0].tag, 0U);
-}
-
-TEST(Inventory, WhatIsOffReadsNothing) {
-  Bench bench(InventorySettings{});
-  bench.inventory.set_field(at(0.0), alike(3));
-  EXPECT_TRUE(bench.read_until(1.0).empty());
-  EXPECT_FALSE(bench.memories.powered(0));
-  bench.inventory.start(at(1.0));
-  EXPECT_TRUE(bench.memories.powered(0));
-  bench.inventory.stop(at(1.004));  // In the first round.
-  EXPECT_FALSE(bench.memories.powered(0));
-  EXPECT_TRUE(bench.read_until(2.0).empty());
-  bench.inventory.stop(at(2.0));
-  bench.inventory.start(at(3.0));
-  EXPECT_EQ(bench.read_until(4.0).size(), 3U);
-}
-
-// --- Tags that come and go within a round
-// ---------------------------------------------------------
+// --- Tags that come and go within a round --------------------------------------------------------
 
 TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
   Bench bench(fixed_q(0));
@@ -247,6 +104,31 @@ TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
   EXPECT_TRUE(bench.read_until(0.1).empty());
   EXPECT_EQ(bench.inventory.counts().failed, 1);
   EXPECT_EQ(bench.memories.flag(0, Session::kS0, at(0.1)), Flag::kA);
+}
+
+TEST(Inventory, ACaptureFailsWhoseTagGoesBeforeItsEnd) {
+  InventorySettings settings = fixed_q(0);
+  settings.capture_db = 6.0;
+  Bench bench(settings);
+  bench.inventory.set_field(at(0.0), {{0, -50.0, 1.0}, {1, -60.0, 1.0}});
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(0.004).empty());
+  bench.inventory.set_field(at(0.004), {{1, -60.0, 1.0}});
+  EXPECT_EQ(bench.read_until(0.1), Tags{1});
+  EXPECT_EQ(bench.inventory.counts().captured, 0);
+  EXPECT_EQ(bench.inventory.counts().collided, 1);
+}
+
+TEST(Inventory, ASlotThatIsCutOffComesToNothing) {
+  Bench bench(fixed_q(0));
+  bench.inventory.set_field(at(0.0), alike(1));
+  bench.inventory.start(at(0.0));
+  EXPECT_TRUE(bench.read_until(0.004).empty());
+  bench.inventory.stop(at(0.004));
+  bench.inventory.start(at(0.005));
+  EXPECT_TRUE(bench.read_until(0.010).empty());
+  EXPECT_EQ(slots(bench.inventory.counts()), 0);
+  EXPECT_EQ(bench.read_until(0.013), Tags{0});
 }
 
 TEST(Inventory, ANewcomerJoinsWithTheNextQuery) {
@@ -272,8 +154,7 @@ TEST(Inventory, ASlotsNextTagIsReadThoughTheOldOneWas) {
   EXPECT_EQ(bench.read_until(3.0), Tags{1});
 }
 
-// --- Time and seeds
-// -------------------------------------------------------------------------------
+// --- Time and seeds ------------------------------------------------------------------------------
 
 RC_GTEST_PROP(Inventory, PiecesOfTimeGiveWhatTheWholeGives, ()) {
   InventorySettings settings;

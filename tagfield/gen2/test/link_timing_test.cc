@@ -1,7 +1,8 @@
 #include "tagfield/gen2/link_timing.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
+
+#include <cmath>
 
 #include "tagfield/base/test/error_text.h"
 

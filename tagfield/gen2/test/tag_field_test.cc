@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tagfield/base/test/error_text.h"
 
 namespace tagfield {
