@@ -120,7 +120,7 @@ class Builder {
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options) {
   check(options);
-  if (!p_WA.allFinite()) return {p_WA, {}, {}};
+  if (!is_place(p_WA)) return {p_WA, {}, {}};
   return Builder(scene, p_WA, options).build();
 }
 

@@ -19,6 +19,10 @@ constexpr double kLeastHeight = 1e-6;
 /// Paths by way of the same points are one path [m].
 constexpr double kSamePoint = 1e-6;
 
+bool are_ends(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+  return is_place(p_WA) && is_place(p_WT) && p_WA != p_WT;
+}
+
 /// The paths found so far, in memory that is there from before.
 class Collector {
  public:
@@ -178,7 +182,7 @@ void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::V
                  const TraceOptions& options, std::vector<RadioPath>& paths) {
   check(options);
   Collector found(paths);
-  if (!images.p_WA.allFinite() || !p_WT.allFinite() || images.p_WA == p_WT) return;
+  if (!are_ends(images.p_WA, p_WT)) return;
   trace_direct(scene, images.p_WA, p_WT, options, found);
   for (std::size_t i = 0; i < images.images.size(); ++i) {
     const Image& image = images.images[i];
@@ -192,7 +196,7 @@ void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::V
 bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
              const TraceOptions& options) {
   check(options);
-  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return true;
+  if (!are_ends(p_WA, p_WT)) return true;
   LegScratch scratch;
   std::vector<Crossing> crossings;
   return walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, false, scratch, crossings);
@@ -202,7 +206,7 @@ std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::V
                                          const Eigen::Vector3d& p_WT, const TraceOptions& options) {
   check(options);
   std::vector<Crossing> crossings;
-  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return crossings;
+  if (!are_ends(p_WA, p_WT)) return crossings;
   LegScratch scratch;
   walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, true, scratch, crossings);
   return crossings;

@@ -45,7 +45,8 @@ struct ImageSet {
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
-/// could see. None if `p_WA` is not finite. Throws Error if `options.order` is not 0 … kMostBounces
+/// could see. None if `p_WA` is not finite or further than 1e9 m from the origin along
+/// an axis. Throws Error if `options.order` is not 0 … kMostBounces
 /// or another option is out of range.
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options);
@@ -53,17 +54,18 @@ ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
 /// All paths from the antenna of `images` to a tag at `p_WT` [m, world] with at most
 /// `options.order` bounces (and at most those that `images` was made for): the direct one first,
 /// then by rising number of bounces and facet indices. `paths` holds them and nothing else; its
-/// memory is reused. None if an end is not finite, or if the ends coincide. Throws as images_of().
+/// memory is reused. None if an end is not finite or that far away, or if the ends coincide. Throws
+/// as images_of().
 void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
                  const TraceOptions& options, std::vector<RadioPath>& paths);
 
-/// Whether nothing opaque is on the straight way between two points [m, world]. True if one is not
-/// finite.
+/// Whether nothing opaque is on the straight way between two points [m, world]. True if one is no
+/// place for an end (see trace_paths()).
 bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
              const TraceOptions& options = {});
 
 /// All solids that the straight way from `p_WA` to `p_WT` [m, world] goes through, opaque ones too,
-/// in order. None if an end is not finite.
+/// in order. None if one is no place for an end.
 std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                                          const Eigen::Vector3d& p_WT,
                                          const TraceOptions& options = {});
