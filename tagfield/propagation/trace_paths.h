@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -33,15 +35,22 @@ struct Image {
   int order = 1;             ///< Number of mirrors.
 };
 
-/// Where an image can be seen, and a bit more: the points p with n·p + w ≥ 0 for each row (n, w), n
-/// a unit vector. Rows that aren't needed are (0, 0, 0, 1).
-using Beam = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+/// Where kBeamLanes images can be seen, and a bit more, in single precision for a quick first look:
+/// the places p, from the antenna [m], with normals[k]·p + offsets[k] ≥ 0 for each k. One image a
+/// lane; the last block's spare lanes are seen from nowhere.
+inline constexpr int kBeamLanes = 8;
+struct BeamBlock {
+  using Lanes = Eigen::Array<float, kBeamLanes, 1>;
+  static constexpr std::size_t kPlanes = 5;
+  std::array<std::array<Lanes, 3>, kPlanes> normals;
+  std::array<Lanes, kPlanes> offsets;
+};
 
 /// All images of one antenna position, shared by all tags of an update.
 struct ImageSet {
-  Eigen::Vector3d p_WA;       ///< The antenna [m].
-  std::vector<Image> images;  ///< By rising order, each after its parent.
-  std::vector<Beam> beams;    ///< Of each image.
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< The antenna [m].
+  std::vector<Image> images;                       ///< By rising order, each after its parent.
+  std::vector<BeamBlock> beams;                    ///< kBeamLanes images each.
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
