@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <random>
 #include <string>
 
@@ -19,9 +20,14 @@ const char* world_file(std::int64_t which) {
                     : std::getenv("TAGFIELD_AWS_WORLD");
 }
 
-Scene load(const char* path) {
-  Diagnostics diagnostics;
-  return load_world(path, {}, diagnostics);
+/// Read once.
+const Scene& load(std::int64_t which) {
+  static std::map<std::int64_t, Scene> scenes;
+  if (scenes.count(which) == 0) {
+    Diagnostics diagnostics;
+    scenes[which] = load_world(world_file(which), {}, diagnostics);
+  }
+  return scenes[which];
 }
 
 RadioSceneOptions options_for(const Scene& scene, bool opaque, double least_facet_m2) {
@@ -88,12 +94,11 @@ void run(benchmark::State& state, const RadioScene& scene, const TraceOptions& o
 /// One update. Arguments: world, order, tags, whether all solids are opaque, whether to look for
 /// what is in the way, and the least facet [cm²].
 void update(benchmark::State& state) {
-  const char* path = world_file(state.range(0));
-  if (path == nullptr) {
+  if (world_file(state.range(0)) == nullptr) {
     state.SkipWithError("TAGFIELD_AWS_WORLD names no world");
     return;
   }
-  const Scene world = load(path);
+  const Scene& world = load(state.range(0));
   const RadioScene scene(
       world, options_for(world, state.range(3) != 0, 1e-4 * static_cast<double>(state.range(5))));
   TraceOptions options;
@@ -103,12 +108,11 @@ void update(benchmark::State& state) {
 }
 
 void images_alone(benchmark::State& state) {
-  const char* path = world_file(state.range(0));
-  if (path == nullptr) {
+  if (world_file(state.range(0)) == nullptr) {
     state.SkipWithError("TAGFIELD_AWS_WORLD names no world");
     return;
   }
-  const RadioScene scene(load(path));
+  const RadioScene scene(load(state.range(0)));
   TraceOptions options;
   options.order = static_cast<int>(state.range(1));
   int i = 0;

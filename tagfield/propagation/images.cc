@@ -28,6 +28,7 @@ class Builder {
       if (order == 1) mirror(-1);
       for (; order > 1 && first_ < end; ++first_) mirror(first_);
     }
+    set_.beams = beam_blocks(set_.images, beams_, set_.p_WA);
     return std::move(set_);
   }
 
@@ -88,7 +89,7 @@ class Builder {
     Window window = whole_window(facet);
     if (image.parent >= 0) {
       const auto part =
-          window_in(set_.beams[static_cast<std::size_t>(image.parent)], at(image.parent), facet);
+          window_in(beams_[static_cast<std::size_t>(image.parent)], at(image.parent), facet);
       if (!part) return;
       window = *part;
     }
@@ -100,19 +101,20 @@ class Builder {
     if (image.offset_m - image.normal_W.dot(image.p_W) > options_.most_length_m) return;
     const bool first = image.parent < 0;
     push(image, first ? open_beam()
-                      : mirrored_beam(set_.beams[static_cast<std::size_t>(image.parent)], image));
+                      : mirrored_beam(beams_[static_cast<std::size_t>(image.parent)], image));
   }
 
   void push(const Image& image, const BeamSides& beam) {
     set_.images.push_back(image);
-    set_.beams.push_back(beam);
+    beams_.push_back(beam);
   }
 
   const RadioScene& scene_;
   const TraceOptions& options_;
   std::vector<char> inside_;
   ImageSet set_;
-  std::int32_t first_ = 0;  ///< The first image that is not mirrored yet.
+  std::vector<BeamSides> beams_;  ///< Of each image.
+  std::int32_t first_ = 0;        ///< The first image that is not mirrored yet.
 };
 
 }  // namespace
@@ -120,7 +122,7 @@ class Builder {
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options) {
   check(options);
-  if (!p_WA.allFinite()) return {p_WA, {}, {}};
+  if (!is_place(p_WA)) return {p_WA, {}, {}};
   return Builder(scene, p_WA, options).build();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/propagation/internal/beam.h"
 #include "tagfield/propagation/internal/check_options.h"
 #include "tagfield/propagation/internal/legs.h"
 #include "tagfield/propagation/internal/on_facet.h"
@@ -18,6 +19,10 @@ namespace {
 constexpr double kLeastHeight = 1e-6;
 /// Paths by way of the same points are one path [m].
 constexpr double kSamePoint = 1e-6;
+
+bool are_ends(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+  return is_place(p_WA) && is_place(p_WT) && p_WA != p_WT;
+}
 
 /// The paths found so far, in memory that is there from before.
 class Collector {
@@ -43,15 +48,6 @@ class Collector {
   std::vector<RadioPath>& paths_;
   std::size_t count_ = 0;
 };
-
-bool is_seen(const BeamSides& beam, const Image& image, const Eigen::Vector3d& p) {
-  if (!(image.normal_W.dot(p) - image.offset_m > kLeastHeight)) return false;
-  for (int i = 0; i < 4; ++i) {
-    const double height = beam(i, 0) * p.x() + beam(i, 1) * p.y() + beam(i, 2) * p.z() + beam(i, 3);
-    if (height < -kLeastHeight) return false;
-  }
-  return true;
-}
 
 /// Finds the bounces from the tag backwards. False if the way misses a facet.
 bool find_bounces(const RadioScene& scene, const ImageSet& set, const Image& last,
@@ -112,7 +108,9 @@ bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen:
 }
 
 bool is_same_way(const RadioPath& one, const RadioPath& other) {
-  if (one.bounce_count != other.bounce_count) return false;
+  // Two metres for each bounce, at most, come of its point's being elsewhere by one.
+  constexpr double kSameLength = 2.0 * kMostBounces * kSamePoint;
+  if (!(std::abs(one.length_m - other.length_m) < kSameLength)) return false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(one.bounce_count); ++i) {
     if (!((one.bounces[i].p_W - other.bounces[i].p_W).norm() < kSamePoint)) return false;
   }
@@ -156,9 +154,16 @@ void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& i
   RadioPath& path = paths.blank();
   path.length_m = (p_WT - image.p_W).norm();
   if (path.length_m > options.most_length_m) return;
+  if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastHeight)) return;
   if (!find_bounces(scene, set, image, p_WT, path)) return;
   set_ends(set.p_WA, p_WT, path);
   if (walk_all(scene, set.p_WA, p_WT, options, path)) keep_once(scene, path, paths);
+}
+
+std::size_t count_up_to(const ImageSet& set, int order) {
+  const auto end = std::partition_point(set.images.begin(), set.images.end(),
+                                        [&](const Image& image) { return image.order <= order; });
+  return static_cast<std::size_t>(end - set.images.begin());
 }
 
 void require(bool right, const char* name, double value, const char* expected) {
@@ -178,21 +183,24 @@ void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::V
                  const TraceOptions& options, std::vector<RadioPath>& paths) {
   check(options);
   Collector found(paths);
-  if (!images.p_WA.allFinite() || !p_WT.allFinite() || images.p_WA == p_WT) return;
+  if (!are_ends(images.p_WA, p_WT)) return;
   trace_direct(scene, images.p_WA, p_WT, options, found);
-  for (std::size_t i = 0; i < images.images.size(); ++i) {
-    const Image& image = images.images[i];
-    if (image.order > options.order) break;
-    if (is_seen(images.beams[i], image, p_WT)) {
-      trace_mirrored(scene, images, image, p_WT, options, found);
+  const Eigen::Vector3f from_antenna = (p_WT - images.p_WA).cast<float>();
+  const std::size_t count = count_up_to(images, options.order);
+  for (std::size_t first = 0; first < count; first += kBeamLanes) {
+    const BeamBlock::Lanes seen = seen_from(images.beams[first / kBeamLanes], from_antenna);
+    if (!(seen >= 0.0F).any()) continue;
+    for (std::size_t i = first; i < std::min(first + kBeamLanes, count); ++i) {
+      if (!(seen[static_cast<int>(i - first)] >= 0.0F)) continue;
+      trace_mirrored(scene, images, images.images[i], p_WT, options, found);
     }
   }
 }
 
-bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
-             const TraceOptions& options) {
+bool is_unobstructed(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                     const Eigen::Vector3d& p_WT, const TraceOptions& options) {
   check(options);
-  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return true;
+  if (!are_ends(p_WA, p_WT)) return true;
   LegScratch scratch;
   std::vector<Crossing> crossings;
   return walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, false, scratch, crossings);
@@ -202,7 +210,7 @@ std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::V
                                          const Eigen::Vector3d& p_WT, const TraceOptions& options) {
   check(options);
   std::vector<Crossing> crossings;
-  if (!p_WA.allFinite() || !p_WT.allFinite() || p_WA == p_WT) return crossings;
+  if (!are_ends(p_WA, p_WT)) return crossings;
   LegScratch scratch;
   walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, true, scratch, crossings);
   return crossings;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -33,19 +35,27 @@ struct Image {
   int order = 1;             ///< Number of mirrors.
 };
 
-/// Where an image can be seen, and a bit more: the points p with n·p + w ≥ 0 for each row (n, w), n
-/// a unit vector. Rows that aren't needed are (0, 0, 0, 1).
-using BeamSides = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+/// Where kBeamLanes images can be seen, and a bit more, in single precision for a quick first look:
+/// the places p, from the antenna [m], with normals[k]·p + offsets[k] ≥ 0 for each k. One image a
+/// lane; the last block's spare lanes are seen from nowhere.
+inline constexpr int kBeamLanes = 8;
+struct BeamBlock {
+  using Lanes = Eigen::Array<float, kBeamLanes, 1>;
+  static constexpr std::size_t kPlanes = 5;
+  std::array<std::array<Lanes, 3>, kPlanes> normals;
+  std::array<Lanes, kPlanes> offsets;
+};
 
 /// All images of one antenna position, shared by all tags of an update.
 struct ImageSet {
-  Eigen::Vector3d p_WA;          ///< The antenna [m].
-  std::vector<Image> images;     ///< By rising order, each after its parent.
-  std::vector<BeamSides> beams;  ///< Of each image.
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< The antenna [m].
+  std::vector<Image> images;                       ///< By rising order, each after its parent.
+  std::vector<BeamBlock> beams;                    ///< kBeamLanes images each.
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
-/// could see. None if `p_WA` is not finite. Throws Error if `options.order` is not 0 … kMostBounces
+/// could see. None if `p_WA` is not finite or further than 1e9 m from the origin along
+/// an axis. Throws Error if `options.order` is not 0 … kMostBounces
 /// or another option is out of range.
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options);
@@ -53,17 +63,18 @@ ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
 /// All paths from the antenna of `images` to a tag at `p_WT` [m, world] with at most
 /// `options.order` bounces (and at most those that `images` was made for): the direct one first,
 /// then by rising number of bounces and facet indices. `paths` holds them and nothing else; its
-/// memory is reused. None if an end is not finite, or if the ends coincide. Throws as images_of().
+/// memory is reused. None if an end is not finite or that far away, or if the ends coincide. Throws
+/// as images_of().
 void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
                  const TraceOptions& options, std::vector<RadioPath>& paths);
 
-/// Whether nothing opaque is on the straight way between two points [m, world]. True if one is not
-/// finite.
-bool is_free(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
-             const TraceOptions& options = {});
+/// Whether nothing opaque is on the straight way between two points [m, world]. True if one is no
+/// place for an end (see trace_paths()).
+bool is_unobstructed(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                     const Eigen::Vector3d& p_WT, const TraceOptions& options = {});
 
 /// All solids that the straight way from `p_WA` to `p_WT` [m, world] goes through, opaque ones too,
-/// in order. None if an end is not finite.
+/// in order. None if one is no place for an end.
 std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                                          const Eigen::Vector3d& p_WT,
                                          const TraceOptions& options = {});

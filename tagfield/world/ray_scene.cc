@@ -39,6 +39,8 @@ void add_solid(Triangles& triangles, const Collision& collision, std::size_t ind
   triangles.vertices.insert(triangles.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles.indices.push_back({first + a, first + b, first + c});
+    const Eigen::Vector3d& p = mesh.vertices[a];
+    triangles.normals.push_back((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).normalized());
   }
 }
 

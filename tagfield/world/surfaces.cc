@@ -28,50 +28,44 @@ bool stops_at(const Stretch& stretch, const std::vector<char>& stops, const Surf
          hit.distance_m < stretch.stop_to_m;
 }
 
-/// Takes the hit down if it is on the stretch; true if the search may end there.
-bool take(const Stretch& stretch, const std::vector<char>& stops, const SurfaceHit& hit,
-          std::vector<SurfaceHit>& hits) {
-  // False too for a line along the surface, whose distance is not finite.
-  if (!(hit.distance_m >= stretch.from_m && hit.distance_m <= stretch.to_m)) return false;
-  hits.push_back(hit);
-  return stops_at(stretch, stops, hit);
+bool is_on(const Stretch& stretch, double distance) {
+  return distance >= stretch.from_m && distance <= stretch.to_m;
 }
 
 double greatest(const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff(); }
 
-/// How far the line passes from an edge from `a` to `b`, both seen from the line's origin: above 0
-/// if it goes around it as the right hand's fingers around the thumb `direction`.
-double beside(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-              const Eigen::Vector3d& direction) {
-  return direction.dot(a.cross(b)) / direction.cross(b - a).norm();
-}
-
-/// Whether the line meets the triangle (corners seen from the line's origin) or passes within the
-/// tolerance [m] of it. Across the line, as rounding errors are: a grazing line's point in the
-/// triangle's plane can be far from the rim and yet the line be near it.
-bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-           const Stretch& stretch, double slope, double tolerance) {
-  const double turn = slope < 0.0 ? -1.0 : 1.0;
-  const Eigen::Vector3d& d = stretch.direction;
-  // Written so that an edge without a direction, which gives NaN, lets the line pass.
-  return !(turn * beside(a, b, d) < -tolerance) && !(turn * beside(b, c, d) < -tolerance) &&
-         !(turn * beside(c, a, d) < -tolerance);
+/// Whether the line passes an edge from `a` to `b`, both seen from the line's origin, on the right
+/// side or within the tolerance [m]; `turn` is the sign that the right side has. Across the line,
+/// as rounding errors are: where a grazing line meets the triangle's plane may be far from the rim
+/// and yet the line be near it.
+bool passes(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& direction,
+            double turn, double tolerance) {
+  const double side = turn * direction.dot(a.cross(b));
+  return side >= 0.0 || side >= -tolerance * direction.cross(b - a).norm();
 }
 
 bool take_triangle(const Query& query, const Triangles& triangles, unsigned triangle) {
   const Stretch& stretch = *query.stretch;
+  const Eigen::Vector3d& d = stretch.direction;
   const auto& [i, j, k] = triangles.indices[triangle];
+  const Eigen::Vector3d& normal = triangles.normals[triangle];
   const Eigen::Vector3d a = triangles.vertices[i] - stretch.origin;
-  const Eigen::Vector3d b = triangles.vertices[j] - stretch.origin;
-  const Eigen::Vector3d c = triangles.vertices[k] - stretch.origin;
-  const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
-  const double slope = stretch.direction.dot(normal);
-  const double tolerance = kSingle * (1.0 + greatest(stretch.origin) + greatest(a));
-  if (!meets(a, b, c, stretch, slope, tolerance)) return false;
   const std::uint32_t collision = triangles.collisions[triangle];
+  const double slope = d.dot(normal);
   const SurfaceHit hit{normal.dot(a) / slope, slope, collision,
                        triangle - triangles.firsts[collision], normal};
-  return take(stretch, *query.stops, hit, *query.hits);
+  // False too for a line along the surface, whose distance is not finite.
+  if (!is_on(stretch, hit.distance_m)) return false;
+  const Eigen::Vector3d b = triangles.vertices[j] - stretch.origin;
+  const Eigen::Vector3d c = triangles.vertices[k] - stretch.origin;
+  const double turn = slope < 0.0 ? -1.0 : 1.0;
+  const double tolerance = kSingle * (1.0 + greatest(stretch.origin) + greatest(a));
+  if (!passes(a, b, d, turn, tolerance) || !passes(b, c, d, turn, tolerance) ||
+      !passes(c, a, d, turn, tolerance)) {
+    return false;
+  }
+  query.hits->push_back(hit);
+  return stops_at(stretch, *query.stops, hit);
 }
 
 bool take_planes(const std::vector<WorldPlane>& planes, const Stretch& stretch,
@@ -79,9 +73,9 @@ bool take_planes(const std::vector<WorldPlane>& planes, const Stretch& stretch,
   for (const WorldPlane& plane : planes) {
     const double slope = stretch.direction.dot(plane.normal);
     const double distance = (plane.offset - plane.normal.dot(stretch.origin)) / slope;
-    if (take(stretch, stops, {distance, slope, plane.collision, 0, plane.normal}, hits)) {
-      return true;
-    }
+    if (!is_on(stretch, distance)) continue;
+    hits.push_back({distance, slope, plane.collision, 0, plane.normal});
+    if (stops_at(stretch, stops, hits.back())) return true;
   }
   return false;
 }

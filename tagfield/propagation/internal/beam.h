@@ -3,10 +3,15 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "tagfield/propagation/trace_paths.h"
 
 namespace tagfield {
+
+/// Where an image can be seen, and a bit more: the points p [m, world] with n·p + w ≥ 0 for each
+/// row (n, w), n a unit vector. Rows that aren't needed are (0, 0, 0, 1).
+using BeamSides = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// Part of a facet's bounding rectangle, in its own frame [m].
 struct Window {
@@ -29,6 +34,14 @@ BeamSides mirrored_beam(const BeamSides& beam, const Image& image);
 
 /// Everywhere.
 BeamSides open_beam();
+
+/// Beams and mirrors of `images`, as an ImageSet has them.
+std::vector<BeamBlock> beam_blocks(const std::vector<Image>& images,
+                                   const std::vector<BeamSides>& beams,
+                                   const Eigen::Vector3d& p_WA);
+
+/// For each lane whether `p` [m, from the antenna] may see its image, as a number ≥ 0.
+BeamBlock::Lanes seen_from(const BeamBlock& block, const Eigen::Vector3f& p);
 
 /// Distance from `p` to the nearest point of the window [m].
 double distance_to(const Window& window, const Facet& facet, const Eigen::Vector3d& p);

@@ -10,4 +10,9 @@ namespace tagfield {
 /// 0 ≤ mount_depth_m ≤ 1.
 void check(const TraceOptions& options);
 
+/// Whether an end can be there: finite, and as near to the world's origin as its vertices must be.
+inline bool is_place(const Eigen::Vector3d& p_W) {
+  return p_W.allFinite() && p_W.cwiseAbs().maxCoeff() <= 1e9;
+}
+
 }  // namespace tagfield

@@ -10,13 +10,6 @@ namespace {
 /// sheet with two faces, or an edge that two triangles share [m].
 constexpr double kSame = 1e-5;
 
-/// A stretch inside, and the hit that stands for it.
-struct Inside {
-  double from_m = 0.0;
-  double to_m = 0.0;
-  const SurfaceHit* hit = nullptr;
-};
-
 using Hits = std::vector<SurfaceHit>::iterator;
 
 bool is_before(const SurfaceHit& one, const SurfaceHit& other) {
@@ -48,41 +41,48 @@ Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
   return out;
 }
 
-/// One solid's brackets.
-std::vector<Inside> match(const RadioScene& scene, Hits begin, Hits end, double length_m) {
-  std::vector<Inside> found;
-  std::vector<const SurfaceHit*> open;
+/// Adds one solid's brackets.
+void match(const RadioScene& scene, Hits begin, Hits end, double length_m,
+           CrossingScratch& scratch) {
+  scratch.open.clear();
   for (Hits hit = begin; hit != end; ++hit) {
     const double at = hit->distance_m;
     if (enters(scene, *hit)) {
-      open.push_back(&*hit);
-    } else if (!open.empty()) {
-      found.push_back({open.back()->distance_m, at, open.back()});
-      open.pop_back();
+      scratch.open.push_back(&*hit);
+    } else if (!scratch.open.empty()) {
+      scratch.inside.push_back({scratch.open.back()->distance_m, at, scratch.open.back()});
+      scratch.open.pop_back();
     } else {
-      found.push_back({is_closed(scene, *hit) ? 0.0 : at, at, &*hit});
+      scratch.inside.push_back({is_closed(scene, *hit) ? 0.0 : at, at, &*hit});
     }
   }
-  for (const SurfaceHit* hit : open) {
+  for (const SurfaceHit* hit : scratch.open) {
     const double at = hit->distance_m;
-    found.push_back({at, is_closed(scene, *hit) ? length_m : at, hit});
+    scratch.inside.push_back({at, is_closed(scene, *hit) ? length_m : at, hit});
   }
-  return found;
 }
 
-std::vector<Inside> joined(std::vector<Inside> parts) {
-  std::sort(parts.begin(), parts.end(), [](const Inside& one, const Inside& other) {
+/// Joins what overlaps of one solid's, those from `first` on.
+void join(std::vector<Inside>& inside, std::size_t first) {
+  if (inside.size() < first + 2) return;
+  const auto begin = inside.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, inside.end(), [](const Inside& one, const Inside& other) {
     return one.from_m != other.from_m ? one.from_m < other.from_m : one.to_m > other.to_m;
   });
-  std::vector<Inside> all;
-  for (const Inside& part : parts) {
-    if (!all.empty() && part.from_m <= all.back().to_m + kSame) {
-      all.back().to_m = std::max(all.back().to_m, part.to_m);
+  auto last = begin;
+  for (auto part = begin + 1; part != inside.end(); ++part) {
+    if (part->from_m <= last->to_m + kSame) {
+      last->to_m = std::max(last->to_m, part->to_m);
     } else {
-      all.push_back(part);
+      *++last = *part;
     }
   }
-  return all;
+  inside.erase(last + 1, inside.end());
+}
+
+bool is_met_before(const Inside& one, const Inside& other) {
+  return one.hit->distance_m != other.hit->distance_m ? one.hit->distance_m < other.hit->distance_m
+                                                      : one.hit->collision < other.hit->collision;
 }
 
 Crossing crossing_of(const Leg& leg, const Eigen::Vector3d& direction_W, const Inside& inside) {
@@ -105,24 +105,23 @@ bool enters(const RadioScene& scene, const SurfaceHit& hit) {
 }
 
 void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W,
-                   double length_m, std::vector<SurfaceHit>& hits,
+                   double length_m, std::vector<SurfaceHit>& hits, CrossingScratch& scratch,
                    std::vector<Crossing>& crossings) {
   std::sort(hits.begin(), hits.end(), is_before);
-  std::vector<Inside> found;
+  scratch.inside.clear();
   for (Hits begin = hits.begin(); begin != hits.end();) {
     const Hits end = std::find_if(begin, hits.end(), [&](const SurfaceHit& hit) {
       return hit.collision != begin->collision;
     });
-    const Hits last = tidy(scene, begin, end);
-    for (const Inside& inside : joined(match(scene, begin, last, length_m))) {
-      found.push_back(inside);
-    }
+    const std::size_t first = scratch.inside.size();
+    match(scene, begin, tidy(scene, begin, end), length_m, scratch);
+    join(scratch.inside, first);
     begin = end;
   }
-  std::stable_sort(found.begin(), found.end(), [](const Inside& one, const Inside& other) {
-    return one.hit->distance_m < other.hit->distance_m;
-  });
-  for (const Inside& inside : found) crossings.push_back(crossing_of(leg, direction_W, inside));
+  std::sort(scratch.inside.begin(), scratch.inside.end(), is_met_before);
+  for (const Inside& inside : scratch.inside) {
+    crossings.push_back(crossing_of(leg, direction_W, inside));
+  }
 }
 
 }  // namespace tagfield

@@ -17,7 +17,7 @@ bool enters(const RadioScene& scene, const SurfaceHit& hit);
 /// those on the leg, at distances from 0 to its `length_m` in direction `direction_W`; they are
 /// reordered.
 void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W,
-                   double length_m, std::vector<SurfaceHit>& hits,
+                   double length_m, std::vector<SurfaceHit>& hits, CrossingScratch& scratch,
                    std::vector<Crossing>& crossings);
 
 }  // namespace tagfield

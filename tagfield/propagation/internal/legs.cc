@@ -113,7 +113,8 @@ bool walk(const RadioScene& scene, const Leg& leg, double mount_depth_m, bool al
     scratch.kept.push_back(hit);
   }
   if (!scratch.kept.empty()) {
-    add_crossings(scene, leg, span.direction_W, span.length, scratch.kept, crossings);
+    add_crossings(scene, leg, span.direction_W, span.length, scratch.kept, scratch.crossing,
+                  crossings);
   }
   return free;
 }

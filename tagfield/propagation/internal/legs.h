@@ -20,8 +20,20 @@ struct Leg {
   const Eigen::Vector3d* to_normal_W = nullptr;
 };
 
+/// A stretch of a leg inside a solid, and the hit that stands for it.
+struct Inside {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  const SurfaceHit* hit = nullptr;
+};
+
 /// Memory that is used again.
+struct CrossingScratch {
+  std::vector<Inside> inside;
+  std::vector<const SurfaceHit*> open;
+};
 struct LegScratch {
+  CrossingScratch crossing;
   std::vector<SurfaceHit> hits;
   std::vector<SurfaceHit> kept;
 };

@@ -6,18 +6,24 @@
 namespace tagfield {
 namespace {
 
-/// Of the triangle, so that no point between two of them is lost to rounding.
+/// Twice the triangle's area, so that no point between two triangles is lost to rounding.
 constexpr double kRim = 1e-12;
 
-bool is_in(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal,
-           const Eigen::Vector3d& p) {
-  const Eigen::Vector3d to_b = corners[1] - corners[0];
-  const Eigen::Vector3d to_c = corners[2] - corners[0];
-  const Eigen::Vector3d to_p = p - corners[0];
-  const double whole = normal.dot(to_b.cross(to_c));
-  const double of_b = normal.dot(to_p.cross(to_c)) / whole;
-  const double of_c = normal.dot(to_b.cross(to_p)) / whole;
-  return of_b >= -kRim && of_c >= -kRim && of_b + of_c <= 1.0 + kRim;
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Twice the area of the triangle `from`, `to`, `p`; below 0 if it is turned the other way.
+double area(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& p,
+            const Eigen::Vector3d& normal) {
+  return normal.dot((to - from).cross(p - from));
+}
+
+/// `normal` may point to either side: triangles of open sheets are turned as they like.
+bool is_in(const Corners& corners, const Eigen::Vector3d& normal, const Eigen::Vector3d& p) {
+  const double one = area(corners[0], corners[1], p, normal);
+  const double two = area(corners[1], corners[2], p, normal);
+  if ((one > kRim && two < -kRim) || (one < -kRim && two > kRim)) return false;
+  const double three = area(corners[2], corners[0], p, normal);
+  return std::min({one, two, three}) >= -kRim || std::max({one, two, three}) <= kRim;
 }
 
 }  // namespace

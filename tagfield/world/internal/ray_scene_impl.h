@@ -25,6 +25,7 @@ struct WorldPlane {
 struct Triangles {
   std::vector<Eigen::Vector3d> vertices;  ///< [m, world]
   std::vector<std::array<std::uint32_t, 3>> indices;
+  std::vector<Eigen::Vector3d> normals;   ///< Unit vectors; zero where there is no area.
   std::vector<std::uint32_t> collisions;  ///< Of each triangle.
   std::vector<std::uint32_t> firsts;      ///< By collision: its first triangle.
 };
