@@ -282,6 +282,7 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
   LocalizationOptions options;
   options.hyperbola = scenario.localization.hyperbola;
   options.heights = known_heights(scenario);
+  options.half_turns = scenario.localization.half_turns;
   options.threads = threads;
   // Between two updates an antenna's poses are as far apart as its rate says.
   for (const AntennaSpec& antenna : scenario.antennas) {

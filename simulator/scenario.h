@@ -67,6 +67,7 @@ struct LocalizationSpec {
   HyperbolaOptions hyperbola;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;
+  std::optional<bool> half_turns;  ///< As in LocalizationOptions.
 };
 
 struct Scenario {

@@ -180,6 +180,7 @@ LocalizationSpec localization_of(YamlMap map) {
   if (map.has("method")) choice(map.at("method"), {"hyperbola"});
   options.stride_m = map.number("stride_m", options.stride_m, kPositive);
   options.refine = map.boolean("refine", options.refine);
+  if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
   options.max_expected_error_m =
       map.number("max_expected_error_m", options.max_expected_error_m, kPositive);
   options.max_rms_m = map.number("max_rms_m", options.max_rms_m, kPositive);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
 
 namespace tagfield {
@@ -47,8 +48,13 @@ std::vector<TagEstimate> locate_tags(const std::vector<TagRead>& reads,
                                      const std::vector<AntennaPose>& poses,
                                      const LocalizationOptions& options, Diagnostics& diagnostics) {
   check(options.heights);
-  const SamplesByTag joined =
-      join_reads_with_poses(reads, poses, options.max_pose_gap_s, diagnostics);
+  SamplesByTag joined = join_reads_with_poses(reads, poses, options.max_pose_gap_s, diagnostics);
+  if (options.half_turns.value_or(has_half_turns(joined))) {
+    if (!options.half_turns) {
+      diagnostics.warn("phases jump by half turns: they are taken as known but for π");
+    }
+    double_phases(joined);
+  }
   std::vector<const SamplesByTag::value_type*> tags;
   tags.reserve(joined.size());
   for (const auto& entry : joined) tags.push_back(&entry);

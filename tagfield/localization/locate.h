@@ -27,6 +27,8 @@ struct LocalizationOptions {
   HyperbolaOptions hyperbola;
   TagHeights heights;
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
+  /// Whether phases are known but for half a turn; where not told, the reads tell it.
+  std::optional<bool> half_turns;
   int threads = 1;
 };
 
