@@ -156,8 +156,9 @@ void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& i
   if (path.length_m > options.most_length_m) return;
   if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastHeight)) return;
   if (!find_bounces(scene, set, image, p_WT, path)) return;
+  if (!walk_all(scene, set.p_WA, p_WT, options, path)) return;
   set_ends(set.p_WA, p_WT, path);
-  if (walk_all(scene, set.p_WA, p_WT, options, path)) keep_once(scene, path, paths);
+  keep_once(scene, path, paths);
 }
 
 std::size_t count_up_to(const ImageSet& set, int order) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
+#include <tuple>
 
 namespace tagfield {
 namespace {

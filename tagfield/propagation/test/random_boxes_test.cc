@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <thread>
 
 #include "tagfield/propagation/test/brute_force.h"
 #include "tagfield/propagation/trace_paths.h"
@@ -222,6 +223,36 @@ TEST(RandomBoxes, GiveTheSamePathsWithTheEndsSwapped) {
     }
   }
   EXPECT_GT(compared, 2000);
+}
+
+TEST(RandomBoxes, GiveTheSamePathsOnSeveralThreads) {
+  Case the = random_case(11, false);
+  the.scene.collisions.push_back({"floor", Plane{}, from_translation({0.0, 0.0, -6.0})});
+  RadioSceneOptions half;
+  for (std::size_t i = 0; i < the.scene.collisions.size(); ++i) half.opaque.push_back(i % 2 == 0);
+  const RadioScene radio(the.scene, half);
+  TraceOptions options;
+  options.order = 3;
+  const ImageSet images = images_of(radio, the.antenna, options);
+  const auto lengths = [&] {
+    std::vector<double> found;
+    std::vector<RadioPath> paths;
+    for (int i = 0; i < 200; ++i) {
+      trace_paths(radio, images, the.tag + Eigen::Vector3d(0.01 * i, 0.0, 0.0), options, paths);
+      for (const RadioPath& path : paths) {
+        found.push_back(path.length_m);
+        for (const Crossing& crossing : path.crossings) found.push_back(crossing.length_m);
+      }
+    }
+    return found;
+  };
+  const std::vector<double> alone = lengths();
+  std::vector<std::vector<double>> found(4);
+  std::vector<std::thread> threads;
+  for (std::vector<double>& one : found) threads.emplace_back([&] { one = lengths(); });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::vector<double>& one : found) EXPECT_EQ(one, alone);
+  EXPECT_GT(alone.size(), 300U);
 }
 
 }  // namespace
