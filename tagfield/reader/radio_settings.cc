@@ -258,9 +258,9 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
                         "one read an update of all that is heard, "
                         "or slots of EPC Gen2",
                         [](D& d, std::size_t i) { d.takes_inventory = i == 1; }));
-  all.push_back(word<D>("session", {"s0", "s1", "s2", "s3"}, "", [](D& d, std::size_t i) {
-    d.gen2.inventory.session = static_cast<Session>(i);
-  }));
+  all.push_back(
+      word<D>("session", {"s0", "s1", "s2", "s3"}, "flags that tags keep it in",
+              [](D& d, std::size_t i) { d.gen2.inventory.session = static_cast<Session>(i); }));
   all.push_back(
       word<D>("target", {"a", "b", "alternate"}, "tags to ask for",
               [](D& d, std::size_t i) { d.gen2.inventory.target = static_cast<Target>(i); }));
