@@ -202,7 +202,7 @@ bool is_unobstructed(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                      const Eigen::Vector3d& p_WT, const TraceOptions& options) {
   check(options);
   if (!are_ends(p_WA, p_WT)) return true;
-  LegScratch scratch;
+  thread_local LegScratch scratch;
   std::vector<Crossing> crossings;
   return walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, false, scratch, crossings);
 }
@@ -212,7 +212,7 @@ std::vector<Crossing> straight_crossings(const RadioScene& scene, const Eigen::V
   check(options);
   std::vector<Crossing> crossings;
   if (!are_ends(p_WA, p_WT)) return crossings;
-  LegScratch scratch;
+  thread_local LegScratch scratch;
   walk(scene, {0, p_WA, p_WT}, options.mount_depth_m, true, scratch, crossings);
   return crossings;
 }

@@ -54,9 +54,8 @@ struct ImageSet {
 };
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
-/// could see. None if `p_WA` is not finite or further than 1e9 m from the origin along
-/// an axis. Throws Error if `options.order` is not 0 … kMostBounces
-/// or another option is out of range.
+/// could see. None if `p_WA` is not finite or further than 1e9 m from the origin along an axis.
+/// Throws Error if `options.order` is not 0 … kMostBounces or another option is out of range.
 ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
                    const TraceOptions& options);
 

@@ -97,18 +97,100 @@ void compare(const std::string& world) {
   EXPECT_LT(counts[2], 100);
 }
 
+/// By way of one triangle as a mirror, the bounce, or nothing.
+std::optional<Eigen::Vector3d> bounce_on(const TestTriangle& mirror, const Eigen::Vector3d& a,
+                                         const Eigen::Vector3d& t) {
+  const Eigen::Vector3d normal =
+      (mirror.p[1] - mirror.p[0]).cross(mirror.p[2] - mirror.p[0]).normalized();
+  const double of_a = normal.dot(a - mirror.p[0]);
+  if (of_a * normal.dot(t - mirror.p[0]) < 1e-9) return std::nullopt;
+  const Eigen::Vector3d direction = t - (a - 2.0 * of_a * normal);
+  const auto part = moeller_trumbore(t - direction, direction, mirror);
+  if (!part) return std::nullopt;
+  return Eigen::Vector3d(t - direction + *part * direction);
+}
+
+/// Every bounce that all triangles let pass, each once where triangles are flush or share an edge.
+std::vector<Eigen::Vector3d> all_bounces(const std::vector<TestTriangle>& triangles,
+                                         const Eigen::Vector3d& a, const Eigen::Vector3d& t) {
+  std::vector<Eigen::Vector3d> found;
+  for (const TestTriangle& mirror : triangles) {
+    const auto p = bounce_on(mirror, a, t);
+    if (!p || is_blocked(triangles, a, *p, 1e-4) || is_blocked(triangles, *p, t, 1e-4)) continue;
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Eigen::Vector3d& other) {
+      return (other - *p).norm() < 1e-4;
+    });
+    if (!known) found.push_back(*p);
+  }
+  return found;
+}
+
+/// All facets mirror, however small. Bounces agree to the 0.1 mm that facets are flat to.
+void compare_bounces(const std::string& world) {
+  Diagnostics diagnostics;
+  Scene scene = load_world(world, {}, diagnostics);
+  const auto is_not_flat = [](const Collision& one) {
+    return !std::holds_alternative<Box>(one.shape) && !std::holds_alternative<MeshPtr>(one.shape);
+  };
+  scene.collisions.erase(
+      std::remove_if(scene.collisions.begin(), scene.collisions.end(), is_not_flat),
+      scene.collisions.end());
+  RadioSceneOptions all;
+  all.opaque.assign(scene.collisions.size(), 1);
+  all.least_facet_m2 = 0.0;
+  const RadioScene radio(scene, all);
+  const std::vector<TestTriangle> triangles = all_triangles(scene);
+  TraceOptions options;
+  options.order = 1;
+  options.mount_depth_m = 0.0;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> across(-6.0, 6.0);
+  std::uniform_real_distribution<double> up(0.2, 2.5);
+  std::vector<RadioPath> paths;
+  std::size_t count = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d a(across(random), across(random), up(random));
+    const Eigen::Vector3d t(across(random), across(random), up(random));
+    trace_paths(radio, images_of(radio, a, options), t, options, paths);
+    if (!paths.empty() && paths[0].bounce_count == 0) paths.erase(paths.begin());
+    const std::vector<Eigen::Vector3d> expected = all_bounces(triangles, a, t);
+    EXPECT_EQ(paths.size(), expected.size()) << i;
+    for (const Eigen::Vector3d& p : expected) {
+      EXPECT_TRUE(std::any_of(
+          paths.begin(), paths.end(),
+          [&](const RadioPath& path) { return (path.bounces[0].p_W - p).norm() < 1e-3; }))
+          << i << ": " << p.transpose();
+    }
+    count += expected.size();
+  }
+  EXPECT_GT(count, 200U);
+}
+
 TEST(Occlusion, IsThatOfEveryTriangleInTheSmallWarehouse) {
   compare(TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf");
 }
 
-TEST(Occlusion, IsThatOfEveryTriangleInTheAwsWarehouse) {
+TEST(Bounces, AreThoseOfEveryTriangleInTheSmallWarehouse) {
+  compare_bounces(TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf");
+}
+
+/// Where the AWS warehouse should be.
+std::string aws_world() {
   const char* named = std::getenv("TAGFIELD_AWS_WORLD");
-  const std::string world = named != nullptr ? named
-                                             : TAGFIELD_SOURCE_DIR
-                                "/../shared/data/aws-small-warehouse/worlds/"
-                                "no_roof_small_warehouse.world";
-  if (!std::ifstream(world)) GTEST_SKIP() << "no AWS warehouse at " << world;
-  compare(world);
+  return named != nullptr ? named
+                          : TAGFIELD_SOURCE_DIR
+             "/../shared/data/aws-small-warehouse/worlds/"
+             "no_roof_small_warehouse.world";
+}
+
+TEST(Occlusion, IsThatOfEveryTriangleInTheAwsWarehouse) {
+  if (!std::ifstream(aws_world())) GTEST_SKIP() << "no AWS warehouse at " << aws_world();
+  compare(aws_world());
+}
+
+TEST(Bounces, AreThoseOfEveryTriangleInTheAwsWarehouse) {
+  if (!std::ifstream(aws_world())) GTEST_SKIP() << "no AWS warehouse at " << aws_world();
+  compare_bounces(aws_world());
 }
 
 }  // namespace
