@@ -179,12 +179,13 @@ Eigen::Vector3cd field_direction(const AntennaPattern& pattern, const Eigen::Vec
   if (pattern.polarization == PolarizationKind::kLinear) {
     return turned(wire(pattern), u_A).cast<std::complex<double>>();
   }
+  // y, z and the boresight x form a right-handed set, as u, v and k do: a right hand is u − jv, and
+  // so v + ju, which meets upright tags without a phase of its own.
   const std::complex<double> turn(0.0, pattern.polarization == PolarizationKind::kRightCircular
-                                           ? -std::sqrt(0.5)
-                                           : std::sqrt(0.5));
-  // y, z and the boresight x form a right-handed set, as u, v and k do.
-  return std::sqrt(0.5) * turned(Eigen::Vector3d::UnitY(), u_A).cast<std::complex<double>>() +
-         turn * turned(Eigen::Vector3d::UnitZ(), u_A).cast<std::complex<double>>();
+                                           ? std::sqrt(0.5)
+                                           : -std::sqrt(0.5));
+  return std::sqrt(0.5) * turned(Eigen::Vector3d::UnitZ(), u_A).cast<std::complex<double>>() +
+         turn * turned(Eigen::Vector3d::UnitY(), u_A).cast<std::complex<double>>();
 }
 
 }  // namespace tagfield

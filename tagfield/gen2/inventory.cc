@@ -127,6 +127,7 @@ void Inventory::begin_slot() {
   }
   draw_repliers(slots_left_, stream_, waiting_, repliers_);
   --slots_left_;
+  drop_those_read_elsewhere();
   judge_repliers();
   const Time begin = next_ + command;
   slot_.epc = begin + durations_.epc_begins;
@@ -175,6 +176,17 @@ void Inventory::redraw() {
 
 // --- One slot ------------------------------------------------------------------------------------
 
+/// Tags that another reader has read since the Query keep silent.
+void Inventory::drop_those_read_elsewhere() {
+  const auto keeps_silent = [&](std::uint32_t tag) {
+    return memories_.flag(tag, settings_.session, next_) != target_;
+  };
+  const auto silent = std::stable_partition(repliers_.begin(), repliers_.end(),
+                                            [&](std::uint32_t tag) { return !keeps_silent(tag); });
+  spent_.insert(spent_.end(), silent, repliers_.end());
+  repliers_.erase(silent, repliers_.end());
+}
+
 void Inventory::judge_repliers() {
   slot_.outcome = Outcome::kEmpty;
   if (repliers_.empty()) return;
@@ -210,6 +222,10 @@ bool Inventory::is_read() const {
 
 void Inventory::end_slot(std::vector<Singulation>& out) {
   in_slot_ = false;
+  // A tag answers one reader: another's acknowledgement during the slot takes it away from here.
+  const bool was_taken =
+      is_read() && memories_.flag(slot_.tag, settings_.session, slot_.end) != target_;
+  if (was_taken) slot_.outcome = Outcome::kFailed;
   count();
   next_ = slot_.end + durations_.slot_overhead;
   if (is_read()) {

@@ -93,6 +93,7 @@ class Inventory {
   void gather_participants();
   void redraw();
 
+  void drop_those_read_elsewhere();
   void judge_repliers();
   [[nodiscard]] bool is_captured(std::uint32_t strongest) const;
   [[nodiscard]] bool is_decoded(std::uint32_t tag);
