@@ -6,7 +6,6 @@
 #include "tagfield/base/error.h"
 #include "tagfield/propagation/internal/beam.h"
 #include "tagfield/propagation/internal/check_options.h"
-#include "tagfield/propagation/internal/inside.h"
 #include "tagfield/propagation/trace_paths.h"
 
 namespace tagfield {
@@ -29,6 +28,7 @@ class Builder {
       for (; order > 1 && first_ < end; ++first_) mirror(first_);
     }
     set_.beams = beam_blocks(set_.images, beams_, set_.p_WA);
+    set_.around = std::move(inside_);
     return std::move(set_);
   }
 

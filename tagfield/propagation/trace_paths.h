@@ -51,7 +51,13 @@ struct ImageSet {
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< The antenna [m].
   std::vector<Image> images;                       ///< By rising order, each after its parent.
   std::vector<BeamBlock> beams;                    ///< kBeamLanes images each.
+  std::vector<char> around{};                      ///< shells_around() the antenna.
 };
+
+/// The closed solids that a place is in: by shell (RadioScene::shells()) other than 0 where `p_W`
+/// [m] is inside. Seen from two ends in the same solids, paths are the same: those of one end's
+/// images to the other, turned round.
+std::vector<char> shells_around(const RadioScene& scene, const Eigen::Vector3d& p_W);
 
 /// The images of an antenna at `p_WA` [m, world] up to `options.order`, less those that no place
 /// could see. None if `p_WA` is not finite or further than 1e9 m from the origin along an axis.

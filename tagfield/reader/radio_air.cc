@@ -38,6 +38,12 @@ Eigen::Vector3d nowhere() {
   return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Images of some thousand tags in a hall at order 2.
+constexpr std::size_t kMostImageBytes = std::size_t{512} << 20U;
+
+/// So few that their images are made sooner than an antenna's, update for update.
+constexpr std::size_t kFewTags = 64;
+
 bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
 
 }  // namespace
@@ -56,6 +62,8 @@ struct AirAntenna {
   std::optional<Time> updated;  ///< Last,
   RigidTransform X_WA;          ///< when it was here.
   std::vector<Pending> pending;
+  std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
+  std::shared_ptr<const ImageSet> receiver_images;
 
   [[nodiscard]] const RadioModel& model() const { return *parameters.radio; }
   [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
@@ -70,9 +78,24 @@ struct AirAntenna {
 
 namespace {
 
-RadioView view_of(const AirAntenna& antenna, const RadioWorld& world, const RigidTransform& X_WA,
-                  double frequency_hz, std::uint64_t seed) {
-  return view_from(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key, seed);
+RadioView bare_view_of(const AirAntenna& antenna, const RadioWorld& world,
+                       const RigidTransform& X_WA, double frequency_hz, std::uint64_t seed) {
+  return bare_view(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key, seed);
+}
+
+/// `kept` if it is of this place, and is made anew otherwise.
+std::shared_ptr<const ImageSet> images_at(const RigidTransform& X, const RadioView& view,
+                                          std::shared_ptr<const ImageSet>& kept) {
+  if (!kept || kept->p_WA != X.translation) {
+    kept =
+        std::make_shared<const ImageSet>(images_of(view.world.scene, X.translation, view.tracing));
+  }
+  return kept;
+}
+
+void add_images(AirAntenna& antenna, RadioView& view) {
+  view.images = images_at(view.X_WA, view, antenna.images);
+  if (view.model.X_AR) view.receiver_images = images_at(view.X_WR, view, antenna.receiver_images);
 }
 
 /// Whether the antenna sends before its next update.
@@ -89,7 +112,10 @@ bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycl
 }  // namespace
 
 RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world, std::uint64_t seed)
-    : world_(std::move(world)), seed_(seed), memories_(std::make_unique<TagMemories>()) {}
+    : world_(std::move(world)),
+      seed_(seed),
+      memories_(std::make_unique<TagMemories>()),
+      tag_images_(kMostImageBytes) {}
 RadioAir::~RadioAir() = default;
 RadioAir::RadioAir(RadioAir&&) noexcept = default;
 RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
@@ -147,6 +173,7 @@ void RadioAir::forget_tag(std::uint32_t slot) {
                   pending.end());
   }
   memories_->forget(slot);
+  tag_images_.forget(slot);
   for (auto* places : {&places_, &places_before_}) {
     if (slot < places->size()) (*places)[slot] = nowhere();
   }
@@ -191,6 +218,8 @@ void RadioAir::remember_places(Time now, const TagPopulation& tags) {
 RigidTransform RadioAir::tag_pose(std::uint32_t slot, Time stamp, const TagPopulation& tags) const {
   RigidTransform X_WT = tags.pose(slot);
   if (slot >= places_before_.size() || !places_before_[slot].allFinite()) return X_WT;
+  // Not by rounding errors off: whatever is at rest keeps its images.
+  if (places_before_[slot] == X_WT.translation) return X_WT;
   const double share = share_at(stamp, before_, *ran_to_);
   X_WT.translation = (1.0 - share) * places_before_[slot] + share * X_WT.translation;
   return X_WT;
@@ -240,8 +269,10 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   for (const AirAntenna::Pending& read : antenna.pending) {
     const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
-    const RadioView view = view_of(antenna, *world_, X_WA_then, carrier.frequency_hz, seed_);
-    const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot)};
+    RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz, seed_);
+    const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
+    if (images == nullptr) add_images(antenna, view);
+    const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
     replies.push_back(report(antenna.model(), antenna.port, carrier, link_of(view, tag, paths_),
                              tag, velocity - tag_velocity(read.slot), read.stamp));
     replies.back().slot = read.slot;
@@ -250,14 +281,37 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   antenna.pending.clear();
 }
 
+/// The tag's own images, where it is at rest and in the same solids as the antenna: one tag is then
+/// traced without all the antenna's images. Null otherwise.
+const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
+                                     const RigidTransform& X_WT) {
+  const ImageSet* const images =
+      tag_images_.find(world_->scene, slot, X_WT.translation, view.tracing);
+  if (images == nullptr) return nullptr;
+  const auto fits = [&](const RigidTransform& X) {
+    return shells_around(world_->scene, X.translation) == images->around;
+  };
+  return fits(view.X_WA) && (!view.model.X_AR || fits(view.X_WR)) ? images : nullptr;
+}
+
+/// The tag where it is now. Of few tags each has images of its own, which an antenna that moves
+/// would have to make anew for every update; of many the antenna's serve all.
+TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
+                         RadioView& view) {
+  TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
+  if (tags.size() <= kFewTags) tag.images = tag_images(view, slot, tag.X_WT);
+  if (tag.images == nullptr && !view.images) add_images(antenna, view);
+  return tag;
+}
+
 void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                         const TagPopulation& tags, std::vector<TagReply>& replies) {
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-  const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+  RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
   for (const std::uint32_t slot : slots_) {
-    const TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
+    const TagEnd tag = tag_end(antenna, slot, tags, view);
     const RadioLink link = link_of(view, tag, paths_);
     if (!is_heard(link, tag.model, antenna.model())) continue;
     replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
@@ -273,10 +327,10 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
   field_.clear();
   if (has_turn_soon(antenna, cycles_, now)) {
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-    const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+    RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
     for (const std::uint32_t slot : slots_) {
-      const TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
+      const TagEnd tag = tag_end(antenna, slot, tags, view);
       std::optional<TagOnAir> powered = on_air(antenna.model(), link_of(view, tag, paths_), tag);
       if (!powered) continue;
       powered->tag = slot;

@@ -11,6 +11,7 @@
 
 #include "tagfield/gen2/inventory.h"
 #include "tagfield/gen2/tag_memories.h"
+#include "tagfield/reader/image_cache.h"
 #include "tagfield/reader/port_turns.h"
 #include "tagfield/reader/radio_link.h"
 #include "tagfield/reader/tag_population.h"
@@ -61,6 +62,9 @@ class RadioAir {
                     const TagPopulation& tags, std::vector<TagReply>& replies);
   void read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                 const TagPopulation& tags, std::vector<TagReply>& replies);
+  const ImageSet* tag_images(const RadioView& view, std::uint32_t slot, const RigidTransform& X_WT);
+  TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
+                 RadioView& view);
   void refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                      const TagPopulation& tags);
 
@@ -73,6 +77,7 @@ class RadioAir {
   std::optional<Time> ran_to_;                  ///< and the last, as far as inventories have come.
   std::vector<Eigen::Vector3d> places_before_;  ///< Where tags were, by slot; NaN where not known.
   std::vector<Eigen::Vector3d> places_;
+  ImageCache tag_images_;
   std::vector<RadioPath> paths_;  ///< Workspace, like these.
   std::vector<std::uint32_t> slots_;
   std::vector<TagOnAir> field_;

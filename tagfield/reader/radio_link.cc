@@ -66,7 +66,28 @@ void add_diffuse(const RadioView& view, const TagEnd& tag, const Vector3d& p_WA,
 
 bool is_plain(const RadioView& view) { return !view.tracing.occlusion && view.tracing.order == 0; }
 
-Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet& images,
+/// Over the antenna's images, or the other way round over the tag's: gains are reciprocal.
+void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
+               const RadioEnd& antenna, const RadioEnd& at_tag, std::vector<RadioPath>& paths,
+               Gain& gain) {
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  const double k = view.carrier.wave_number;
+  if (tag.images != nullptr) {
+    trace_paths(view.world.scene, *tag.images, antenna.X_WA.translation, view.tracing, paths);
+    for (const RadioPath& path : paths) {
+      gain.add(path_gain(path, at_tag, antenna, view.world, view.carrier, effects), -path.arrival_W,
+               k);
+    }
+    return;
+  }
+  trace_paths(view.world.scene, *images, tag.X_WT.translation, view.tracing, paths);
+  for (const RadioPath& path : paths) {
+    gain.add(path_gain(path, antenna, at_tag, view.world, view.carrier, effects), path.departure_W,
+             k);
+  }
+}
+
+Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
                const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioEnd antenna{view.model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
@@ -79,11 +100,7 @@ Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet
     gain.add(free_space_gain(antenna, at_tag, view.carrier, effects), way / length,
              view.carrier.wave_number);
   } else {
-    trace_paths(view.world.scene, images, tag.X_WT.translation, view.tracing, paths);
-    for (const RadioPath& path : paths) {
-      gain.add(path_gain(path, antenna, at_tag, view.world, view.carrier, effects),
-               path.departure_W, view.carrier.wave_number);
-    }
+    add_paths(view, tag, images, antenna, at_tag, paths, gain);
   }
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db;
   if (is_diffuse) add_diffuse(view, tag, X_WA.translation, gain);
@@ -98,26 +115,33 @@ Vector3d slope_of(const Gain& gain) {
 
 }  // namespace
 
-RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+RadioView bare_view(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
                     double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed) {
   TraceOptions tracing;
   tracing.occlusion = model.effects.occlusion;
   tracing.order = model.effects.reflections ? model.reflection_order : 0;
-  RadioView view{model,       world, carrier_in(world, frequency_hz), tracing, X_WA, X_WA, {}, {},
-                 diffuse_key, seed};
-  view.images = images_of(world.scene, X_WA.translation, tracing);
-  if (model.X_AR) {
-    view.X_WR = X_WA * *model.X_AR;
-    view.receiver_images = images_of(world.scene, view.X_WR.translation, tracing);
-  }
+  const RigidTransform X_WR = model.X_AR ? X_WA * *model.X_AR : X_WA;
+  return {
+      model,       world, carrier_in(world, frequency_hz), tracing, X_WA, X_WR, nullptr, nullptr,
+      diffuse_key, seed};
+}
+
+RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+                    double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed) {
+  RadioView view = bare_view(model, world, X_WA, frequency_hz, diffuse_key, seed);
+  const auto images_at = [&](const RigidTransform& X) {
+    return std::make_shared<const ImageSet>(images_of(world.scene, X.translation, view.tracing));
+  };
+  view.images = images_at(view.X_WA);
+  if (model.X_AR) view.receiver_images = images_at(view.X_WR);
   return view;
 }
 
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioModel& model = view.model;
-  const Gain forward = gain_from(view, view.X_WA, view.images, tag, paths);
+  const Gain forward = gain_from(view, view.X_WA, view.images.get(), tag, paths);
   const Gain backward =
-      model.X_AR ? gain_from(view, view.X_WR, view.receiver_images, tag, paths) : forward;
+      model.X_AR ? gain_from(view, view.X_WR, view.receiver_images.get(), tag, paths) : forward;
   RadioLink link;
   link.forward = forward.h;
   link.backward = backward.h;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "tagfield/base/time.h"
@@ -19,14 +20,20 @@ struct RadioView {
   Carrier carrier;
   TraceOptions tracing;
   RigidTransform X_WA;
-  RigidTransform X_WR;            ///< Receiving antenna; X_WA where it is one and the same.
-  ImageSet images;                ///< Of the antenna,
-  ImageSet receiver_images;       ///< and of the receiving one where it is another.
+  RigidTransform X_WR;  ///< Receiving antenna; X_WA where it is one and the same.
+  /// Of the antenna, and of the receiving one where it is another; null where each TagEnd brings
+  /// its own.
+  std::shared_ptr<const ImageSet> images{};
+  std::shared_ptr<const ImageSet> receiver_images{};
   std::uint64_t diffuse_key = 0;  ///< Tells this antenna's diffuse waves from another's.
   std::uint64_t seed = 0;
 };
 
-/// The view of an antenna at `X_WA` on a carrier.
+/// The view of an antenna at `X_WA` on a carrier, without images.
+RadioView bare_view(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+                    double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed);
+
+/// Likewise with the antenna's images.
 RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
                     double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed);
 
@@ -35,6 +42,9 @@ struct TagEnd {
   const TagModel& model;
   RigidTransform X_WT;
   std::uint64_t key = 0;  ///< stream_key() of its ID.
+  /// The tag's images, to be used instead of the antenna's where they are known: the two ends must
+  /// then be in the same solids (shells_around()).
+  const ImageSet* images = nullptr;
 };
 
 /// A link's powers.

@@ -1,7 +1,7 @@
-#include "tagfield/propagation/internal/inside.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "tagfield/propagation/trace_paths.h"
 
 namespace tagfield {
 namespace {
