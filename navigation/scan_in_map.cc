@@ -85,7 +85,7 @@ double ScanInMap::clear_towards(const Eigen::Vector2d& p_M, double half_width_ra
 
 ScanInMap scan_in_map(const LaserScan& scan, const RigidTransform& X_RL, const PlanarPose& pose_M,
                       const BodyVelocity& velocity) {
-  const PlanarPose q_RL{X_RL.translation.x(), X_RL.translation.y(), yaw_of(X_RL.rotation)};
+  const PlanarPose q_RL = planar(X_RL);
   ScanInMap seen;
   seen.stamp = scan.stamp;
   seen.q_ML = compose(pose_M, q_RL);

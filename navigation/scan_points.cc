@@ -8,7 +8,7 @@
 namespace tagfield {
 
 ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double most_clear_m) {
-  const PlanarPose q_RL{X_RL.translation.x(), X_RL.translation.y(), yaw_of(X_RL.rotation)};
+  const PlanarPose q_RL = planar(X_RL);
   ScanPoints points;
   points.sensor_R = position_of(q_RL);
   if (!std::isfinite(scan.first_angle_rad) || !std::isfinite(scan.angle_step_rad)) return points;

@@ -1,11 +1,9 @@
 #include "simulator/experiment.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include "simulator/navigation_summary.h"
 #include "tagfield/base/parallel.h"
@@ -14,23 +12,6 @@
 
 namespace tagfield {
 namespace {
-
-bool stopped(const RunControl& control) { return control.stop != nullptr && *control.stop; }
-
-/// Sleeps until the wall clock is as far as the simulation at its pace.
-class Pace {
- public:
-  explicit Pace(double real_time) : real_time_(real_time) {}
-  void wait_for(Time simulated) const {
-    if (!(real_time_ > 0.0)) return;
-    const std::chrono::duration<double> due(to_seconds(simulated) / real_time_);
-    std::this_thread::sleep_until(begin_ + due);
-  }
-
- private:
-  double real_time_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 TagEstimate never_read(const std::string& tag) {
   TagEstimate estimate;
@@ -113,148 +94,15 @@ void finish(const Simulation& simulation, SeedRun& run) {
   run.path_length_m = simulation.travelled_m();
 }
 
-/// Of the whole of a run by laser, mapping has this share on the progress bar.
-constexpr double kMappingShare = 0.7;
-/// A guess, for the bar: a hall takes some minutes to map.
-constexpr double kUsualMapping_s = 240.0;
-
-/// The map to drive by, and where the robot stands on it.
-SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
-                     const NavigationWorld& world, NavigationRun& navigation) {
-  const RobotSpec& robot = mapping_robot(scenario);
-  if (world.given_map) {
-    navigation.map = *world.given_map;
-    return {&world, &navigation.map, robot.start, placed_at(robot.start)};
-  }
-  const auto on_progress = [&](double simulated_s) {
-    if (!control.on_progress) return;
-    control.on_progress(kMappingShare * std::min(simulated_s / kUsualMapping_s, 1.0));
-  };
-  navigation.survey = survey(scenario.navigation, world, robot, scenario.time_step_s, seed,
-                             control.threads, control.stop, on_progress);
-  navigation.map = navigation.survey->map;
-  return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
-}
-
-/// Counts how often the robots come to touch anything, and how near they come.
-class TouchWatch {
- public:
-  TouchWatch(const NavigationWorld& world, NavigationRun& navigation)
-      : world_(world), navigation_(navigation) {
-    navigation_.closest_m = RobotClearance::kMost;
-  }
-
-  void look(const std::string& robot, const PlanarPose& pose_W, Time now) {
-    const double distance =
-        world_.clearance.distance(pose_W, obstacles_at(world_.laser.obstacles, now));
-    navigation_.closest_m = std::min(navigation_.closest_m, distance);
-    const bool touches = distance <= 0.0;
-    bool& touched = touches_[robot];
-    if (touches && !touched) ++navigation_.collisions;
-    touched = touches;
-  }
-
- private:
-  const NavigationWorld& world_;
-  NavigationRun& navigation_;
-  std::map<std::string, bool> touches_;
-};
-
-PlanarPose planar(const RigidTransform& X) {
-  return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
-}
-
-/// Watches at 10 Hz how well the robots know their poses.
-class BeliefWatch {
- public:
-  BeliefWatch(const Scenario& scenario, NavigationRun& navigation)
-      : is_told_(scenario.navigation.start == StartBelief::kKnown), navigation_(navigation) {}
-
-  void look(const Robot& robot, Time now) {
-    const auto [entry, is_new] = places_.try_emplace(robot.name());
-    Place& place = entry->second;
-    if (is_new && !is_told_) place.watch.put(PlaceLoss::kStart);
-    if (robot.times_carried() > place.times_carried) place.watch.put(PlaceLoss::kCarried);
-    place.times_carried = robot.times_carried();
-    const PlanarPose truth = planar(robot.true_pose(0.0));
-    const PlanarPose belief = planar(robot.believed_pose(0.0));
-    const double off_m = (position_of(truth) - position_of(belief)).norm();
-    const double off_rad = std::abs(wrap_to_pi(belief.yaw - truth.yaw));
-    const bool knows_place = robot.self_driver()->knows_place();
-    place.watch.look({now, robot.travelled_m(), knows_place, off_m, off_rad});
-    if (!knows_place) return;
-    navigation_.position_errors_m.push_back(off_m);
-    navigation_.yaw_errors_rad.push_back(off_rad);
-  }
-
-  [[nodiscard]] std::vector<Finding> findings() const {
-    std::vector<Finding> all;
-    for (const auto& [name, place] : places_) {
-      const std::vector<Finding>& of_one = place.watch.findings();
-      all.insert(all.end(), of_one.begin(), of_one.end());
-    }
-    return all;
-  }
-
- private:
-  struct Place {
-    PlaceWatch watch;
-    std::size_t times_carried = 0;
-  };
-  bool is_told_;
-  NavigationRun& navigation_;
-  std::map<std::string, Place> places_;
-};
-
-/// How often beliefs are looked at [s].
-constexpr double kBeliefInterval = 0.1;
-
-/// The drive, once there is a map.
-void drive(const Scenario& scenario, const RunControl& control, const NavigationWorld& world,
-           Simulation& simulation, SeedRun& run) {
-  NavigationRun& navigation = *run.navigation;
-  TouchWatch touches(world, navigation);
-  if (navigation.survey) {
-    for (const StampedPose& pose : navigation.survey->true_path) {
-      touches.look(mapping_robot(scenario).name, planar(pose.X_WB), pose.stamp);
-    }
-  }
-  BeliefWatch beliefs(scenario, navigation);
-  const Pace pace(scenario.real_time);
-  std::optional<Time> believed;
-  while (!simulation.finished() && !stopped(control)) {
-    const Time begin = simulation.now();
-    simulation.step(run.recording);
-    const bool is_due = !believed || to_seconds(begin - *believed) >= kBeliefInterval;
-    if (is_due) believed = begin;
-    for (const Robot& robot : simulation.robots()) {
-      if (robot.self_driver() == nullptr) continue;
-      touches.look(robot.name(), planar(robot.true_pose(0.0)), begin);
-      if (is_due) beliefs.look(robot, begin);
-    }
-    if (control.on_progress) {
-      control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
-    }
-    pace.wait_for(simulation.now());
-  }
-  navigation.findings = beliefs.findings();
-}
-
-SeedRun simulate_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
-                            const NavigationWorld& world) {
+SeedRun navigated(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                  const NavigationWorld& world) {
   SeedRun run;
   run.seed = seed;
-  NavigationRun& navigation = run.navigation.emplace();
-  const SelfDriving driving = find_map(scenario, seed, control, world, navigation);
-  Simulation simulation(scenario, driving, seed);
-  drive(scenario, control, world, simulation, run);
-  for (const Robot& robot : simulation.robots()) {
-    if (robot.self_driver() == nullptr) continue;
-    const std::vector<GoalOutcome>& goals = robot.self_driver()->outcomes();
-    navigation.goals.insert(navigation.goals.end(), goals.begin(), goals.end());
-    navigation.times_lost += robot.self_driver()->localizer().times_lost();
-  }
-  finish(simulation, run);
+  NavigatedRun made = run_navigation(scenario, seed, control, world, run.recording);
+  run.complete = made.complete;
+  run.simulated_s = made.simulated_s;
+  run.path_length_m = made.path_length_m;
+  run.navigation = std::move(made.navigation);
   return run;
 }
 
@@ -295,7 +143,7 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
                  const NavigationWorld* world) {
   if (scenario.pose.source == PoseSource::kSlam) {
     if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
-    return simulate_navigation(scenario, seed, control, *world);
+    return navigated(scenario, seed, control, *world);
   }
   SeedRun run;
   run.seed = seed;

@@ -2,42 +2,19 @@
 /// A whole experiment: simulate, localize, compare with the truth.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "simulator/navigation_run.h"
 #include "simulator/navigation_world.h"
-#include "simulator/place_watch.h"
+#include "simulator/run_control.h"
 #include "simulator/scenario.h"
-#include "simulator/self_driver.h"
 #include "simulator/simulation.h"
-#include "simulator/survey.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/report/summary.h"
 
 namespace tagfield {
-
-/// How to run, as opposed to what.
-struct RunControl {
-  int threads = 1;
-  const std::atomic<bool>* stop = nullptr;        ///< Set by others to end early.
-  std::function<void(double share)> on_progress;  ///< Called now and then with 0 … 1, or empty.
-};
-
-/// How robots found their way in one run.
-struct NavigationRun {
-  std::optional<Survey> survey;  ///< None where the map was given.
-  OccupancyGrid map;             ///< Driven by.
-  std::vector<GoalOutcome> goals;
-  std::vector<double> position_errors_m;  ///< Of the belief at 10 Hz,
-  std::vector<double> yaw_errors_rad;     ///< absolute.
-  double closest_m = 0.0;         ///< Least distance between a robot's outline and anything,
-  int collisions = 0;             ///< and how often it came to touch; both while mapping, too.
-  std::vector<Finding> findings;  ///< Of all robots.
-  int times_lost = 0;
-};
 
 /// One seed's run.
 struct SeedRun {

@@ -9,6 +9,7 @@
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "simulator/effect_breakdown.h"
 #include "simulator/experiment.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
@@ -30,6 +31,7 @@ struct RunArguments {
   std::vector<std::string> settings;
   int threads = default_threads();
   bool no_page = false;
+  bool breakdown = false;
 };
 
 /// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
@@ -92,6 +94,25 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scen
                    diagnostics, world);
 }
 
+/// Empty where it is not asked for.
+std::vector<EffectCost> breakdown_with_progress(const RunArguments& arguments,
+                                                const Scenario& scenario,
+                                                const NavigationWorld* world,
+                                                Diagnostics& diagnostics) {
+  if (!arguments.breakdown || interrupted()) return {};
+  ProgressBar bar("effects");
+  RunControl control;
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  control.on_progress = [&bar](double share) { bar.show(share); };
+  // What it warns of, the run has warned of already.
+  Diagnostics unheard;
+  std::vector<EffectCost> costs = break_down(scenario, arguments.seed.value_or(scenario.seed),
+                                             arguments.seeds, control, unheard, world);
+  if (costs.empty()) diagnostics.warn("--breakdown: no antenna has a physical model");
+  return costs;
+}
+
 void print_result(const Summary& summary, const std::string& out, bool page) {
   fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
@@ -124,7 +145,10 @@ int run(const RunArguments& arguments) {
   const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, ways, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 
+  const std::vector<EffectCost> effects =
+      breakdown_with_progress(arguments, scenario, ways, diagnostics);
   Summary summary = summarize(scenario, runs, wall_s, diagnostics, ways);
+  summary.effects = effects;
   summary.complete = summary.complete && runs.size() == arguments.seeds;
   print_warnings(diagnostics);
   stage_run(loaded, runs.front(), folder);
@@ -157,6 +181,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");
+  command->add_flag("--breakdown", arguments->breakdown,
+                    "Run again with each effect of the physical models alone and with all but it, "
+                    "and say what each costs");
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
       "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");

@@ -147,6 +147,36 @@ std::string navigation_lines(const Summary& summary) {
          finding_line("carried away", navigation.carried) + finding_line("lost", navigation.lost);
 }
 
+std::string effect_line(const std::string& name, const EffectCost& cost) {
+  const std::string error = cost.error_m
+                                ? fmt::format("{:8.1f} {:8.1f}", millimetres(cost.error_m->mean),
+                                              millimetres(cost.error_m->max))
+                                : fmt::format("{:>8} {:>8}", "-", "-");
+  return fmt::format("  {:<46} {:>4} of {:<4} {} {:>8}\n", name, cost.located, cost.tags, error,
+                     cost.reads);
+}
+
+std::string effect_name(const EffectCost& cost) {
+  switch (cost.set) {
+    case EffectSet::kNone:
+      return "none";
+    case EffectSet::kAlone:
+      return cost.effect + " alone";
+    case EffectSet::kAllButThis:
+      return "all but " + cost.effect;
+    case EffectSet::kAll:
+      return "all";
+  }
+  return "";
+}
+
+std::string effect_lines(const Summary& summary) {
+  if (summary.effects.empty()) return "";
+  std::string text = fmt::format("effects: {:<38} located    mean [mm] max [mm]  reads\n", "");
+  for (const EffectCost& cost : summary.effects) text += effect_line(effect_name(cost), cost);
+  return text;
+}
+
 }  // namespace
 
 std::string table_of(const Summary& summary) {
@@ -156,7 +186,7 @@ std::string table_of(const Summary& summary) {
       fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
                   count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
   return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary) +
-         navigation_lines(summary);
+         navigation_lines(summary) + effect_lines(summary);
 }
 
 }  // namespace tagfield

@@ -7,6 +7,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/motion/unicycle.h"
+#include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {
 
@@ -35,6 +36,11 @@ inline Eigen::Vector2d transformed(const PlanarPose& q_AB, const Eigen::Vector2d
 
 inline bool is_finite(const PlanarPose& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
+/// What of a pose in space lies in the floor plane: seen from above, its place and heading.
+inline PlanarPose planar(const RigidTransform& X_AB) {
+  return {X_AB.translation.x(), X_AB.translation.y(), yaw_of(X_AB.rotation)};
 }
 
 /// The pose's place on the floor.

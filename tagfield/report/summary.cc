@@ -72,6 +72,11 @@ std::optional<ErrorStatistics> error_statistics(const Summary& summary) {
   return statistics(errors_of(summary));
 }
 
+std::string to_string(EffectSet set) {
+  constexpr const char* kWords[] = {"none", "alone", "all_but_this", "all"};
+  return kWords[static_cast<std::size_t>(set)];
+}
+
 std::size_t count(const Summary& summary, Verdict verdict) {
   const auto matches = [&](const TagOutcome& tag) { return tag.estimate.verdict == verdict; };
   return static_cast<std::size_t>(std::count_if(summary.tags.begin(), summary.tags.end(), matches));

@@ -103,6 +103,19 @@ struct NavigationSummary {
   std::optional<FindingSummary> lost;  ///< By themselves.
 };
 
+/// Which effects of the physical models were on.
+enum class EffectSet { kNone, kAlone, kAllButThis, kAll };
+
+/// What came of the experiment with a choice of effects.
+struct EffectCost {
+  std::string effect;  ///< For people; "" for none and all.
+  EffectSet set = EffectSet::kNone;
+  std::size_t tags = 0;  ///< Over all seeds, as all below.
+  std::size_t located = 0;
+  std::size_t reads = 0;
+  std::optional<ErrorStatistics> error_m;  ///< Of the located ones.
+};
+
 /// Everything that a page needs besides the files in the run's folder.
 struct Summary {
   std::string scenario;              ///< Name.
@@ -120,9 +133,13 @@ struct Summary {
   std::optional<PoseErrorSummary> pose_error;
   std::optional<ComparedPose> compared_pose;
   std::optional<NavigationSummary> navigation;
-  std::vector<TagOutcome> tags;  ///< By seed, then by ID.
+  std::vector<EffectCost> effects;  ///< Empty where they were not told apart.
+  std::vector<TagOutcome> tags;     ///< By seed, then by ID.
   std::vector<std::string> warnings;
 };
+
+/// "none", "alone", "all_but_this", "all".
+std::string to_string(EffectSet set);
 
 /// How many reads there are of each tag.
 std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& reads);

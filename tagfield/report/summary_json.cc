@@ -119,6 +119,19 @@ Json tag_json(const TagOutcome& outcome) {
   return json;
 }
 
+Json effects_json(const std::vector<EffectCost>& effects) {
+  Json rows = Json::array();
+  for (const EffectCost& cost : effects) {
+    rows.push_back({{"effect", cost.effect},
+                    {"set", to_string(cost.set)},
+                    {"tags", cost.tags},
+                    {"located", cost.located},
+                    {"reads", cost.reads},
+                    {"error_m", statistics_json(cost.error_m)}});
+  }
+  return rows;
+}
+
 void put_run(Json& json, const Summary& summary) {
   json["scenario"] = summary.scenario;
   json["description"] = summary.description;
@@ -134,6 +147,7 @@ void put_run(Json& json, const Summary& summary) {
   json["pose_error"] = pose_error_json(summary.pose_error);
   json["compared_pose"] = compared_pose_json(summary.compared_pose);
   json["navigation"] = navigation_json(summary.navigation);
+  json["effects"] = effects_json(summary.effects);
 }
 
 /// A figure of the run; null, that is unknown, reads as 0.
@@ -223,6 +237,27 @@ std::optional<NavigationSummary> navigation_at(const JsonPlace& top) {
   return result;
 }
 
+EffectSet effect_set_at(const JsonPlace& place) {
+  const std::string word = text_at(place);
+  for (const EffectSet set :
+       {EffectSet::kNone, EffectSet::kAlone, EffectSet::kAllButThis, EffectSet::kAll}) {
+    if (word == to_string(set)) return set;
+  }
+  fail_at(place, "is '" + word + "', expected none, alone, all_but_this or all");
+}
+
+/// As compared_pose_at().
+std::vector<EffectCost> effects_at(const JsonPlace& top) {
+  std::vector<EffectCost> effects;
+  if (!top.value->contains("effects")) return effects;
+  for (const JsonPlace& row : elements(member(top, "effects"))) {
+    effects.push_back({text_at(member(row, "effect")), effect_set_at(member(row, "set")),
+                       whole_at(member(row, "tags")), whole_at(member(row, "located")),
+                       whole_at(member(row, "reads")), statistics_at(member(row, "error_m"))});
+  }
+  return effects;
+}
+
 Verdict verdict_at(const JsonPlace& place) {
   const std::string word = text_at(place);
   try {
@@ -283,6 +318,7 @@ void take_run(const JsonPlace& top, Summary& summary) {
   summary.pose_error = pose_error_at(member(top, "pose_error"));
   summary.compared_pose = compared_pose_at(top);
   summary.navigation = navigation_at(top);
+  summary.effects = effects_at(top);
 }
 
 }  // namespace

@@ -17,4 +17,8 @@ std::string tag_table(const Summary& summary);
 /// How robots found their way, with its heading; "" where they did not have to.
 std::string navigation_table(const Summary& summary);
 
+/// Which effect of the physical models costs how much, with its heading; "" where that was not
+/// asked.
+std::string effects_table(const Summary& summary);
+
 }  // namespace tagfield

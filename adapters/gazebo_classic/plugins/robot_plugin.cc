@@ -16,6 +16,7 @@
 #include "adapters/gazebo_classic/skid_steer.h"
 #include "adapters/ros1/robot_publisher.h"
 #include "adapters/ros1/ros_link.h"
+#include "tagfield/motion/planar_pose.h"
 #include "tagfield/motion/robot_parameters.h"
 
 namespace tagfield {
@@ -24,10 +25,6 @@ namespace {
 constexpr const char* kFile = "libTagfieldRobotPlugin.so";
 
 Eigen::Vector3d eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-PlanarPose planar(const RigidTransform& X) {
-  return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
-}
 
 RobotNames names_of(const RobotParameters& parameters) {
   return {parameters.name_space,  parameters.base_link,         parameters.odom_frame,

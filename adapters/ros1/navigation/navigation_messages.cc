@@ -64,7 +64,7 @@ void check_size(const nav_msgs::OccupancyGrid& message) {
 }  // namespace
 
 PlanarPose to_planar(const RigidTransform& X) {
-  return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
+  return planar(X);
 }
 
 Time time_of(const ros::Time& stamp) {
