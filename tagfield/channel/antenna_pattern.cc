@@ -114,19 +114,21 @@ double mean_gain(const AntennaPattern& pattern) {
   return sum / kIntegrationSteps;
 }
 
-/// Of a vector across the boresight: what the rotation that takes the boresight to `u_A` makes of
-/// it.
-Eigen::Vector3d turned(const Eigen::Vector3d& across, const Eigen::Vector3d& u_A) {
-  const double denominator = 1.0 + u_A.x();
-  // Straight back every turn is as good as another.
-  if (denominator < 1e-12) return across;
-  return across - across.dot(u_A) / denominator * (Eigen::Vector3d::UnitX() + u_A);
-}
-
+/// What of `axis` lies across the way, of length 1; any such direction straight along the axis.
 Eigen::Vector3d along_wire(const Eigen::Vector3d& axis, const Eigen::Vector3d& u_A) {
   const Eigen::Vector3d across = axis - axis.dot(u_A) * u_A;
   const double length = across.norm();
   return length > 1e-9 ? Eigen::Vector3d(across / length) : Eigen::Vector3d(u_A.unitOrthogonal());
+}
+
+/// Of two wires across one another, fed a quarter of a turn apart: circular along the boresight,
+/// ever more elliptic off it, linear at its side and of the other hand behind.
+Eigen::Vector3cd of_crossed_wires(double hand, const Eigen::Vector3d& u_A) {
+  using Complex = std::complex<double>;
+  const Eigen::Vector3cd axis(Complex(0.0), Complex(0.0, hand), Complex(1.0));
+  const Complex along = u_A.y() * axis.y() + u_A.z() * axis.z();
+  const Eigen::Vector3cd across = axis - along * u_A;
+  return across / across.norm();
 }
 
 }  // namespace
@@ -174,18 +176,14 @@ double gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
 }
 
 Eigen::Vector3cd field_direction(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
-  if (pattern.shape == PatternShape::kDipole)
+  const bool is_dipole = pattern.shape == PatternShape::kDipole;
+  if (is_dipole || pattern.polarization == PolarizationKind::kLinear) {
     return along_wire(wire(pattern), u_A).cast<std::complex<double>>();
-  if (pattern.polarization == PolarizationKind::kLinear) {
-    return turned(wire(pattern), u_A).cast<std::complex<double>>();
   }
   // y, z and the boresight x form a right-handed set, as u, v and k do: a right hand is u − jv, and
   // so v + ju, which meets upright tags without a phase of its own.
-  const std::complex<double> turn(0.0, pattern.polarization == PolarizationKind::kRightCircular
-                                           ? std::sqrt(0.5)
-                                           : -std::sqrt(0.5));
-  return std::sqrt(0.5) * turned(Eigen::Vector3d::UnitZ(), u_A).cast<std::complex<double>>() +
-         turn * turned(Eigen::Vector3d::UnitY(), u_A).cast<std::complex<double>>();
+  return of_crossed_wires(pattern.polarization == PolarizationKind::kRightCircular ? 1.0 : -1.0,
+                          u_A);
 }
 
 }  // namespace tagfield

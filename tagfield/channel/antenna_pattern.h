@@ -57,8 +57,8 @@ double gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A);
 double peak_gain(const AntennaPattern& pattern);
 
 /// Unit vector in A of the electric field that goes out along the unit vector `u_A`, across it:
-/// complex where circular. By Ludwig's third definition (IEEE Trans. AP-21, 1973), and along the
-/// wire for a dipole. As receiver the antenna takes in E·e, not conjugated, of what comes from
+/// complex where circular. It is that of a wire, or of two crossed wires where circular, whatever
+/// the shape of the gain. As receiver the antenna takes in E·e, not conjugated, of what comes from
 /// there.
 Eigen::Vector3cd field_direction(const AntennaPattern& pattern, const Eigen::Vector3d& u_A);
 

@@ -63,9 +63,7 @@ void check_size(const nav_msgs::OccupancyGrid& message) {
 
 }  // namespace
 
-PlanarPose to_planar(const RigidTransform& X) {
-  return planar(X);
-}
+PlanarPose to_planar(const RigidTransform& X) { return planar(X); }
 
 Time time_of(const ros::Time& stamp) {
   return Time{} + std::chrono::seconds(stamp.sec) + std::chrono::nanoseconds(stamp.nsec);

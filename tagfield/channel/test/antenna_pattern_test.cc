@@ -132,6 +132,17 @@ TEST(Polarization, SameHandsFitAndOtherHandsDoNot) {
   EXPECT_NEAR(std::norm(face_to_face(right, left, 0.7)), 0.0, 1e-12);
 }
 
+TEST(Polarization, OfCrossedWiresIsLinearAtTheSideAndOfTheOtherHandBehind) {
+  AntennaPattern right;
+  right.polarization = PolarizationKind::kRightCircular;
+  const Eigen::Vector3cd side = field_direction(right, Vector3d::UnitY());
+  EXPECT_NEAR(std::abs(side.z()), 1.0, 1e-12);
+  // Behind, seen along the way, the same wires turn the other way round.
+  const Eigen::Vector3cd front = field_direction(right, Vector3d::UnitX());
+  const Eigen::Vector3cd back = field_direction(right, -Vector3d::UnitX());
+  EXPECT_NEAR((front - back).norm(), 0.0, 1e-12);
+}
+
 TEST(Polarization, RightHandTurnsClockwiseForWhomItLeaves) {
   // IEEE 145: seen along the direction of travel the field turns clockwise as time goes on. Along
   // x, with y to the left and z up, clockwise is from z (up) to −y (right).
