@@ -126,7 +126,8 @@ Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples
 }
 
 CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m, std::size_t most_cells) {
-  const Eigen::Vector2d counts = (region.sizes() / step_m).array().ceil().max(1.0);
+  // A region that is a whole number of steps wide but for rounding has no cell more.
+  const Eigen::Vector2d counts = (region.sizes().array() / step_m - 1e-9).ceil().max(1.0);
   if (!(counts.x() * counts.y() <= static_cast<double>(most_cells))) {
     throw Error(
         fmt::format("a grid of {:g} by {:g} cells is more than {}: expected a greater "

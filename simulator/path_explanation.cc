@@ -11,6 +11,27 @@ namespace {
 /// Weaker paths bring nothing: a pattern's null, or a wall that lets nothing through [dB].
 constexpr double kNothing_db = -300.0;
 
+std::vector<std::string> parts_of(const std::string& scoped) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = scoped.find("::"); end != std::string::npos;
+       end = scoped.find("::", begin)) {
+    parts.push_back(scoped.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  parts.push_back(scoped.substr(begin));
+  return parts;
+}
+
+/// Names that say nothing, with or without a number behind them.
+bool is_generic(const std::string& name) {
+  const std::string word = name.substr(0, name.find_last_not_of("0123456789_") + 1);
+  constexpr const char* kWords[] = {"link",   "base_link", "base", "body",     "box",
+                                    "visual", "collision", "mesh", "geometry", ""};
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](const char* known) { return word == known; });
+}
+
 SurfaceOnPath surface(const RadioWorld& world, std::uint32_t solid, double gain_db) {
   SurfaceOnPath met;
   met.solid = world.solids[solid];
@@ -69,13 +90,12 @@ double strength(const PathExplanation& path) { return path.relative_db.value_or(
 }  // namespace
 
 std::string object_of(const std::string& solid) {
-  std::string name = solid;
-  for (int i = 0; i < 2; ++i) {
-    const std::size_t end = name.rfind("::");
-    if (end == std::string::npos || end == 0) return name;
-    name.resize(end);
-  }
-  return name;
+  const std::vector<std::string> parts = parts_of(solid);
+  if (parts.size() < 3) return solid;
+  const std::string& link = parts[parts.size() - 2];
+  const std::string& collision = parts.back();
+  if (!is_generic(link)) return link;
+  return is_generic(collision) ? parts.front() : collision;
 }
 
 std::vector<RadioPath> paths_of(const RadioView& view, const TagEnd& tag, bool receiver) {

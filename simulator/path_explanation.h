@@ -13,7 +13,7 @@ namespace tagfield {
 
 /// What a path meets.
 struct SurfaceOnPath {
-  std::string object;                             ///< Its model's name.
+  std::string object;                             ///< What people call it: see object_of().
   std::string solid;                              ///< Scoped name of the collision.
   std::string material;                           ///< What it is made of.
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< Of the bounce, or where the path enters [m].
@@ -36,7 +36,9 @@ struct PathExplanation {
   std::vector<SurfaceOnPath> crossings;
 };
 
-/// A model's name of a collision's scoped one: "hall::rack" of "hall::rack::link::shelf".
+/// What people call a solid, of its scoped name: its link, collision or model, whichever first says
+/// more than "link" or "collision": "rack_4" of "racks::rack_4::shelf", "wall" of
+/// "hall::link::wall", "crate" of "crate::link::collision".
 std::string object_of(const std::string& solid);
 
 /// All paths from the view's antenna to `tag` (from its receiving one where `receiver` is set) with

@@ -17,8 +17,8 @@
 namespace tagfield {
 namespace {
 
-/// How many links an unasked-for step may take: some ten seconds.
-constexpr double kMirroredLinks = 250e3;
+/// How many links an unasked-for step may take: some ten or twenty seconds.
+constexpr double kMirroredLinks = 800e3;
 constexpr double kDirectLinks = 1.5e6;
 constexpr double kPaperLinks = 20e6;
 constexpr double kLeastStep = 0.1;

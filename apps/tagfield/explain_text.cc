@@ -32,7 +32,7 @@ std::string row(const std::string& what, const std::string& number, const std::s
   const std::size_t columns =
       what.size() - 2 * static_cast<std::size_t>(std::count(what.begin(), what.end(), '\xe2'));
   const std::string gap(columns < 52 ? 52 - columns : 1, ' ');
-  return "  " + what + gap + right(number, 8) + " " + unit + "\n";
+  return "  " + what + gap + right(number, 8) + (number == "nothing" ? "" : " " + unit) + "\n";
 }
 
 std::string budget(const std::string& title, const std::vector<BudgetLine>& lines,

@@ -81,14 +81,12 @@ MapView begin_map(Figure& figure, const Coverage& coverage, double top) {
   return map;
 }
 
-void end_map(Figure& figure, MapView& map, const Coverage& coverage,
-             const std::vector<Silhouette>& top_view) {
+void end_map(Figure& figure, const MapView& map, const std::vector<Silhouette>& top_view) {
   draw_outlines(figure.svg, map, top_view);
   end_clip(figure.svg);
   add_rectangle(figure.svg, {map.axes.x.from, map.axes.y.to},
                 {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to},
                 styled("frame"));
-  draw_antennas(figure.svg, map, coverage);
 }
 
 std::vector<double> powers_of(const CoverageLayer& layer) {
@@ -153,7 +151,8 @@ void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer
     return static_cast<std::int8_t>(band_of(bands, value_of(cell, quantity)));
   });
   draw_cells(figure.svg, map, cells, bands.colors);
-  end_map(figure, map, coverage, top_view);
+  end_map(figure, map, top_view);
+  draw_antennas(figure.svg, map, coverage);
 }
 
 /// Antennas beyond the colours share them.
@@ -182,7 +181,8 @@ void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& la
     return is_read ? static_cast<std::int8_t>(cell.antenna % kMostKinds) : kNotDrawn;
   });
   draw_cells(figure.svg, map, cells, colors);
-  end_map(figure, map, coverage, top_view);
+  end_map(figure, map, top_view);
+  draw_antennas(figure.svg, map, coverage);
 }
 
 void draw_tag(Svg& svg, const Place& place, const TagCoverage& tag, const Coverage& coverage) {
@@ -202,6 +202,15 @@ void draw_tag(Svg& svg, const Place& place, const TagCoverage& tag, const Covera
 bool is_within(const MapView& map, const Eigen::Vector3d& p) {
   return p.x() >= map.axes.x.low && p.x() <= map.axes.x.high && p.y() >= map.axes.y.low &&
          p.y() <= map.axes.y.high;
+}
+
+void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
+  if (coverage.tags.size() > kMostRows) return;
+  for (const TagCoverage& tag : coverage.tags) {
+    if (is_within(map, tag.p_WT)) {
+      draw_label(svg, map, on_map(map, tag.p_WT), shortened(tag.id, 12));
+    }
+  }
 }
 
 }  // namespace
@@ -248,17 +257,16 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
                                {Symbol::kSquare, "cover-wrong", "by others only"},
                                {Symbol::kCross, "cover-never", "never read"}});
   MapView map = begin_map(figure, coverage, top);
-  end_map(figure, map, coverage, top_view);
+  end_map(figure, map, top_view);
   const std::size_t step = thinning(coverage.tags.size(), kMostMarks);
   for (std::size_t i = 0; i < coverage.tags.size(); i += step) {
     const TagCoverage& tag = coverage.tags[i];
     if (!is_within(map, tag.p_WT)) continue;
-    const Place place = on_map(map, tag.p_WT);
-    draw_tag(figure.svg, place, tag, coverage);
-    take_place(map, place, 7.0);
-    if (coverage.tags.size() <= kMostRows)
-      draw_label(figure.svg, map, place, shortened(tag.id, 12));
+    draw_tag(figure.svg, on_map(map, tag.p_WT), tag, coverage);
+    take_place(map, on_map(map, tag.p_WT), 7.0);
   }
+  draw_antennas(figure.svg, map, coverage);
+  draw_tag_names(figure.svg, map, coverage);
   if (step > 1) figure.caption += fmt::format(" One tag in {} is drawn.", step);
   return figure;
 }

@@ -122,6 +122,22 @@ std::string warnings(const Coverage& coverage) {
   return html + "</ul></div>\n";
 }
 
+std::vector<CoverageQuantity> quantities_of(const Coverage& coverage) {
+  std::vector<CoverageQuantity> all = {CoverageQuantity::kProbability, CoverageQuantity::kMargin,
+                                       CoverageQuantity::kPower};
+  if (coverage.antennas.size() > 1) all.push_back(CoverageQuantity::kAntenna);
+  return all;
+}
+
+/// Those from `first` up to before `last`.
+std::string figures_html(const std::vector<Figure>& figures, std::size_t first, std::size_t last) {
+  std::string html = "<div class=\"figures\">\n";
+  for (std::size_t i = first; i < std::min(last, figures.size()); ++i) {
+    html += figure_html(figures[i]);
+  }
+  return html + "</div>\n";
+}
+
 std::string header(const Coverage& coverage) {
   std::string html = "<header>\n<p class=\"kind\">Tagfield coverage</p>\n<h1><bdi>" +
                      escaped(coverage.scenario) + "</bdi></h1>\n";
@@ -137,10 +153,7 @@ std::vector<Figure> coverage_figures(const Coverage& coverage,
                                      const std::vector<Silhouette>& top_view) {
   std::vector<Figure> figures;
   for (const CoverageLayer& layer : coverage.layers) {
-    for (const CoverageQuantity quantity :
-         {CoverageQuantity::kProbability, CoverageQuantity::kMargin, CoverageQuantity::kPower,
-          CoverageQuantity::kAntenna}) {
-      if (quantity == CoverageQuantity::kAntenna && coverage.antennas.size() < 2) continue;
+    for (const CoverageQuantity quantity : quantities_of(coverage)) {
       figures.push_back(coverage_figure(coverage, layer, quantity, top_view));
     }
   }
@@ -150,13 +163,18 @@ std::vector<Figure> coverage_figures(const Coverage& coverage,
 
 std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& figures) {
   std::string maps;
-  for (const Figure& figure : figures) maps += figure_html(figure);
+  std::size_t next = 0;
+  for (const CoverageLayer& layer : coverage.layers) {
+    maps += fmt::format("<h2>{:.2f} m above the floor</h2>\n", layer.height_m + 0.0);
+    maps += figures_html(figures, next, next + quantities_of(coverage).size());
+    next += quantities_of(coverage).size();
+  }
   return page_head(coverage.scenario + " – Tagfield coverage") + "<body>\n" + header(coverage) +
-         "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) +
-         "<h2>Maps</h2>\n<div class=\"figures\">\n" + maps + "</div>\n<h2>Tags</h2>\n" +
+         "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) + maps +
+         "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
          table(coverage) +
-         "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page "
-         "as CSV files, the maps in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
+         "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
+         "maps in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
 }
 
 }  // namespace tagfield
