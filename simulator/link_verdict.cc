@@ -64,7 +64,7 @@ std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplan
 }
 
 std::string margins(const PhysicalLink& link) {
-  const std::string at_tag = signed_db(link.tag_margin_db()) + " at the tag";
+  std::string at_tag = signed_db(link.tag_margin_db()) + " at the tag";
   // What the reader would hear of a tag without power says nothing.
   if (link.tag_margin_db() < 0.0) return at_tag;
   return at_tag + ", " + signed_db(link.reader_margin_db()) + " at the reader";

@@ -60,8 +60,9 @@ std::string receiver(const PhysicalLink& link) {
     text += link.turn ? fmt::format("  Gen2: the antenna's turn begins at {:.3f} s",
                                     to_seconds(*link.turn))
                       : std::string("  Gen2: the antenna has no turn");
-    text += fmt::format("; {:.1f} % of undisturbed replies come through\n",
-                        100.0 * link.decode_probability.value_or(0.0));
+    text += !link.heard() ? "\n"
+                          : fmt::format("; {:.1f} % of undisturbed replies come through\n",
+                                        100.0 * link.decode_probability.value_or(0.0));
   }
   return text;
 }

@@ -73,7 +73,7 @@ void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
 
 /// The ground of all maps, to be drawn on.
 MapView begin_map(Figure& figure, const Coverage& coverage, double top) {
-  const MapView map = make_map(figure.name, extent_of(coverage.grid), {}, top);
+  MapView map = make_map(figure.name, extent_of(coverage.grid), {}, top);
   figure.svg.height = map_bottom(map);
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
   begin_clip(figure.svg, map.id + "-map", {map.axes.x.from, map.axes.y.to},
