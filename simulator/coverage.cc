@@ -47,8 +47,8 @@ class GridRun {
     for (std::size_t i = 0; i < request_.antennas.size(); ++i) {
       const std::size_t antenna = request_.antennas[i];
       for (const std::size_t sample : halving_order(places_of(samples_, antenna))) {
-        if (request_.stop != nullptr && *request_.stop) throw Error("coverage: interrupted");
         add(antenna, static_cast<int>(i), samples_[sample]);
+        throw_if_stopped(request_);
         ++done;
         if (request_.on_progress) {
           request_.on_progress(kGridShare * static_cast<double>(done) / static_cast<double>(all));
@@ -71,6 +71,7 @@ class GridRun {
                std::size_t key) const {
     thread_local std::vector<RadioPath> paths;
     const CoverageGrid& grid = coverage_.grid;
+    if (request_.stop != nullptr && *request_.stop) return;
     for (std::size_t column = 0; column < grid.columns; ++column) {
       CoverageCell& cell = layer.cells[row * grid.columns + column];
       const Eigen::Vector2d middle = grid.middle(column, row);
@@ -104,6 +105,10 @@ CoverageAntenna antenna_of(const Scenario& scenario, const std::vector<DriveSamp
 }
 
 }  // namespace
+
+void throw_if_stopped(const CoverageRequest& request) {
+  if (request.stop != nullptr && *request.stop) throw Error("coverage: interrupted");
+}
 
 Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,
                const CoverageRequest& request) {

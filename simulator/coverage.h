@@ -35,6 +35,9 @@ struct CoverageRequest {
 Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,
                const CoverageRequest& request);
 
+/// Throws Error if the request was stopped.
+void throw_if_stopped(const CoverageRequest& request);
+
 /// A grid of cells of `step_m` that covers `region` [m]. Throws Error if that is over
 /// `most_cells`.
 CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m,

@@ -36,6 +36,7 @@ class TagRun {
     const std::vector<std::size_t> places = places_of(samples_, antenna);
     std::size_t next = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
+      throw_if_stopped(request_);
       const bool is_place = next < places.size() && places[next] == i;
       if (is_place) ++next;
       look_at(i, antenna, static_cast<int>(number), is_place, places.size() > 1, seen);
