@@ -47,12 +47,6 @@ std::optional<Time> end_of(const Scenario& scenario) {
   throw Error("duration_s must be given where no robot has waypoints to drive");
 }
 
-std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario) {
-  if (scenario.radio_world) return scenario.radio_world;
-  Diagnostics nothing_to_say;
-  return std::make_shared<const RadioWorld>(radio_world(Scene{}, {}, nothing_to_say));
-}
-
 /// What a place is drawn for.
 enum class PlaceDraw : std::uint64_t { kStart, kGoal, kCarried };
 
@@ -100,6 +94,12 @@ Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDr
 }
 
 }  // namespace
+
+std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario) {
+  if (scenario.radio_world) return scenario.radio_world;
+  Diagnostics nothing_to_say;
+  return std::make_shared<const RadioWorld>(radio_world(Scene{}, {}, nothing_to_say));
+}
 
 PoseEstimate placed_at(const PlanarPose& pose) {
   return {pose, Eigen::Vector3d(kPlacedSigma_m * kPlacedSigma_m, kPlacedSigma_m * kPlacedSigma_m,
@@ -251,10 +251,19 @@ void Simulation::remove_antenna(const std::string& name) {
                         recorded_fixed_.end());
 }
 
-void Simulation::step(Recording& recording) {
+void Simulation::begin_step() {
   step_begin_ = now_;
   now_ += time_step_;
-  step_robots();
+  for (Robot& robot : robots_) robot.step(step_begin_, to_seconds(time_step_));
+}
+
+void Simulation::skip_step() {
+  begin_step();
+  handle_events(now_ - Duration(1));
+}
+
+void Simulation::step(Recording& recording) {
+  begin_step();
   for (const Update& update : updates_in_step()) {
     handle_events(update.stamp);
     record_new_tags(recording);
@@ -262,10 +271,6 @@ void Simulation::step(Recording& recording) {
     update_antenna(update, recording);
   }
   handle_events(now_ - Duration(1));
-}
-
-void Simulation::step_robots() {
-  for (Robot& robot : robots_) robot.step(step_begin_, to_seconds(time_step_));
 }
 
 std::vector<Time> Simulation::stamps_in_step(const AntennaSpec& antenna) const {
@@ -316,6 +321,13 @@ RigidTransform Simulation::tag_pose(const TagSpec& tag, Time stamp) const {
   return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * X_PT;
 }
 
+RigidTransform Simulation::antenna_pose(const AntennaSpec& antenna, Time stamp) const {
+  if (!antenna.recorded.empty()) return row_at(antenna.recorded, stamp).X_WB;
+  const RigidTransform X_PA = mount_at(antenna, stamp);
+  if (antenna.on.empty()) return X_PA;
+  return robot_named(antenna.on)->true_pose(seconds_into_step(stamp)) * X_PA;
+}
+
 void Simulation::record_new_tags(Recording& recording) {
   for (const std::uint32_t slot : new_slots_) {
     const TagSpec& tag = specs_[slot];
@@ -345,25 +357,17 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
 RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
                                          Recording& recording) {
   const std::string& name = antenna.parameters.name;
-  if (!antenna.recorded.empty()) {
-    const RigidTransform& X_WA = row_at(antenna.recorded, stamp).X_WB;
-    recording.believed_poses.push_back({stamp, name, X_WA});
-    recording.truth.antenna_poses.push_back({stamp, name, X_WA});
-    return X_WA;
-  }
-  RigidTransform X_PA = mount_at(antenna, stamp);
+  const RigidTransform X_WA = antenna_pose(antenna, stamp);
+  RigidTransform believed = X_WA;
   if (is_fixed(antenna)) {
-    if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) == recorded_fixed_.end()) {
-      recorded_fixed_.push_back(name);
-      recording.believed_poses.push_back({stamp, name, X_PA});
-      recording.truth.antenna_poses.push_back({stamp, name, X_PA});
+    if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) != recorded_fixed_.end()) {
+      return X_WA;
     }
-    return X_PA;
+    recorded_fixed_.push_back(name);
+  } else if (antenna.recorded.empty() && !antenna.on.empty()) {
+    const Robot& robot = *robot_named(antenna.on);
+    believed = robot.believed_pose(seconds_into_step(stamp)) * mount_at(antenna, stamp);
   }
-  const Robot* robot = antenna.on.empty() ? nullptr : robot_named(antenna.on);
-  const double seconds = seconds_into_step(stamp);
-  RigidTransform X_WA = robot == nullptr ? X_PA : robot->true_pose(seconds) * X_PA;
-  const RigidTransform believed = robot == nullptr ? X_PA : robot->believed_pose(seconds) * X_PA;
   recording.believed_poses.push_back({stamp, name, believed});
   recording.truth.antenna_poses.push_back({stamp, name, X_WA});
   return X_WA;

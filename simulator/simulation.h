@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,6 +47,8 @@ class Simulation {
   /// Goes on by one time step and appends to `recording` what came of it. Reads are stamped with
   /// the time of their antenna's update, wherever in the step that falls.
   void step(Recording& recording);
+  /// Likewise, but antennas don't update: nothing is read or recorded.
+  void skip_step();
 
   /// Time that the next step begins at.
   [[nodiscard]] Time now() const { return now_; }
@@ -56,6 +59,11 @@ class Simulation {
   /// Way driven by all robots [m].
   [[nodiscard]] double travelled_m() const;
   [[nodiscard]] const std::vector<Robot>& robots() const { return robots_; }
+  /// Where an antenna, or a tag, truly is at `stamp` within the last step, its end included; before
+  /// the first step at 0. It need not have been added, but its robot must be there. A recorded
+  /// antenna is where its last row says.
+  [[nodiscard]] RigidTransform antenna_pose(const AntennaSpec& antenna, Time stamp) const;
+  [[nodiscard]] RigidTransform tag_pose(const TagSpec& tag, Time stamp) const;
 
   /// Adds a tag now (its `appears` does not matter). Throws Error if the ID is present, or its
   /// robot unknown.
@@ -75,7 +83,7 @@ class Simulation {
   };
 
   Simulation(const Scenario& scenario, const SelfDriving* driving, std::uint64_t seed);
-  void step_robots();
+  void begin_step();
   void plan_appearances(const std::vector<TagSpec>& tags);
   [[nodiscard]] std::vector<Time> stamps_in_step(const AntennaSpec& antenna) const;
   [[nodiscard]] std::vector<Update> updates_in_step() const;
@@ -87,7 +95,6 @@ class Simulation {
   RigidTransform place_antenna(const AntennaSpec& antenna, Time stamp, Recording& recording);
   void record_robots(Time stamp, Recording& recording);
   [[nodiscard]] const Robot* robot_named(const std::string& name) const;
-  [[nodiscard]] RigidTransform tag_pose(const TagSpec& tag, Time stamp) const;
   [[nodiscard]] double seconds_into_step(Time stamp) const;
   std::uint32_t place_new(const TagSpec& tag);
   void require_robot(const std::string& name, const Location& location) const;
@@ -110,6 +117,9 @@ class Simulation {
   std::vector<TagReply> replies_;                           ///< Kept to save allocations.
   Time moved_to_ = Time::min();
 };
+
+/// The scenario's world as waves see it; empty space where it has none.
+std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario);
 
 /// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
 PoseEstimate placed_at(const PlanarPose& pose);

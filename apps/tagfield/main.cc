@@ -24,6 +24,8 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_localize_command(app, chosen);
   tagfield::add_report_command(app, chosen);
   tagfield::add_check_command(app, chosen);
+  tagfield::add_explain_command(app, chosen);
+  tagfield::add_coverage_command(app, chosen);
   tagfield::add_gazebo_command(app, chosen);
   try {
     app.parse(argc, argv);
@@ -35,8 +37,8 @@ int parse_and_run(int argc, char** argv) {
   }
   if (!chosen) {
     fmt::print(stderr,
-               "tagfield: no command: expected run, localize, report, check or gazebo"
-               " (see tagfield --help)\n");
+               "tagfield: no command: expected run, localize, report, check, explain, coverage or"
+               " gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

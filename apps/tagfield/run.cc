@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <memory>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
 #include "simulator/effect_breakdown.h"
@@ -33,27 +33,6 @@ struct RunArguments {
   bool no_page = false;
   bool breakdown = false;
 };
-
-/// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
-std::string fault_of_seed(const std::string& word) {
-  std::uint64_t seed = 0;
-  const char* end = word.data() + word.size();
-  const auto [after, error] = std::from_chars(word.data(), end, seed);
-  if (error == std::errc{} && after == end) return "";
-  return fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", word);
-}
-
-/// A scenario's name as a folder's: whatever a shell would stumble over becomes '_'.
-std::string folder_name(const std::string& name) {
-  std::string folder;
-  for (const char character : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(character)) != 0 ||
-                       character == '-' || character == '_' || character == '.';
-    folder += plain ? character : '_';
-  }
-  if (folder.find_first_not_of('.') == std::string::npos) folder += '_';
-  return folder;
-}
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
   std::vector<AntennaPose> poses;

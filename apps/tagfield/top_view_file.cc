@@ -27,10 +27,15 @@ std::pair<double, double> band_of(const Scenario& scenario) {
 
 }  // namespace
 
+std::vector<Silhouette> outlines_of(const ScenarioWithWorld& loaded) {
+  if (loaded.scene.collisions.empty()) return {};
+  const auto [low, high] = band_of(loaded.scenario);
+  return top_view(loaded.scene, low, high);
+}
+
 void stage_top_view(const ScenarioWithWorld& loaded, StagedFolder& folder) {
   if (loaded.scene.collisions.empty()) return;
-  const auto [low, high] = band_of(loaded.scenario);
-  folder.add("top_view.json", top_view_to_json(top_view(loaded.scene, low, high)));
+  folder.add("top_view.json", top_view_to_json(outlines_of(loaded)));
 }
 
 }  // namespace tagfield

@@ -2,13 +2,19 @@
 /// The world from above, as the page shows it.
 #pragma once
 
+#include <vector>
+
 #include "simulator/scenario_yaml.h"
 #include "tagfield/stream/files.h"
+#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 
-/// Adds top_view.json where the scenario has a world: cut from just above the floor to a little
-/// above the highest tag or antenna.
+/// All that stands in the world, cut from just above the floor to a little above the highest tag or
+/// antenna; empty where there is none.
+std::vector<Silhouette> outlines_of(const ScenarioWithWorld& loaded);
+
+/// Adds top_view.json with the same where the scenario has a world.
 void stage_top_view(const ScenarioWithWorld& loaded, StagedFolder& folder);
 
 }  // namespace tagfield

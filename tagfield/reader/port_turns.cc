@@ -71,4 +71,15 @@ std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time)
   return first;
 }
 
+std::size_t reader_number(const std::vector<AntennaParameters>& antennas,
+                          const std::string& reader) {
+  std::vector<std::string> readers;
+  for (const AntennaParameters& antenna : antennas) {
+    if (antenna.reader == reader) break;
+    const bool is_new = std::find(readers.begin(), readers.end(), antenna.reader) == readers.end();
+    if (is_new) readers.push_back(antenna.reader);
+  }
+  return readers.size();
+}
+
 }  // namespace tagfield

@@ -35,4 +35,9 @@ std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna
 /// When the first turn after `time` ends; none where nobody takes turns.
 std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time);
 
+/// Number of a reader among those of `antennas`, in the order in which they come: its turn in
+/// channel_at(). Their count where it is none of them.
+std::size_t reader_number(const std::vector<AntennaParameters>& antennas,
+                          const std::string& reader);
+
 }  // namespace tagfield

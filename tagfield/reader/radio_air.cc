@@ -153,13 +153,9 @@ void RadioAir::remove(const std::string& name) {
 /// Turns of ports, and each reader's number among all.
 void RadioAir::plan_turns() {
   std::vector<AntennaParameters> all;
-  std::vector<std::string> readers;
+  for (const auto& antenna : antennas_) all.push_back(antenna->parameters);
   for (const auto& antenna : antennas_) {
-    all.push_back(antenna->parameters);
-    const std::string& reader = antenna->parameters.reader;
-    const auto found = std::find(readers.begin(), readers.end(), reader);
-    antenna->port.turn = static_cast<std::size_t>(found - readers.begin());
-    if (found == readers.end()) readers.push_back(reader);
+    antenna->port.turn = reader_number(all, antenna->parameters.reader);
   }
   cycles_ = port_cycles(all);
 }

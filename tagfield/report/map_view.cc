@@ -69,6 +69,15 @@ void append_ring(std::string& data, const MapView& map, const Polygon& ring) {
   if (command == 'L') data += 'z';
 }
 
+void draw_silhouettes(Svg& svg, const MapView& map, const std::vector<Silhouette>& geometry,
+                      const char* css_class) {
+  for (const Silhouette& silhouette : geometry) {
+    std::string data;
+    for (const Polygon& ring : silhouette.rings) append_ring(data, map, ring);
+    if (!data.empty()) add_path(svg, data, styled(css_class));
+  }
+}
+
 std::vector<Place> thinned(const MapView& map, const Trajectory& path) {
   std::vector<Place> places;
   for (const StampedPose& pose : path) {
@@ -144,13 +153,13 @@ void draw_map(Svg& svg, const MapView& map, const std::vector<Silhouette>& geome
   const Place corner(map.axes.x.from, map.axes.y.to);
   const Place size(map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to);
   begin_clip(svg, map.id + "-map", corner, size);
-  for (const Silhouette& silhouette : geometry) {
-    std::string data;
-    for (const Polygon& ring : silhouette.rings) append_ring(data, map, ring);
-    if (!data.empty()) add_path(svg, data, styled("wall"));
-  }
+  draw_silhouettes(svg, map, geometry, "wall");
   end_clip(svg);
   add_rectangle(svg, corner, size, styled("frame"));
+}
+
+void draw_outlines(Svg& svg, const MapView& map, const std::vector<Silhouette>& geometry) {
+  draw_silhouettes(svg, map, geometry, "outline");
 }
 
 void draw_path(Svg& svg, const MapView& map, const Trajectory& path, const std::string& css_class) {

@@ -36,6 +36,9 @@ double map_bottom(const MapView& map);
 /// Draws grid, axes and geometry.
 void draw_map(Svg& svg, const MapView& map, const std::vector<Silhouette>& geometry);
 
+/// Draws the geometry's outlines alone, to be seen over what lies under them.
+void draw_outlines(Svg& svg, const MapView& map, const std::vector<Silhouette>& geometry);
+
 /// Draws the way of a body, thinned to what can be seen.
 void draw_path(Svg& svg, const MapView& map, const Trajectory& path, const std::string& css_class);
 /// Small arrows along the way, and a ring with the word "start" at its beginning.

@@ -15,15 +15,6 @@ constexpr const char* kPolicy =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n";
 
-std::string head(const Summary& summary) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
-         std::string(kPolicy) +
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
-         escaped(summary.scenario) + " – Tagfield report</title>\n<style>\n" + page_style() +
-         "</style>\n</head>\n";
-}
-
 std::string figures_html(const std::vector<Figure>& figures) {
   std::string drawn;
   std::string missing;
@@ -34,13 +25,21 @@ std::string figures_html(const std::vector<Figure>& figures) {
 }
 
 std::string page_of(const Summary& summary, const std::vector<Figure>& figures) {
-  return head(summary) + "<body>\n" + page_header(summary) + "<main>\n" + key_numbers(summary) +
-         run_facts(summary) + navigation_table(summary) + effects_table(summary) +
-         "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) +
-         "</main>\n" + page_footer() + "</body>\n</html>\n";
+  return page_head(summary.scenario + " – Tagfield report") + "<body>\n" + page_header(summary) +
+         "<main>\n" + key_numbers(summary) + run_facts(summary) + navigation_table(summary) +
+         effects_table(summary) + "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" +
+         tag_table(summary) + "</main>\n" + page_footer() + "</body>\n</html>\n";
 }
 
 }  // namespace
+
+std::string page_head(const std::string& title) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
+         std::string(kPolicy) +
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
+         escaped(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n";
+}
 
 void write_report(const std::string& run_folder) {
   const RunFiles run = read_run_files(run_folder);

@@ -12,4 +12,8 @@ namespace tagfield {
 /// missing or malformed; then nothing is replaced.
 void write_report(const std::string& run_folder);
 
+/// A page from its first byte up to its body: nothing may be fetched or run. `title` is escaped
+/// here.
+std::string page_head(const std::string& title);
+
 }  // namespace tagfield

@@ -124,6 +124,15 @@ std::string figure_style(const Palette& c) {
       "svg .trace{{fill:none;stroke:{};stroke-width:1.3;stroke-linejoin:round}}\n"
       "svg .peak{{fill:{}}}\n",
       c.map_free, c.map_occupied, c.map_unknown, c.believed, c.truth, c.believed, c.believed);
+  rules += fmt::format(
+      "svg .outline{{fill:none;stroke:{};stroke-width:1;stroke-opacity:0.75}}\n"
+      "svg .drive-rim{{fill:none;stroke:{};stroke-width:4;stroke-opacity:0.7}}\n"
+      "svg .drive{{fill:none;stroke:{};stroke-width:1.7;stroke-linejoin:round}}\n"
+      "svg .antenna{{fill:{};stroke:{};stroke-width:2}}\n"
+      "svg .cover-own{{fill:#2f9e5b}}\nsvg .cover-also{{fill:#d08a00}}\n"
+      "svg .cover-wrong{{fill:#c2419e}}\n"
+      "svg .cover-never{{fill:none;stroke:#e0452f;stroke-width:2.6}}\n",
+      c.ink, c.paper, c.ink, c.ink, c.paper);
   return rules;
 }
 

@@ -550,7 +550,9 @@ def arguments(context):
     run = ["run", path, "--out", stranger(context)]
     localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
     for command, says in (
-            ([], "expected run, localize, report, check or gazebo"), (["ran"], "ran"), (["frobnicate", path], "frobnicate"), (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
+            ([], "expected run, localize, report, check, explain, coverage or gazebo"),
+            (["ran"], "ran"), (["frobnicate", path], "frobnicate"),
+            (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),
             ([*run, "--seeds", "0"], "seeds"), ([*run, "--seeds", "-1"], "seeds"),
             ([*run, "--seeds", "many"], "seeds"), ([*run, "--seeds", "1.5"], "seeds"),

@@ -1,0 +1,253 @@
+#include "apps/tagfield/coverage_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "simulator/profile.h"
+#include "tagfield/base/number.h"
+#include "tagfield/base/spelling.h"
+#include "tagfield/base/units.h"
+#include "tagfield/reader/radio_settings.h"
+#include "tagfield/world/top_view.h"
+
+namespace tagfield {
+namespace {
+
+/// How many links an unasked-for step may take: some ten or twenty seconds.
+constexpr double kMirroredLinks = 800e3;
+constexpr double kDirectLinks = 1.5e6;
+constexpr double kPaperLinks = 20e6;
+constexpr double kLeastStep = 0.1;
+constexpr double kMostStep = 1.0;
+constexpr std::size_t kMostHeights = 3;  ///< That are chosen unasked.
+
+std::vector<double> numbers_in(const std::string& option, const std::string& text,
+                               std::size_t count, const char* expected) {
+  std::string spaced = text;
+  std::replace(spaced.begin(), spaced.end(), ',', ' ');
+  std::istringstream stream(spaced);
+  std::vector<double> numbers;
+  for (std::string word; stream >> word;) {
+    const std::optional<double> number = parse_number(word);
+    if (!number || std::abs(*number) > 1e6) {
+      throw Error(fmt::format("coverage: {} '{}': '{}' is no number up to 1e6, expected {}", option,
+                              text, word, expected));
+    }
+    numbers.push_back(*number);
+  }
+  if (numbers.size() == count) return numbers;
+  throw Error(fmt::format("coverage: {} '{}' has {} numbers, expected {}", option, text,
+                          numbers.size(), expected));
+}
+
+/// The tag's face along each axis, and its wire upright and lying.
+std::vector<Eigen::Quaterniond> all_orientations() {
+  std::vector<Eigen::Quaterniond> all;
+  for (const double roll : {0.0, 0.5 * kPi}) {
+    for (const double yaw : {0.0, 0.5 * kPi, kPi, 1.5 * kPi}) {
+      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, 0.0, yaw}).rotation);
+    }
+    for (const double pitch : {-0.5 * kPi, 0.5 * kPi}) {
+      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, pitch, 0.0}).rotation);
+    }
+  }
+  return all;
+}
+
+void set_orientation(const std::string& text, WordedRequest& worded) {
+  Orientations& orientations = worded.request.orientations;
+  if (text == "any" || text == "worst") {
+    orientations.R_WT = all_orientations();
+    orientations.worst = text == "worst";
+    worded.orientation =
+        fmt::format("{} {} orientations", orientations.worst ? "worst of" : "mean of",
+                    orientations.R_WT.size());
+    return;
+  }
+  const std::vector<double> rpy =
+      numbers_in("--orientation", text, 3, "ROLL,PITCH,YAW [rad], 'any' or 'worst'");
+  orientations.R_WT = {from_xyz_rpy({0, 0, 0}, {rpy[0], rpy[1], rpy[2]}).rotation};
+  worded.orientation = fmt::format("roll {:g}, pitch {:g}, yaw {:g} rad", rpy[0], rpy[1], rpy[2]);
+}
+
+std::vector<std::string> known_settings() {
+  std::vector<std::string> keys;
+  for (const SettingHelp& setting : tag_settings()) keys.push_back(setting.key);
+  return keys;
+}
+
+RawParameter setting_of(const std::string& argument) {
+  const auto [key, value] = [&] {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
+      fail({"--tag " + argument, 0}, "expected key=value");
+    }
+    return std::pair(argument.substr(0, equals), argument.substr(equals + 1));
+  }();
+  if (!is_tag_setting(key)) {
+    fail({"--tag " + argument, 0},
+         fmt::format("no setting of a tag{}", suggestion(key, known_settings())));
+  }
+  return {key, value, {"--tag " + argument, 0}};
+}
+
+void warn_of_kinds(const Scenario& scenario, Diagnostics& diagnostics) {
+  std::set<const TagModel*> kinds;
+  for (const TagSpec& tag : scenario.tags) kinds.insert(tag.model.get());
+  if (kinds.size() < 2) return;
+  diagnostics.warn(
+      fmt::format("the tags are of {} kinds: the maps are of the first one's, '{}' "
+                  "(--tag-profile and --tag choose)",
+                  kinds.size(), scenario.tags.front().id));
+}
+
+void set_tag(const CoverageArguments& arguments, const Scenario& scenario, Diagnostics& diagnostics,
+             WordedRequest& worded) {
+  std::vector<RawParameter> parameters;
+  std::string name = "tag";
+  if (!arguments.tag_profile.empty()) {
+    const Profile profile = read_profile(arguments.tag_profile);
+    if (profile.kind != ProfileKind::kTag) {
+      fail({arguments.tag_profile, 0}, "is not a tag's profile, expected kind: tag");
+    }
+    parameters = profile.parameters;
+    name = profile.name;
+  }
+  for (const std::string& setting : arguments.tag_settings) {
+    parameters.push_back(setting_of(setting));
+    name += " " + setting;
+  }
+  if (parameters.empty()) {
+    warn_of_kinds(scenario, diagnostics);
+    const auto& of_first = scenario.tags.front().model;
+    worded.request.tag = of_first ? of_first : default_tag_model();
+  } else {
+    worded.request.tag = tag_model_from(name, parameters, {"--tag", 0}, diagnostics);
+  }
+  worded.tag_kind = fmt::format("{}, chip {:g} dBm", worded.request.tag->name,
+                                worded.request.tag->sensitivity_dbm);
+}
+
+void set_antennas(const CoverageArguments& arguments, const Scenario& scenario,
+                  WordedRequest& worded) {
+  for (const std::string& name : arguments.antennas) {
+    const AntennaSpec& antenna = antenna_named("coverage", scenario, name);
+    const auto index = static_cast<std::size_t>(&antenna - scenario.antennas.data());
+    auto& chosen = worded.request.antennas;
+    if (std::find(chosen.begin(), chosen.end(), index) == chosen.end()) chosen.push_back(index);
+  }
+  if (!worded.request.antennas.empty()) return;
+  for (std::size_t i = 0; i < scenario.antennas.size(); ++i) worded.request.antennas.push_back(i);
+}
+
+/// Those of the tags to 5 cm, or of the middle one where they are many.
+std::vector<double> usual_heights(const std::vector<DriveSample>& samples) {
+  std::vector<double> all;
+  for (const RigidTransform& X_WT : samples.front().X_WT) {
+    all.push_back(std::round(X_WT.translation.z() / 0.05) * 0.05 + 0.0);
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> heights = all;
+  heights.erase(
+      std::unique(heights.begin(), heights.end(), [](double a, double b) { return b - a < 1e-6; }),
+      heights.end());
+  if (heights.size() <= kMostHeights) return heights;
+  return {all[all.size() / 2]};
+}
+
+void extend(const Collision& collision, Eigen::AlignedBox2d& box) {
+  if (std::holds_alternative<Plane>(collision.shape)) return;
+  Scene alone;
+  alone.collisions = {collision};
+  constexpr double kAll = 1e9;
+  for (const Silhouette& silhouette : top_view(alone, -kAll, kAll)) {
+    for (const Polygon& ring : silhouette.rings) {
+      for (const Eigen::Vector2d& point : ring) box.extend(point);
+    }
+  }
+}
+
+/// The world with all antennas and tags in it; of an empty one some metres around them.
+Eigen::AlignedBox2d usual_region(const Scene& scene, const std::vector<DriveSample>& samples) {
+  Eigen::AlignedBox2d world;
+  for (const Collision& collision : scene.collisions) extend(collision, world);
+  Eigen::AlignedBox2d bodies;
+  for (const DriveSample& sample : samples) {
+    for (const RigidTransform& X : sample.X_WA) bodies.extend(X.translation.head<2>());
+    for (const RigidTransform& X : sample.X_WT) bodies.extend(X.translation.head<2>());
+  }
+  constexpr double kAround = 5.0;
+  constexpr double kRim = 0.5;
+  const double around = world.isEmpty() ? kAround : kRim;
+  const Eigen::Vector2d rim = Eigen::Vector2d::Constant(around);
+  bodies = Eigen::AlignedBox2d(bodies.min() - rim, bodies.max() + rim);
+  return world.isEmpty() ? bodies : bodies.merged(world);
+}
+
+Eigen::AlignedBox2d region_of(const CoverageArguments& arguments, const Scene& scene,
+                              const std::vector<DriveSample>& samples) {
+  if (arguments.region.empty()) return usual_region(scene, samples);
+  const std::vector<double> n =
+      numbers_in("--region", arguments.region, 4, "X_LOW,Y_LOW,X_HIGH,Y_HIGH [m]");
+  if (!(n[0] < n[2] && n[1] < n[3])) {
+    throw Error(
+        fmt::format("coverage: --region '{}' is empty, expected X_LOW < X_HIGH and Y_LOW < "
+                    "Y_HIGH",
+                    arguments.region));
+  }
+  return {Eigen::Vector2d(n[0], n[1]), Eigen::Vector2d(n[2], n[3])};
+}
+
+double affordable_links(const Scenario& scenario, const std::vector<std::size_t>& antennas) {
+  double links = kPaperLinks;
+  for (const std::size_t i : antennas) {
+    const auto& radio = scenario.antennas[i].parameters.radio;
+    if (!radio) continue;
+    const bool mirrors = radio->effects.reflections && radio->reflection_order > 0;
+    links = std::min(links, mirrors ? kMirroredLinks : kDirectLinks);
+  }
+  return links;
+}
+
+/// 0.1 m, or coarser in steps of 5 cm where that would take long.
+double usual_step(const Eigen::AlignedBox2d& region, const Scenario& scenario,
+                  const std::vector<DriveSample>& samples, const CoverageRequest& request) {
+  CoverageRequest one = request;
+  one.grid.rows = one.grid.columns = 1;
+  const double links =
+      links_of(samples, one) * region.volume() / affordable_links(scenario, request.antennas);
+  const double step = std::ceil(std::sqrt(links) / 0.05 - 1e-9) * 0.05;
+  return std::clamp(step, kLeastStep, kMostStep);
+}
+
+}  // namespace
+
+WordedRequest request_of(const CoverageArguments& arguments, const ScenarioWithWorld& loaded,
+                         const std::vector<DriveSample>& samples, Diagnostics& diagnostics) {
+  const Scenario& scenario = loaded.scenario;
+  WordedRequest worded;
+  CoverageRequest& request = worded.request;
+  set_antennas(arguments, scenario, worded);
+  set_tag(arguments, scenario, diagnostics, worded);
+  set_orientation(arguments.orientation, worded);
+  request.heights_m = arguments.heights_m.empty() ? usual_heights(samples) : arguments.heights_m;
+  request.seed = arguments.of_scenario.seed.value_or(scenario.seed);
+  request.threads = arguments.threads;
+  const Eigen::AlignedBox2d region = region_of(arguments, loaded.scene, samples);
+  const double step =
+      arguments.step_m ? *arguments.step_m : usual_step(region, scenario, samples, request);
+  try {
+    request.grid = grid_over(region, step);
+  } catch (const Error& error) {
+    throw Error(fmt::format("coverage: {}", error.what()));
+  }
+  worded.moment = arguments.time_s ? fmt::format("at {:g} s", *arguments.time_s)
+                                   : "over the whole run, the best moment of each cell";
+  return worded;
+}
+
+}  // namespace tagfield

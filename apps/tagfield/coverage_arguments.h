@@ -1,0 +1,41 @@
+/// @file
+/// What is asked of the coverage command, made into a request with defaults that fit the scenario.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "simulator/coverage.h"
+
+namespace tagfield {
+
+struct CoverageArguments {
+  ScenarioArguments of_scenario;
+  std::vector<std::string> antennas;
+  std::string tag_profile;
+  std::vector<std::string> tag_settings;
+  std::string orientation = "0,0,0";
+  std::vector<double> heights_m;
+  std::optional<double> step_m;
+  std::string region;
+  std::optional<double> time_s;
+  std::string out;
+  int threads = default_threads();
+};
+
+/// A request, and how it is said to people.
+struct WordedRequest {
+  CoverageRequest request;
+  std::string tag_kind;
+  std::string orientation;
+  std::string moment;
+};
+
+/// Throws Error "coverage: …" on a value that makes no sense.
+WordedRequest request_of(const CoverageArguments& arguments, const ScenarioWithWorld& loaded,
+                         const std::vector<DriveSample>& samples, Diagnostics& diagnostics);
+
+}  // namespace tagfield

@@ -1,0 +1,229 @@
+#include "apps/tagfield/explain_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "simulator/link_verdict.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostPaths = 12;
+
+std::string place(const Eigen::Vector3d& p) {
+  return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", p.x(), p.y(), p.z());
+}
+
+std::string without_unit(double db) {
+  const std::string text = signed_db(db);
+  return text == "nothing" ? text : text.substr(0, text.size() - 3);
+}
+
+/// The minus sign is three bytes and one column wide.
+std::string right(const std::string& text, std::size_t width) {
+  const bool has_sign = text.find("−") != std::string::npos;
+  const std::size_t columns = text.size() - (has_sign ? 2 : 0);
+  return std::string(width - std::min(width, columns), ' ') + text;
+}
+
+std::string row(const std::string& what, const std::string& number, const std::string& unit) {
+  const std::size_t columns =
+      what.size() - 2 * static_cast<std::size_t>(std::count(what.begin(), what.end(), '\xe2'));
+  const std::string gap(columns < 52 ? 52 - columns : 1, ' ');
+  return "  " + what + gap + right(number, 8) + (number == "nothing" ? "" : " " + unit) + "\n";
+}
+
+std::string budget(const std::string& title, const std::vector<BudgetLine>& lines,
+                   const std::string& result, double power_dbm, const std::string& needs,
+                   double sensitivity_dbm) {
+  std::string text = "\n" + title + "\n";
+  for (const BudgetLine& line : lines) {
+    const bool is_power = &line == &lines.front();
+    text += row(line.what, without_unit(line.db), is_power ? "dBm" : "dB");
+  }
+  text += row("= " + result, without_unit(power_dbm), "dBm");
+  text += row(needs, without_unit(sensitivity_dbm), "dBm");
+  return text + row("margin", without_unit(power_dbm - sensitivity_dbm), "dB");
+}
+
+std::string receiver(const PhysicalLink& link) {
+  std::string text = "\nat the reader\n";
+  if (link.arrives) {
+    text += fmt::format("  signal to noise {}, phase {:.3f} rad ± {:.3f} rad (one sigma)\n",
+                        signed_db(link.snr_db), link.phase_rad, link.phase_sigma_rad);
+  }
+  text +=
+      fmt::format("  carrier {:.3f} MHz, channel {}\n", link.frequency_hz * 1e-6, link.channel + 1);
+  if (link.takes_inventory) {
+    text += link.turn ? fmt::format("  Gen2: the antenna's turn begins at {:.3f} s",
+                                    to_seconds(*link.turn))
+                      : std::string("  Gen2: the antenna has no turn");
+    text += !link.heard() ? "\n"
+                          : fmt::format("; {:.1f} % of undisturbed replies come through\n",
+                                        100.0 * link.decode_probability.value_or(0.0));
+  }
+  return text;
+}
+
+std::string met(const PathExplanation& path) {
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  for (const SurfaceOnPath& at : path.bounces) {
+    add(fmt::format("off {} ({}, {})", at.object, at.material, signed_db(at.gain_db)));
+  }
+  for (const SurfaceOnPath& at : path.crossings) {
+    const std::string thick =
+        at.thickness_m > 0.0 ? fmt::format(", {:.2f} m", at.thickness_m) : std::string();
+    add(fmt::format("through {} ({}{}, {})", at.object, at.material, thick,
+                    at.opaque ? "blocks" : signed_db(at.gain_db)));
+  }
+  if (text.empty()) text = "free";
+  return (path.order == 0 ? "direct: " : "") + text;
+}
+
+std::string paths_text(const std::vector<PathExplanation>& paths) {
+  const auto is_shown = [](const PathExplanation& path) {
+    return path.order == 0 || !path.blocked;
+  };
+  const auto blocked = static_cast<std::size_t>(
+      std::count_if(paths.begin(), paths.end(), [](const auto& path) { return path.blocked; }));
+  std::string text = fmt::format("\npaths: {}, and {} blocked\n", paths.size() - blocked, blocked);
+  text += "  bounces   length    excess  strength  by way of\n";
+  std::size_t shown = 0;
+  std::size_t left = 0;
+  for (const PathExplanation& path : paths) {
+    if (!is_shown(path)) continue;
+    if (shown == kMostPaths) {
+      ++left;
+      continue;
+    }
+    ++shown;
+    const std::string strength = path.blocked       ? "blocked"
+                                 : path.relative_db ? signed_db(*path.relative_db)
+                                                    : "nothing";
+    text += fmt::format("  {:7} {:7.2f} m {:7.2f} m {}  {}\n", path.order, path.length_m,
+                        path.excess_m, right(strength, 9), met(path));
+  }
+  if (left > 0) text += fmt::format("  … and {} weaker ones (--json has all)\n", left);
+  return text + "  (strength: against the direct way with nothing in between)\n";
+}
+
+std::string paper_text(const PaperLink& link) {
+  return "\nby the paper's model, which knows neither obstacles nor antenna patterns\n" +
+         fmt::format("  range {:.3f} m, {:.3f} m in the update at {:.3f} s\n", link.range_m,
+                     link.perturbed_range_m, to_seconds(link.update)) +
+         fmt::format("  read in {:.1f} % of all updates at this distance\n",
+                     100.0 * link.read_probability) +
+         fmt::format("  phase {:.3f} rad (eq. 4), RSSI {:.0f} dBm (eq. 5), both without noise\n",
+                     link.phase_rad, link.rssi_dbm);
+}
+
+using Json = nlohmann::ordered_json;
+
+/// Null for the power of what never arrives.
+Json power(double db) { return db < -250.0 ? Json(nullptr) : Json(db); }
+
+Json to_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Json to_json(const RigidTransform& X) {
+  const Eigen::Quaterniond& q = X.rotation;
+  return {{"position_m", to_json(X.translation)}, {"quaternion", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json to_json(const std::vector<BudgetLine>& lines) {
+  Json all = Json::array();
+  for (const BudgetLine& line : lines) all.push_back({{"what", line.what}, {"db", line.db}});
+  return all;
+}
+
+Json to_json(const std::vector<SurfaceOnPath>& surfaces) {
+  Json all = Json::array();
+  for (const SurfaceOnPath& at : surfaces) {
+    all.push_back({{"object", at.object},
+                   {"solid", at.solid},
+                   {"material", at.material},
+                   {"opaque", at.opaque},
+                   {"position_m", to_json(at.p_W)},
+                   {"thickness_m", at.thickness_m},
+                   {"gain_db", power(at.gain_db)}});
+  }
+  return all;
+}
+
+Json to_json(const PathExplanation& path) {
+  return {{"bounces", path.order},
+          {"length_m", path.length_m},
+          {"excess_m", path.excess_m},
+          {"blocked", path.blocked},
+          {"relative_db", path.relative_db ? Json(*path.relative_db) : Json(nullptr)},
+          {"relative_phase_rad", path.relative_phase_rad},
+          {"by_way_of", to_json(path.bounces)},
+          {"through", to_json(path.crossings)}};
+}
+
+Json to_json(const PaperLink& link) {
+  return {{"range_m", link.range_m},
+          {"perturbed_range_m", link.perturbed_range_m},
+          {"update_s", to_seconds(link.update)},
+          {"read_probability", link.read_probability},
+          {"phase_rad", link.phase_rad},
+          {"rssi_dbm", link.rssi_dbm}};
+}
+
+Json to_json(const PhysicalLink& link) {
+  Json json = {{"tag_dbm", power(link.tag_dbm)},
+               {"tag_sensitivity_dbm", link.tag_sensitivity_dbm},
+               {"tag_margin_db", power(link.tag_margin_db())},
+               {"reply_dbm", power(link.reply_dbm)},
+               {"reader_sensitivity_dbm", link.reader_sensitivity_dbm},
+               {"reader_margin_db", power(link.reader_margin_db())},
+               {"snr_db", power(link.snr_db)},
+               {"phase_rad", link.phase_rad},
+               {"phase_sigma_rad", link.phase_sigma_rad},
+               {"channel", link.channel},
+               {"frequency_hz", link.frequency_hz}};
+  if (link.takes_inventory) {
+    json["turn_s"] = link.turn ? Json(to_seconds(*link.turn)) : Json(nullptr);
+    json["decode_probability"] = link.decode_probability.value_or(0.0);
+  }
+  json["to_tag"] = to_json(link.to_tag);
+  json["to_reader"] = to_json(link.to_reader);
+  json["paths"] = Json::array();
+  for (const PathExplanation& path : link.paths) json["paths"].push_back(to_json(path));
+  return json;
+}
+
+}  // namespace
+
+std::string to_text(const LinkExplanation& link) {
+  std::string text = link.verdict + "\n\n";
+  text += fmt::format("antenna {} at {}\ntag {} at {}, {:.3f} m away\nat {:g} s\n", link.antenna,
+                      place(link.X_WA.translation), link.tag, place(link.X_WT.translation),
+                      link.distance_m, to_seconds(link.time));
+  if (link.paper) return text + paper_text(*link.paper);
+  const PhysicalLink& physical = *link.physical;
+  text += budget("to the tag", physical.to_tag, "power at the chip", physical.tag_dbm,
+                 "the chip needs", physical.tag_sensitivity_dbm);
+  text += budget("back to the reader", physical.to_reader, "power at the reader",
+                 physical.reply_dbm, "the reader needs", physical.reader_sensitivity_dbm);
+  return text + receiver(physical) + paths_text(physical.paths);
+}
+
+Json to_json(const LinkExplanation& link) {
+  Json json = {{"verdict", link.verdict},
+               {"read", link.read},
+               {"antenna", link.antenna},
+               {"reader", link.reader},
+               {"tag", link.tag},
+               {"time_s", to_seconds(link.time)},
+               {"distance_m", link.distance_m},
+               {"antenna_pose", to_json(link.X_WA)},
+               {"tag_pose", to_json(link.X_WT)},
+               {"model", link.paper ? "paper" : "physical"}};
+  json.update(link.paper ? to_json(*link.paper) : to_json(*link.physical));
+  return json;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,89 @@
+#include "apps/tagfield/scenario_arguments.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+
+#include "tagfield/base/spelling.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostNames = 20;
+
+/// Index of the thing of this name among `names`, or of the only one.
+std::size_t find_name(const std::string& command, const std::string& kind, const std::string& name,
+                      const std::vector<std::string>& names) {
+  if (name.empty() && names.size() == 1) return 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!name.empty() && names[i] == name) return i;
+  }
+  const std::vector<std::string> some(
+      names.begin(),
+      names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMostNames)));
+  const std::string known = suggestion(name, some);
+  if (name.empty()) {
+    throw Error(fmt::format("{}: the scenario has {} {}s; say which with --{} NAME{}", command,
+                            names.size(), kind, kind, known));
+  }
+  throw Error(fmt::format("{}: --{}: there is no {} '{}'{}", command, kind, kind, name, known));
+}
+
+}  // namespace
+
+std::string fault_of_seed(const std::string& word) {
+  std::uint64_t seed = 0;
+  const char* end = word.data() + word.size();
+  const auto [after, error] = std::from_chars(word.data(), end, seed);
+  if (error == std::errc{} && after == end) return "";
+  return fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", word);
+}
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();
+  command.add_option("--seed", arguments.seed, "Seed instead of the scenario's")
+      ->check(fault_of_seed);
+  command
+      .add_option("--set", arguments.settings,
+                  "Replace a value of the scenario: model=multipath, "
+                  "antennas.mobile.transmit_power_dbm=27, world.path=FILE. Can be given several "
+                  "times")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : arguments.settings) {
+    overrides.push_back(parse_override(setting));
+  }
+  return load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+}
+
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char character : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(character)) != 0 ||
+                       character == '-' || character == '_' || character == '.';
+    folder += plain ? character : '_';
+  }
+  if (folder.find_first_not_of('.') == std::string::npos) folder += '_';
+  return folder;
+}
+
+const AntennaSpec& antenna_named(const std::string& command, const Scenario& scenario,
+                                 const std::string& name) {
+  std::vector<std::string> names;
+  for (const AntennaSpec& antenna : scenario.antennas) names.push_back(antenna.parameters.name);
+  return scenario.antennas[find_name(command, "antenna", name, names)];
+}
+
+const TagSpec& tag_named(const std::string& command, const Scenario& scenario,
+                         const std::string& id) {
+  std::vector<std::string> names;
+  for (const TagSpec& tag : scenario.tags) names.push_back(tag.id);
+  return scenario.tags[find_name(command, "tag", id, names)];
+}
+
+}  // namespace tagfield

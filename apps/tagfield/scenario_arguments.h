@@ -1,0 +1,40 @@
+/// @file
+/// What commands that look into a scenario have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/scenario_yaml.h"
+
+namespace tagfield {
+
+struct ScenarioArguments {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::optional<std::uint64_t> seed;
+};
+
+/// Adds SCENARIO, --set and --seed.
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
+
+/// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
+std::string fault_of_seed(const std::string& word);
+
+/// The scenario with its settings and its world.
+ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics);
+
+/// A scenario's name as a folder's: whatever a shell would stumble over becomes '_'.
+std::string folder_name(const std::string& name);
+
+/// The antenna of this name; with "" the only one. Throws Error "COMMAND: …" with those there are.
+const AntennaSpec& antenna_named(const std::string& command, const Scenario& scenario,
+                                 const std::string& name);
+/// Likewise.
+const TagSpec& tag_named(const std::string& command, const Scenario& scenario,
+                         const std::string& id);
+
+}  // namespace tagfield

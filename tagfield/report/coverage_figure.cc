@@ -1,0 +1,274 @@
+#include "tagfield/report/coverage_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "tagfield/report/color_bands.h"
+#include "tagfield/report/map_outline.h"
+#include "tagfield/report/map_view.h"
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kBarHeight = 46.0;
+constexpr std::int8_t kNotDrawn = -1;
+
+Extent extent_of(const CoverageGrid& grid) {
+  const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
+  return {grid.corner_m, Eigen::Vector2d(grid.corner_m + grid.step_m * size)};
+}
+
+/// The layer with a colour's number in each cell.
+OccupancyGrid numbered(const CoverageGrid& grid, const CoverageLayer& layer,
+                       const std::function<std::int8_t(const CoverageCell&)>& number) {
+  OccupancyGrid cells;
+  cells.resolution_m = grid.step_m;
+  cells.width = static_cast<int>(grid.columns);
+  cells.height = static_cast<int>(grid.rows);
+  cells.origin = grid.corner_m;
+  cells.cells.reserve(layer.cells.size());
+  for (const CoverageCell& cell : layer.cells) cells.cells.push_back(number(cell));
+  return cells;
+}
+
+void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& cells,
+                const std::vector<std::string>& colors) {
+  const Place corner = place_in(map.axes, cells.origin.x(), cells.origin.y());
+  const double size = map.scale * cells.resolution_m;
+  begin_group(svg, fmt::format("shape-rendering=\"crispEdges\" "
+                               "transform=\"matrix({:.5f} 0 0 {:.5f} {:.3f} {:.3f})\"",
+                               size, -size, corner.x(), corner.y()));
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (colors[i].empty()) continue;
+    const std::string data =
+        cell_outline(cells, [&](std::int8_t cell) { return cell == static_cast<int>(i); });
+    Look look = filled(colors[i], 1.0);
+    look.attributes += " fill-rule=\"evenodd\"";
+    if (!data.empty()) add_path(svg, data, look);
+  }
+  end_group(svg);
+}
+
+void draw_antennas(Svg& svg, MapView& map, const Coverage& coverage) {
+  for (const CoverageAntenna& antenna : coverage.antennas) {
+    if (antenna.places_W.empty()) continue;
+    const Place first = on_map(map, antenna.places_W.front());
+    if (antenna.places_W.size() > 1) {
+      std::vector<Place> places;
+      for (const Eigen::Vector3d& p_W : antenna.places_W) places.push_back(on_map(map, p_W));
+      add_polyline(svg, places, styled("drive-rim"));
+      add_polyline(svg, places, styled("drive"));
+      add_circle(svg, first, 6.0, styled("start"), clean_text(antenna.name) + ", moves");
+    } else {
+      add_rectangle(svg, first - Place(7, 6), {14, 12}, styled("antenna"),
+                    clean_text(antenna.name));
+    }
+    take_place(map, first, 8.0);
+    draw_label(svg, map, first, shortened(antenna.name, 18));
+  }
+}
+
+/// The ground of all maps, to be drawn on.
+MapView begin_map(Figure& figure, const Coverage& coverage, double top) {
+  MapView map = make_map(figure.name, extent_of(coverage.grid), {}, top);
+  figure.svg.height = map_bottom(map);
+  draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
+  begin_clip(figure.svg, map.id + "-map", {map.axes.x.from, map.axes.y.to},
+             {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to});
+  return map;
+}
+
+void end_map(Figure& figure, const MapView& map, const std::vector<Silhouette>& top_view) {
+  draw_outlines(figure.svg, map, top_view);
+  end_clip(figure.svg);
+  add_rectangle(figure.svg, {map.axes.x.from, map.axes.y.to},
+                {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to},
+                styled("frame"));
+}
+
+std::vector<double> powers_of(const CoverageLayer& layer) {
+  std::vector<double> powers;
+  for (const CoverageCell& cell : layer.cells) {
+    if (cell.power_dbm >= kLeastPower_db) powers.push_back(cell.power_dbm);
+  }
+  return powers;
+}
+
+struct Drawn {
+  const char* name;
+  const char* title;
+  std::string caption;
+};
+
+Drawn words_of(const Coverage& coverage, const CoverageLayer& layer, CoverageQuantity quantity) {
+  const bool paper = is_by_paper(coverage);
+  switch (quantity) {
+    case CoverageQuantity::kProbability:
+      return {
+          "probability", "Read probability",
+          fmt::format("How likely a tag there is read; {:.0f} % of the area is read, with {:.0f} "
+                      "% or more. Left blank below 1 %.",
+                      100.0 * share_read(layer), 100.0 * kReadProbability)};
+    case CoverageQuantity::kMargin:
+      return {"margin", "Margin",
+              paper ? "RSSI beyond that at the end of the range: blue is within it."
+                    : "What tag and reader have beyond what they need, the lesser of both: blue is "
+                      "enough. Left blank where nothing arrives."};
+    case CoverageQuantity::kPower:
+      return {"power", paper ? "RSSI" : "Power at the chip",
+              paper ? "By eq. (5) of the paper, without noise."
+                    : "Local mean over the fading, from the antenna place with the greatest "
+                      "margin. Left blank where nothing arrives."};
+    case CoverageQuantity::kAntenna:
+      return {"antenna", "Best antenna",
+              "The one with the greatest margin, where a tag is read at all."};
+  }
+  return {"", "", ""};
+}
+
+double value_of(const CoverageCell& cell, CoverageQuantity quantity) {
+  if (quantity == CoverageQuantity::kProbability) return cell.probability;
+  return quantity == CoverageQuantity::kMargin ? cell.margin_db : cell.power_dbm;
+}
+
+ColorBands bands_of(const Coverage& coverage, const CoverageLayer& layer,
+                    CoverageQuantity quantity) {
+  if (quantity == CoverageQuantity::kProbability) return probability_bands();
+  if (quantity == CoverageQuantity::kMargin) return margin_bands();
+  return power_bands(is_by_paper(coverage) ? "RSSI [dBm]" : "power [dBm]", powers_of(layer));
+}
+
+void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
+                   CoverageQuantity quantity, const std::vector<Silhouette>& top_view) {
+  const ColorBands bands = bands_of(coverage, layer, quantity);
+  draw_band_bar(figure.svg, 2.0, bands);
+  MapView map = begin_map(figure, coverage, kBarHeight);
+  const OccupancyGrid cells = numbered(coverage.grid, layer, [&](const CoverageCell& cell) {
+    if (quantity != CoverageQuantity::kProbability && cell.antenna < 0) return kNotDrawn;
+    return static_cast<std::int8_t>(band_of(bands, value_of(cell, quantity)));
+  });
+  draw_cells(figure.svg, map, cells, bands.colors);
+  end_map(figure, map, top_view);
+  draw_antennas(figure.svg, map, coverage);
+}
+
+/// Antennas beyond the colours share them.
+constexpr int kMostKinds = 100;
+
+void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
+               const std::vector<Silhouette>& top_view) {
+  std::vector<std::string> colors;
+  double x = 2.0;
+  double y = 2.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(coverage.antennas.size(), kMostKinds); ++i) {
+    colors.push_back(color_of_kind(i));
+    const std::string name = shortened(coverage.antennas[i].name, 18);
+    const double width = 40.0 + text_width(name);
+    if (x > 2.0 && x + width > kDrawingWidth) {
+      x = 2.0;
+      y += 22.0;
+    }
+    add_rectangle(figure.svg, {x, y}, {15.0, 15.0}, filled(colors.back(), 1.0));
+    add_text(figure.svg, {x + 21.0, y + 12.0}, name, Anchor::kStart);
+    x += width;
+  }
+  MapView map = begin_map(figure, coverage, y + 24.0);
+  const OccupancyGrid cells = numbered(coverage.grid, layer, [](const CoverageCell& cell) {
+    const bool is_read = cell.antenna >= 0 && cell.probability >= kReadProbability;
+    return is_read ? static_cast<std::int8_t>(cell.antenna % kMostKinds) : kNotDrawn;
+  });
+  draw_cells(figure.svg, map, cells, colors);
+  end_map(figure, map, top_view);
+  draw_antennas(figure.svg, map, coverage);
+}
+
+void draw_tag(Svg& svg, const Place& place, const TagCoverage& tag, const Coverage& coverage) {
+  const std::string said = clean_text(tag.id) + ": " + spoken(coverage, tag);
+  switch (tag.verdict) {
+    case TagVerdict::kNever:
+      return add_cross(svg, place, 6.0, styled("cover-never"), said);
+    case TagVerdict::kIntended:
+      return add_diamond(svg, place, 8.0, styled("cover-own"), said);
+    case TagVerdict::kAlsoOther:
+      return add_diamond(svg, place, 8.0, styled("cover-also"), said);
+    case TagVerdict::kWrong:
+      return add_rectangle(svg, place - Place(6, 6), {12, 12}, styled("cover-wrong"), said);
+  }
+}
+
+bool is_within(const MapView& map, const Eigen::Vector3d& p) {
+  return p.x() >= map.axes.x.low && p.x() <= map.axes.x.high && p.y() >= map.axes.y.low &&
+         p.y() <= map.axes.y.high;
+}
+
+void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
+  if (coverage.tags.size() > kMostRows) return;
+  for (const TagCoverage& tag : coverage.tags) {
+    if (is_within(map, tag.p_WT)) {
+      draw_label(svg, map, on_map(map, tag.p_WT), shortened(tag.id, 12));
+    }
+  }
+}
+
+}  // namespace
+
+std::string spoken(const Coverage& coverage, const TagCoverage& tag) {
+  const auto name = [&](int i) {
+    return clean_text(coverage.antennas[static_cast<std::size_t>(i)].name);
+  };
+  if (tag.verdict == TagVerdict::kNever) return "never read";
+  std::string readers;
+  for (const int i : tag.read_by) readers += (readers.empty() ? "" : ", ") + name(i);
+  if (tag.verdict == TagVerdict::kIntended) {
+    return coverage.antennas.size() > 1 ? "read only by " + readers : "read";
+  }
+  if (tag.verdict == TagVerdict::kAlsoOther) {
+    return "read by " + readers + "; meant for " + name(tag.nearest) + " alone";
+  }
+  return "read by " + readers + ", not by " + (tag.nearest < 0 ? "any near" : name(tag.nearest));
+}
+
+Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,
+                       CoverageQuantity quantity, const std::vector<Silhouette>& top_view) {
+  const Drawn words = words_of(coverage, layer, quantity);
+  Figure figure;
+  figure.name = fmt::format("{}_{:.2f}m", words.name, layer.height_m + 0.0);
+  figure.title = fmt::format("{}, {:.2f} m above the floor", words.title, layer.height_m + 0.0);
+  figure.caption = words.caption;
+  if (quantity == CoverageQuantity::kAntenna) {
+    draw_best(figure, coverage, layer, top_view);
+  } else {
+    draw_quantity(figure, coverage, layer, quantity, top_view);
+  }
+  return figure;
+}
+
+Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouette>& top_view) {
+  Figure figure;
+  figure.name = "tags";
+  figure.title = "The scenario’s tags";
+  figure.caption = "By who reads them. A tag is meant for the antenna that comes nearest to it.";
+  const double top =
+      draw_legend(figure.svg, {{Symbol::kDiamond, "cover-own", "read by its own antenna only"},
+                               {Symbol::kDiamond, "cover-also", "by others too"},
+                               {Symbol::kSquare, "cover-wrong", "by others only"},
+                               {Symbol::kCross, "cover-never", "never read"}});
+  MapView map = begin_map(figure, coverage, top);
+  end_map(figure, map, top_view);
+  const std::size_t step = thinning(coverage.tags.size(), kMostMarks);
+  for (std::size_t i = 0; i < coverage.tags.size(); i += step) {
+    const TagCoverage& tag = coverage.tags[i];
+    if (!is_within(map, tag.p_WT)) continue;
+    draw_tag(figure.svg, on_map(map, tag.p_WT), tag, coverage);
+    take_place(map, on_map(map, tag.p_WT), 7.0);
+  }
+  draw_antennas(figure.svg, map, coverage);
+  draw_tag_names(figure.svg, map, coverage);
+  if (step > 1) figure.caption += fmt::format(" One tag in {} is drawn.", step);
+  return figure;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,22 @@
+/// @file
+/// Coverage as one HTML page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/report/coverage.h"
+#include "tagfield/report/figures.h"
+#include "tagfield/world/top_view.h"
+
+namespace tagfield {
+
+/// All maps: for each height read probability, margin, power and, with several antennas, the best
+/// one; the scenario's tags last. None of the grid where it is empty.
+std::vector<Figure> coverage_figures(const Coverage& coverage,
+                                     const std::vector<Silhouette>& top_view);
+
+/// The page, self-contained as report.html.
+std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& figures);
+
+}  // namespace tagfield

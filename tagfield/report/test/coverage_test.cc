@@ -1,0 +1,78 @@
+#include "tagfield/report/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tagfield/report/color_bands.h"
+#include "tagfield/report/coverage_page.h"
+
+namespace tagfield {
+namespace {
+
+/// Two cells: one read, one that nothing arrives at.
+Coverage two_cells() {
+  Coverage coverage;
+  coverage.scenario = "a <hall>";
+  coverage.antennas = {{"gate, west", {{0.0, 0.0, 1.0}}, false}};
+  coverage.grid = {{-0.5, 0.0}, 0.5, 2, 1};
+  coverage.layers = {{1.25, {{-10.0, -50.0, 8.0, 0.75, 0}, {}}}};
+  TagCoverage tag;
+  tag.id = "lost";
+  tag.nearest = 0;
+  tag.nearest_m = 3.0;
+  coverage.tags = {tag};
+  return coverage;
+}
+
+TEST(Coverage, IsATableWithoutWhatIsNotThere) {
+  const Coverage coverage = two_cells();
+  EXPECT_EQ(coverage_file(coverage.layers.front()), "coverage_1.25m.csv");
+  EXPECT_EQ(coverage_to_csv(coverage, coverage.layers.front()),
+            "x_m,y_m,power_dbm,reply_dbm,margin_db,probability,antenna\n"
+            "-0.2500,0.2500,-10.00,-50.00,8.00,0.750,\"gate, west\"\n"
+            "0.2500,0.2500,,,,0.000,\n");
+  EXPECT_EQ(coverage_tags_to_csv(coverage),
+            "tag,x_m,y_m,z_m,verdict,nearest,nearest_m,read_by,power_dbm,reply_dbm,margin_db,"
+            "probability\nlost,0.0000,0.0000,0.0000,never,\"gate, west\",3.000,,,,,0.000\n");
+}
+
+TEST(Coverage, SumsUpAsJson) {
+  const auto json = nlohmann::json::parse(coverage_to_json(two_cells()));
+  EXPECT_EQ(json["heights"][0]["share_read"], 0.5);
+  EXPECT_EQ(json["heights"][0]["least_margin_db"], 8.0);
+  EXPECT_EQ(json["tag_counts"]["never"], 1);
+  EXPECT_TRUE(json["tags"][0]["margin_db"].is_null());
+  EXPECT_EQ(json["region_m"], (std::vector<double>{-0.5, 0.0, 0.5, 0.5}));
+}
+
+TEST(Coverage, IsAPageThatHoldsAllMaps) {
+  const Coverage coverage = two_cells();
+  const std::vector<Figure> figures = coverage_figures(coverage, {});
+  ASSERT_EQ(figures.size(), 4U);  // Probability, margin, power; the tags.
+  const std::string page = coverage_page(coverage, figures);
+  EXPECT_NE(page.find("a &lt;hall&gt;"), std::string::npos);
+  EXPECT_NE(page.find("id=\"margin_1.25m\""), std::string::npos);
+  EXPECT_NE(page.find("never read"), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST(ColorBands, HoldTheirLowerEdge) {
+  const ColorBands bands = margin_bands();
+  ASSERT_EQ(bands.colors.size(), bands.edges.size() + 1);
+  EXPECT_EQ(band_of(bands, -400.0), 0U);
+  EXPECT_EQ(band_of(bands, -0.1), 4U);
+  EXPECT_EQ(band_of(bands, 0.0), 5U);
+  EXPECT_EQ(band_of(bands, 1e9), bands.edges.size());
+}
+
+TEST(ColorBands, OfPowersAreFewAndRound) {
+  const ColorBands bands = power_bands("power [dBm]", {-400.0, -63.0, -20.0, 12.0, 14.0});
+  EXPECT_LE(bands.colors.size(), 13U);
+  for (const double edge : bands.edges) EXPECT_EQ(edge, 5.0 * std::round(edge / 5.0));
+  EXPECT_EQ(power_bands("", {}).colors.size(), power_bands("", {}).edges.size() + 1);
+}
+
+}  // namespace
+}  // namespace tagfield

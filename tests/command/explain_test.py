@@ -1,0 +1,243 @@
+#!/usr/bin/python3
+"""The commands explain and coverage as a user runs them: verdicts, sums, agreement with a run,
+files, the page, and bad input."""
+
+import json
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+
+from common import (SPEED_OF_LIGHT, case, check, check_between, check_equal, check_in, check_near,
+                    files_in, main, read_csv, read_json)
+
+MULTIPATH = ("--set", "model=multipath")
+
+# An isotropic antenna of 20 dBm and tags of −18 dBm in the open: 38 dB of free space are
+# λ/4π · 10^(38/20) = 2.19 m.
+OPEN = """\
+name: open
+duration_s: 10
+model: link_budget
+without: [polarization]
+antennas:
+  - {name: gate, pose: [0, 0, 1], pattern: isotropic, gain_dbi: 0, transmit_power_dbm: 20}
+  - {name: far, pose: [20, 0, 1], pattern: isotropic, gain_dbi: 0, transmit_power_dbm: 20}
+tags:
+  - {id: near, position: [1, 0, 1], pattern: isotropic, gain_dbi: 0}
+  - {id: late, position: [2, 0, 1], pattern: isotropic, gain_dbi: 0, appears_s: 5}
+  - {id: lost, position: [10, 3, 1], pattern: isotropic, gain_dbi: 0}
+"""
+
+
+def friis_db(distance):
+    return 20.0 * math.log10(SPEED_OF_LIGHT / 865.7e6 / (4.0 * math.pi * distance))
+
+
+def explained(context, scenario, *arguments):
+    def refuse(word):
+        raise ValueError(f"{word} in JSON")
+    told = context.run_well("explain", scenario, "--json", *arguments)
+    return json.loads(told.out, parse_constant=refuse)
+
+
+# --- explain --------------------------------------------------------------------------------------
+
+@case
+def help_teaches(context):
+    for command, words in (
+            ("explain", ("--antenna", "--tag", "--time", "--json", "--set", "--seed",
+                         "not read:", "docs/explain.md", "multipath")),
+            ("coverage", ("--antenna", "--tag-profile", "--orientation", "--height", "--step",
+                          "--region", "--out", "--time", "coverage.html", "docs/coverage.md"))):
+        result = context.run_well(command, "--help")
+        for word in words:
+            check_in(word, result.out, f"{command} --help")
+
+
+@case
+def the_verdict_comes_first(context):
+    path = context.write("open.yaml", OPEN)
+    first = {}
+    for tag, time in (("near", 0), ("late", 0), ("late", 5), ("lost", 0)):
+        out = context.run_well("explain", path, "--antenna", "gate", "--tag", tag, "--time",
+                               time).out
+        first[tag, time] = out.splitlines()[0]
+        check_in("free space over", out, tag)
+    margin = 20.0 + friis_db(1.0) + 18.0
+    back = 20.0 + 2.0 * friis_db(1.0) - 5.0 + 84.0
+    check_equal(first["near", 0], f"read: +{margin:.1f} dB at the tag, +{back:.1f} dB at the reader",
+                "verdict of the near one")
+    check_equal(first["late", 0], "not read: not there yet (appears at 5 s)", "verdict too early")
+    check(first["late", 5].startswith("read: +0.8 dB at the tag"), first["late", 5])
+    check(first["lost", 0].startswith("not read: −13.6 dB at the tag"), first["lost", 0])
+
+
+@case
+def the_lines_add_up(context):
+    for tag in ("tag1", "tag5", "tag8"):
+        link = explained(context, context.shipped("paper_warehouse"), *MULTIPATH, "--tag", tag,
+                         "--time", "15")
+        check_near(sum(line["db"] for line in link["to_tag"]), link["tag_dbm"], 0.01, tag)
+        check_near(sum(line["db"] for line in link["to_reader"]), link["reply_dbm"], 0.01, tag)
+        check(len(link["paths"]) > 5, f"{tag}: {len(link['paths'])} paths")
+        direct = link["paths"][0]
+        check_equal(direct["bounces"], 0, "the first path's bounces")
+        check_near(direct["length_m"], link["distance_m"], 1e-9, "the direct way")
+        # All paths as phasors against the direct one give the line of the others.
+        field = sum(10.0 ** (p["relative_db"] / 20.0) *
+                    complex(math.cos(p["relative_phase_rad"]), math.sin(p["relative_phase_rad"]))
+                    for p in link["paths"] if p["relative_db"] is not None)
+        free = [line["db"] for line in link["to_tag"]
+                if line["what"].startswith(("antenna gain", "free space", "polarization",
+                                            "tag gain"))]
+        total = 30.0 + sum(free) + 20.0 * math.log10(abs(field))
+        check_near(total, link["tag_dbm"], 0.05, f"{tag}: the sum of its paths")
+
+
+@case
+def explains_what_a_run_reads(context):
+    """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
+    scenario = context.shipped("paper_warehouse")
+    settings = ("--set", "model=link_budget", "--set", "without=[noise,quantization,half_turns]",
+                "--set", "duration_s=20")
+    reads = read_csv(context.simulate(scenario, *settings, "--no-page") / "reads.csv")
+    check(len(reads) > 100, f"{len(reads)} reads")
+    for read in reads[::len(reads) // 5]:
+        link = explained(context, scenario, *settings, "--tag", read["tag"], "--time",
+                         read["stamp_s"])
+        what = f"{read['tag']} at {read['stamp_s']} s"
+        check(link["read"], f"{what}: {link['verdict']}")
+        check_near(link["reply_dbm"], float(read["rssi_dbm"]), 0.01, f"RSSI of {what}")
+        turn = (link["phase_rad"] - float(read["phase_rad"]) + math.pi) % (2.0 * math.pi) - math.pi
+        check_near(turn, 0.0, 0.02, f"phase of {what}")
+
+
+@case
+def papers_model_is_explained_by_range(context):
+    link = explained(context, context.shipped("paper_warehouse"), "--tag", "tag1")
+    check_equal(link["model"], "paper", "model")
+    check_equal(link["range_m"], 7.0, "range")
+    check_equal(link["read"], link["distance_m"] <= link["perturbed_range_m"], "verdict")
+    wavelength = SPEED_OF_LIGHT / 865.7e6
+    phase = (4.0 * math.pi * link["distance_m"] / wavelength) % (2.0 * math.pi)
+    check_near(link["phase_rad"], phase, 1e-6, "eq. (4)")
+
+
+# --- coverage -------------------------------------------------------------------------------------
+
+@case
+def coverage_is_a_circle_in_the_open(context):
+    path = context.write("open.yaml", OPEN)
+    out = context.folder / "out"
+    arguments = ("coverage", path, "--antenna", "gate", "--region=-4,-4,4,4", "--step", "0.1",
+                 "--height", "1", "--out", out)
+    said = context.run_well(*arguments).out
+    radius = SPEED_OF_LIGHT / 865.7e6 / (4.0 * math.pi) * 10.0 ** (38.0 / 20.0)
+    cells = read_csv(out / "coverage_1.00m.csv")
+    check_equal(len(cells), 6400, "cells")
+    for cell in cells:
+        distance = math.hypot(float(cell["x_m"]), float(cell["y_m"]))
+        check_equal(float(cell["probability"]), 1.0 if distance <= radius else 0.0,
+                    f"probability at {distance} m")
+        check_near(float(cell["power_dbm"]), 20.0 + friis_db(distance), 0.006, "power")
+    told = read_json(out / "coverage.json")
+    check_near(told["heights"][0]["share_read"], math.pi * radius ** 2 / 64.0, 0.01, "share")
+    check_equal(told["region_m"], [-4.0, -4.0, 4.0, 4.0], "region")
+    check_equal(told["tag_counts"],
+                {"never": 1, "intended": 2, "also_other": 0, "wrong": 0}, "tags")
+    check_in("never read: 1 of 3 tags\n  lost", said, "what is said")
+    before = files_in(out)
+    check("coverage.html" in before and len(before) == 9, f"files are {sorted(before)}")
+    context.run_well(*arguments, "--threads", "1")
+    check(files_in(out) == before, "files differ with one thread")
+
+
+@case
+def the_page_is_whole_and_alone(context):
+    out = context.folder / "out"
+    context.run_well("coverage", context.shipped("two_antennas"), *MULTIPATH, "--step", "1",
+                     "--height", "1", "--height", "2", "--time", "0", "--out", out)
+    page = (out / "coverage.html").read_text(encoding="utf-8")
+    for word in ("<script", "http://", "https://", "nan", "inf<"):
+        check(word not in page.replace("Infinity", ""), f"{word} in the page")
+    for quantity in ("probability", "margin", "power", "antenna"):
+        for height in ("1.00m", "2.00m"):
+            name = f"{quantity}_{height}"
+            check_in(f'id="{name}"', page, "the page")
+            svg = out / f"figures/{name}.svg"
+            ElementTree.parse(svg)
+            check(re.search(r"\b(nan|inf)\b", svg.read_text(encoding="utf-8")) is None, name)
+    check_in("[dBm]", page, "the page")
+    # Another coverage in the same folder leaves nothing of this one.
+    context.run_well("coverage", context.shipped("two_antennas"), "--step", "1", "--height", "3",
+                     "--antenna", "fixed", "--out", out)
+    names = [name for name in files_in(out) if "1.00m" in str(name) or "antenna_" in str(name)]
+    check_equal(names, [], "files of before")
+
+
+@case
+def orientations_count(context):
+    """A dipole upright, lying towards the antenna, and any way."""
+    text = OPEN.replace("without: [polarization]", "without: [occlusion]")
+    path = context.write("open.yaml", text)
+    powers = {}
+    for orientation in ("0,0,0", "0,1.5707963,0", "any", "worst"):
+        out = context.folder / "out"
+        context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
+                         "--step", "0.2", "--height", "1", "--orientation", orientation, "--tag",
+                         "pattern=dipole", "--tag", "gain_dbi=2.15", "--out", out)
+        field = read_csv(out / "coverage_1.00m.csv")[0]["power_dbm"]
+        powers[orientation] = float(field) if field else -400.0
+    check_near(powers["0,0,0"], 20.0 + friis_db(2.0) + 2.15 - 3.01, 0.01,
+               "an upright one")
+    check(powers["0,1.5707963,0"] < -100.0, "a dipole sends nothing along its wire")
+    check(powers["worst"] <= powers["0,1.5707963,0"], "the worst one")
+    check_between(powers["any"], powers["0,0,0"] - 10.0, powers["0,0,0"], "the mean")
+
+
+# --- Bad input ------------------------------------------------------------------------------------
+
+@case
+def bad_arguments(context):
+    path = context.write("open.yaml", OPEN)
+    profile = context.write("reader.yaml", "name: r\nkind: reader\nfigures: {}\n")
+    out = context.folder / "out"
+    explain = ["explain", path, "--antenna", "gate", "--tag", "near"]
+    coverage = ["coverage", path, "--out", out]
+    for command, says in (
+            (["explain"], "SCENARIO"), (["explain", "absent.yaml"], "no such file"),
+            (["explain", path, "--tag", "near"], "2 antennas; say which with --antenna"),
+            (["explain", path, "--antenna", "gate"], "3 tags; say which with --tag"),
+            (["explain", path, "--antenna", "gat", "--tag", "near"], "did you mean 'gate'"),
+            (["explain", path, "--antenna", "gate", "--tag", "neer"], "did you mean 'near'"),
+            ([*explain, "--time", "11"], "the run ends at 10 s"),
+            ([*explain, "--time", "-1"], "time"), ([*explain, "--time", "soon"], "time"),
+            ([*explain, "--seed", "-1"], "seed"), ([*explain, "--set", "x"], "key.path=value"),
+            ([*coverage, "--antenna", "gte"], "did you mean 'gate'"),
+            ([*coverage, "--step", "0"], "step"), ([*coverage, "--step", "nan"], "step"),
+            ([*coverage, "--step", "0.001"], "cells"),
+            ([*coverage, "--height", "high"], "height"),
+            ([*coverage, "--region", "1,2,3"], "3 numbers, expected X_LOW"),
+            ([*coverage, "--region", "1,1,0,2"], "X_LOW < X_HIGH"),
+            ([*coverage, "--region", "1,1,x,2"], "'x' is no number"),
+            ([*coverage, "--region", "0,0,1e9,2"], "'1e9' is no number up to 1e6"),
+            ([*coverage, "--orientation", "up"], "ROLL,PITCH,YAW"),
+            ([*coverage, "--orientation", "0,0"], "2 numbers"),
+            ([*coverage, "--tag", "sensitivity_dbm"], "key=value"),
+            ([*coverage, "--tag", "sensitivty_dbm=-20"], "did you mean 'sensitivity_dbm'"),
+            ([*coverage, "--tag", "sensitivity_dbm=low"], "expected a finite number"),
+            ([*coverage, "--tag-profile", "absent.yaml"], "absent.yaml"),
+            ([*coverage, "--tag-profile", profile], "expected kind: tag"),
+            ([*coverage, "--time", "11"], "the run ends at 10 s"),
+            ([*coverage, "--threads", "0"], "threads")):
+        what = " ".join(map(str, command[2:] or command))
+        result = context.run(*command, timeout=60)
+        check_equal(result.code, 2, f"exit code of {what} ({result.err.strip()})")
+        check_equal(len(result.err.splitlines()), 1, f"lines of {what}: {result.err!r}")
+        check_equal(result.out, "", f"output of {what}")
+        check_in(says.lower(), result.err.lower(), what)
+        check(not (out / "coverage.html").exists(), f"{what} left a page")
+
+
+if __name__ == "__main__":
+    main()
