@@ -151,9 +151,9 @@ LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientation
                      const std::vector<double>& carriers_hz, std::uint64_t draw,
                      std::vector<RadioPath>& paths) {
   const bool has_receiver = view.model.X_AR.has_value();
-  trace(view, view.images, tag, paths);
+  trace(view, *view.images, tag, paths);
   std::vector<RadioPath> paths_back;
-  if (has_receiver) trace(view, view.receiver_images, tag, paths_back);
+  if (has_receiver) trace(view, *view.receiver_images, tag, paths_back);
   RandomStream stream(view.seed, Purpose::kDiffuse, view.diffuse_key, tag.key, draw);
   Powers there;
   Powers back;

@@ -102,8 +102,8 @@ std::vector<RadioPath> paths_of(const RadioView& view, const TagEnd& tag, bool r
   TraceOptions tracing = view.tracing;
   tracing.keep_blocked = true;
   std::vector<RadioPath> paths;
-  trace_paths(view.world.scene, receiver ? view.receiver_images : view.images, tag.X_WT.translation,
-              tracing, paths);
+  const ImageSet& images = receiver ? *view.receiver_images : *view.images;
+  trace_paths(view.world.scene, images, tag.X_WT.translation, tracing, paths);
   return paths;
 }
 

@@ -619,6 +619,127 @@ def malformed_worlds(context):
         expect_bad_world(context, name, text, says, line)
 
 
+PHYSICS = """\
+name: physics
+model: multipath
+duration_s: 0.2
+tag_profile: tag.yaml
+without: [diffuse]
+world:
+  path: hall.sdf
+  default_material: concrete
+  least_facet_m2: 0.1
+  materials: {walls: brick}
+materials:
+  - {name: foam, permittivity: 1.05, conductivity_s_m: 0.001, wall_m: 0.1, crossing_db: 1}
+antennas:
+  - name: gate
+    pose: [2, 1, 1]
+    profiles: [reader.yaml]
+    transmit_power_dbm: 30
+    cable_loss_db: 1
+    pattern: patch
+    gain_dbi: 8
+    beam_width_deg: 65
+    polarization: right_circular
+    channel_plan: etsi_low
+    carriers_hz: [865.7e6, 867.5e6]
+    reflection_order: 2
+    inventory: gen2
+    start_q: 4
+    tari_us: 25
+    blf_khz: 250
+    sensitivity_dbm: -84
+tags:
+  - {id: near, position: [1, 1, 1], rpy: [0, 0, 1], sensitivity_dbm: -20}
+"""
+TAG_PROFILE = """\
+name: a tag
+kind: tag
+figures:
+  gain_dbi: {value: 2, source: "a book"}
+"""
+READER_PROFILE = """\
+name: a reader
+kind: reader
+figures:
+  phase_steps: {value: 4096, source: "a manual"}
+"""
+
+
+@case
+def physics_that_cannot_be(context):
+    """Each names what is wrong, the allowed range or words, and its line."""
+    context.write("hall.sdf", HALL)
+    context.write("tag.yaml", TAG_PROFILE)
+    context.write("reader.yaml", READER_PROFILE)
+    context.run_well("run", context.write("base.yaml", PHYSICS), "--no-page", "--out",
+                     context.folder / "good")
+    for old, new, says in (
+            ("model: multipath", "model: multypath", "expected paper, link_budget, multipath"),
+            ("without: [diffuse]", "without: [difuse]", "did you mean 'diffuse'"),
+            ("default_material: concrete", "default_material: concret",
+             "did you mean 'concrete'"),
+            ("least_facet_m2: 0.1", "least_facet_m2: -1", "0 or more"),
+            ("{walls: brick}", "{walls: brik}", "did you mean 'brick'"),
+            ("permittivity: 1.05", "permittivity: -1.05", "from 1 to 10000, is -1.05"),
+            ("conductivity_s_m: 0.001", "conductivity_s_m: -3", "0 or more, is -3"),
+            ("wall_m: 0.1", "wall_m: 0", "greater than 0"),
+            ("crossing_db: 1}", "crossing_db: -1}", "from 0 to 300 dB, is -1"),
+            ("transmit_power_dbm: 30", "transmit_power_dbm: 300", "from -50 to 60, is 300"),
+            ("cable_loss_db: 1", "cable_loss_db: -1", "from 0 to 100, is -1"),
+            ("pattern: patch", "pattern: dish", "expected isotropic, patch, dipole, table"),
+            ("gain_dbi: 8", "gain_dbi: 80", "from -60 to 40 dBi, is 80"),
+            ("beam_width_deg: 65", "beam_width_deg: 650", "from 2 to 179 degrees"),
+            ("polarization: right_circular", "polarization: round", "expected linear"),
+            ("channel_plan: etsi_low", "channel_plan: etsy_low", "did you mean 'etsi_low'"),
+            ("carriers_hz: [865.7e6, 867.5e6]", "carriers_hz: [865.7e6, 915e6]",
+             "carrier 915 MHz is outside the plan's band, 865 to 868 MHz"),
+            ("reflection_order: 2", "reflection_order: 4", "from 0 to 3, is 4"),
+            ("inventory: gen2", "inventory: gen3", "expected none, gen2"),
+            ("start_q: 4", "start_q: 16", "from 0 to 15"),
+            ("tari_us: 25", "tari_us: 30", "6.25"),
+            ("blf_khz: 250", "blf_khz: 900", "640"),
+            ("sensitivity_dbm: -84", "sensitivity_dbm: 30",
+             "sensitivity_dbm must be below transmit_power_dbm (30), is 30"),
+            ("sensitivity_dbm: -20}", "sensitivity_dbm: 29.9999, detuning_db: -2}",
+             "detuning_db must be from 0 to 100"),
+            ("sensitivity_dbm: -20}", "sensitivity_dbm: 30}",
+             "sensitivity_dbm must be below the antennas' transmit_power_dbm (30)"),
+            ("profiles: [reader.yaml]", "profiles: [tag.yaml]", "is a tag profile"),
+            ("profiles: [reader.yaml]", "profiles: [absent.yaml]", "no such file"),
+            ("cable_loss_db: 1", "cable_los_db: 1", "did you mean 'cable_loss_db'")):
+        text = replaced(PHYSICS, old, new)
+        expect_bad_scenario(context, new, text, says)
+    for name, file, text, says in (
+            ("a figure without a source", "tag.yaml", TAG_PROFILE.replace(', source: "a book"', ""),
+             "has no 'source'"),
+            ("a figure that is none", "tag.yaml", TAG_PROFILE.replace("gain_dbi", "gain_db"),
+             "did you mean 'gain_dbi'"),
+            ("a profile of no kind", "reader.yaml", READER_PROFILE.replace("reader\nf", "boat\nf"),
+             "'boat'")):
+        context.write(file, text)
+        expect_complaint(context, name, ["run", "base.yaml", "--out", stranger(context)], says,
+                         file=file)
+        context.write("tag.yaml", TAG_PROFILE)
+        context.write("reader.yaml", READER_PROFILE)
+
+
+@case
+def odd_physics_gets_warnings(context):
+    context.write("hall.sdf", HALL)
+    context.write("tag.yaml", TAG_PROFILE)
+    context.write("reader.yaml", READER_PROFILE)
+    for old, new, says in (
+            ("gain_dbi: 8", "gain_dbi: 14", "a gain of 14.0 dBi is more than"),
+            ("transmit_power_dbm: 30", "transmit_power_dbm: 33", "channel plan 'etsi_low' allows"),
+            ("materials: {walls: brick}", "materials: {wals: brick}", "no solid part"),
+            ("  materials: {walls: brick}\n", "", "materials are guessed from names")):
+        path = context.write("odd.yaml", replaced(PHYSICS, old, new))
+        result = context.run_well("run", path, "--no-page", "--out", context.folder / "out")
+        check_in(says, result.err, new)
+
+
 @case
 def missing_models_and_meshes(context):
     include = WORLD.replace("    <model", "    <include><uri>model://nobody</uri></include>\n"

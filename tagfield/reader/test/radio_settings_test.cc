@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -127,6 +130,17 @@ TEST(Settings, AllHaveAKeyOfTheirOwnAndSayWhatTheyAre) {
   }
   EXPECT_TRUE(is_antenna_setting("cable_loss_db"));
   EXPECT_FALSE(is_tag_setting("cable_loss_db"));
+}
+
+TEST(Settings, StandInTheirDocumentationWordForWord) {
+  std::ifstream file(TAGFIELD_SOURCE_DIR "/docs/radio_settings.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  for (const auto* settings : {&antenna_settings(), &tag_settings()}) {
+    for (const SettingHelp& setting : *settings) {
+      EXPECT_NE(page.find("| `" + setting.key + "` | "), std::string::npos) << setting.key;
+      EXPECT_NE(page.find(" | " + setting.meaning + " |"), std::string::npos) << setting.key;
+    }
+  }
 }
 
 }  // namespace
