@@ -6,7 +6,7 @@
 
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 

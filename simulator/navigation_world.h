@@ -13,7 +13,7 @@
 #include "simulator/scenario.h"
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/world/scene.h"
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 

@@ -5,7 +5,7 @@
 
 #include "navigation/keep_out.h"
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 namespace {

@@ -71,8 +71,9 @@ struct AirAntenna {
 namespace {
 
 RadioView view_of(const AirAntenna& antenna, const RadioWorld& world, const RigidTransform& X_WA,
-                  double frequency_hz, std::uint64_t seed) {
-  return view_from(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key, seed);
+                  double frequency_hz) {
+  return view_from(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key,
+                   antenna.port.seed);
 }
 
 /// Whether the antenna sends before its next update.
@@ -101,14 +102,16 @@ AirAntenna& RadioAir::antenna_named(const std::string& name) {
   throw Error(fmt::format("there is no antenna '{}' in the air", name));
 }
 
-void RadioAir::add(const AntennaParameters& parameters) {
+void RadioAir::add(const AntennaParameters& parameters, std::optional<std::uint64_t> seed) {
   auto antenna = std::make_unique<AirAntenna>();
   antenna->parameters = parameters;
-  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0, seed_};
+  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0,
+                   seed.value_or(seed_)};
   const RadioModel& model = antenna->model();
   if (takes_inventory(model)) {
-    antenna->inventory = std::make_unique<Inventory>(model.gen2->link, model.gen2->inventory,
-                                                     *memories_, seed_, antenna->port.antenna_key);
+    antenna->inventory =
+        std::make_unique<Inventory>(model.gen2->link, model.gen2->inventory, *memories_,
+                                    antenna->port.seed, antenna->port.antenna_key);
   }
   antennas_.push_back(std::move(antenna));
   plan_turns();
@@ -240,7 +243,7 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   for (const AirAntenna::Pending& read : antenna.pending) {
     const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
-    const RadioView view = view_of(antenna, *world_, X_WA_then, carrier.frequency_hz, seed_);
+    const RadioView view = view_of(antenna, *world_, X_WA_then, carrier.frequency_hz);
     const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot)};
     replies.push_back(report(antenna.model(), antenna.port, carrier, link_of(view, tag, paths_),
                              tag, velocity - tag_velocity(read.slot), read.stamp));
@@ -254,7 +257,7 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
                         const TagPopulation& tags, std::vector<TagReply>& replies) {
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-  const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+  const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
   for (const std::uint32_t slot : slots_) {
     const TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
@@ -273,7 +276,7 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
   field_.clear();
   if (has_turn_soon(antenna, cycles_, now)) {
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-    const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+    const RadioView view = view_of(antenna, *world_, X_WA, carrier.frequency_hz);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
     for (const std::uint32_t slot : slots_) {
       const TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};

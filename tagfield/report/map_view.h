@@ -9,7 +9,7 @@
 
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/report/axes.h"
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 

@@ -12,7 +12,7 @@
 #include "tagfield/reader/tag_read.h"
 #include "tagfield/report/summary.h"
 #include "tagfield/report/truth.h"
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 
