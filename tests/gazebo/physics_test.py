@@ -88,10 +88,11 @@ tags:
 """)
 
 
-def in_gazebo(context, path, events=""):
-    """Runs the scenario in Gazebo, with the cart and one tag on their way; the located run's folder."""
+def in_gazebo(context, path, events="", pace=0):
+    """Runs the scenario in Gazebo, with the cart and one tag on their way; gives the located run's
+    folder, what Gazebo said, and the schedule's log."""
     world = context.folder / f"{path.stem}.world"
-    context.run_well("gazebo", path, "--out", world)
+    context.run_well("gazebo", path, "--out", world, "--real-time", pace)
     folder = context.folder / path.stem
     log = context.folder / f"{path.stem}.log"
     motions = ('<move time="0" model="cart" velocity="0.6 -0.15 0"/>'
@@ -101,10 +102,11 @@ def in_gazebo(context, path, events=""):
     with Run(context, text, name=path.stem, record=True) as running:
         running.finish(log)
         said = running.log()
-    check("[Err]" not in said, f"Gazebo has errors: {said[-2000:]}")
-    context.run_well("localize", folder / "run.bag", "--scenario", path, "--no-page", "--out",
+    ours = [line for line in said.split("\n") if "[Err]" in line and "plugin" in line]
+    check_equal(ours, [], "the plugins' errors")
+    context.run_well("localize", folder / "run.bag", "--scenario", path, "--out",
                      folder / "located")
-    return folder / "located", said
+    return folder / "located", said, log.read_text(encoding="utf-8")
 
 
 def headless(context, path, run):
@@ -112,8 +114,9 @@ def headless(context, path, run):
     again = context.folder / f"{path.stem}_again"
     recorded = [word for antenna in ("gate", "cart") for word in
                 ("--set", f"antennas.{antenna}.recorded={run}/truth/antenna_poses.csv")]
-    context.run_well("run", path, "--out", again, "--no-page", *recorded,
-                     "--set", f"tag_recording={run}/truth/tags.csv")
+    # The last update is one step of physics behind the end.
+    context.run_well("run", path, "--out", again, "--no-page", *recorded, "--set",
+                     f"tag_recording={run}/truth/tags.csv", "--set", f"duration_s={SECONDS + 1}")
     return again
 
 
@@ -124,12 +127,12 @@ def reads_in(folder):
 
 def check_parity(context, model, settings, least):
     path = scenario(context, model, settings)
-    run, _ = in_gazebo(context, path)
+    run, _, _ = in_gazebo(context, path)
     expected = reads_in(run)
     actual = reads_in(headless(context, path, run))
     check(len(expected) >= least, f"only {len(expected)} reads")
     check_equal({read[2] for read in expected}, {"gate", "cart"}, "antennas that read")
-    check_in("mover", {read[3] for read in expected}, "tags that were read")
+    check("mover" in {read[3] for read in expected}, "the tag that moves was never read")
     check_equal(len(actual), len(expected), "reads in the replay")
     differing = [pair for pair in zip(expected, actual) if pair[0] != pair[1]]
     check(not differing, f"{len(differing)} of {len(expected)} reads differ, as {differing[:2]}")
@@ -164,7 +167,7 @@ def multipath_with_inventory_is_the_same(context):
 @case
 def without_noise_and_steps_the_waves_are_the_same(context):
     path = scenario(context, "multipath", "without: [noise, quantization, half_turns]")
-    run, _ = in_gazebo(context, path)
+    run, _, _ = in_gazebo(context, path)
     expected = reads_in(run)
     actual = reads_in(headless(context, path, run))
     check(len(expected) > 500, f"only {len(expected)} reads")
@@ -175,6 +178,11 @@ def without_noise_and_steps_the_waves_are_the_same(context):
         check_near(float(other[6]), float(one[6]), 1e-6, f"power of {one}")
 
 
+def seconds_of(events, log):
+    """When the schedule saw an event [s]."""
+    return [int(line.split()[0]) * 1e-9 for line in log.split("\n") if line.endswith(events)][0]
+
+
 @case
 def models_that_come_and_go_shade_the_tags(context):
     """A metal screen around the gate for a second; what can move is no wall."""
@@ -183,10 +191,13 @@ def models_that_come_and_go_shade_the_tags(context):
     loose = loose.replace("<static>1</static>", "")
     path = scenario(context, "link_budget", "channel_plan: etsi_low")
     events = insert(1, loose) + insert(2, screen) + remove(3, "metal_screen")
-    run, said = in_gazebo(context, path, events)
+    # Gazebo lets models come and go ten times a second of wall time.
+    run, said, log = in_gazebo(context, path, events, pace=1)
     stamps = [float(read[0]) for read in reads_in(run) if read[2] == "gate"]
-    for begin, end, is_open in ((0.0, 1.9, True), (2.4, 2.9, False), (3.4, 4.9, True)):
-        found = [stamp for stamp in stamps if begin <= stamp < end]
+    comes, goes = seconds_of("+ metal_screen", log), seconds_of("- metal_screen", log)
+    check(seconds_of("+ loose", log) < comes - 0.2 < goes - 0.4 < SECONDS - 0.6, log)
+    for begin, end, is_open in ((0, comes, True), (comes, goes, False), (goes, SECONDS, True)):
+        found = [stamp for stamp in stamps if begin < stamp < end]
         check(bool(found) == is_open, f"{len(found)} reads from {begin} s to {end} s")
     check_in("materials are guessed from names", said, "the log")
 
