@@ -6,7 +6,6 @@
 #include <chrono>
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/physics.hh>
-#include <limits>
 #include <utility>
 
 #include "adapters/gazebo_classic/conversions.h"
@@ -61,7 +60,6 @@ void RfidWorld::remove_tags(Handle handle) {
   if (group.told) removed_.insert(removed_.end(), group.numbers.begin(), group.numbers.end());
   free_numbers_.insert(free_numbers_.end(), group.numbers.begin(), group.numbers.end());
   groups_.erase(found);
-  watches_all_ = false;
 }
 
 bool RfidWorld::has_antenna(const std::string& name) const {
@@ -155,7 +153,6 @@ void RfidWorld::set_up(Antenna& antenna, Time now) {
 void RfidWorld::find_links(Time now) {
   if (all_found_) return;
   all_found_ = true;
-  watches_all_ = false;
   const auto find = [&](auto& entry, const std::string& link_name, const auto& set_up_entry,
                         const char* consequence) {
     if (entry.link || entry.refused) return;
@@ -241,31 +238,18 @@ void RfidWorld::gather_world(FieldStep& step) {
       FieldWorld{solids_.gather(), materials_.value_or(RadioWorldOptions{})});
 }
 
-void RfidWorld::watch_links() {
-  if (watches_all_) return;
-  watches_all_ = true;
-  watched_.clear();
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const TagGroup& group = groups_[i];
-    if (!group.link) continue;
-    watched_.push_back({&group.link->WorldPose(), group.X_WL, i});
-    if (!group.told) watched_.back().X_WL.Pos().X(kNone);
-  }
-}
-
 void RfidWorld::gather_tags(FieldStep& step) {
-  watch_links();
-  for (Watched& watched : watched_) {
-    if (is_same(*watched.now, watched.X_WL) || !watched.now->IsFinite()) continue;
-    tell(watched, step);
+  for (TagGroup& group : groups_) {
+    if (!group.link) continue;
+    const ignition::math::Pose3d& pose = group.link->WorldPose();
+    if ((group.told && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
+    group.X_WL = pose;
+    tell(group, step);
   }
 }
 
-void RfidWorld::tell(Watched& watched, FieldStep& step) {
-  TagGroup& group = groups_[watched.group];
-  watched.X_WL = *watched.now;
-  group.X_WL = watched.X_WL;
+/// Adds the group's tags, or moves them.
+void RfidWorld::tell(TagGroup& group, FieldStep& step) {
   const RigidTransform X_WL = from_gazebo(group.X_WL);
   for (std::size_t i = 0; i < group.tags.size(); ++i) {
     const TagOnLink& tag = group.tags[i];

@@ -101,13 +101,6 @@ class RfidWorld {
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
-  /// What is looked at of a group in each update, side by side for all: one after the other in
-  /// memory they take a fifth of the time.
-  struct Watched {
-    const ignition::math::Pose3d* now;  ///< In Gazebo's link.
-    ignition::math::Pose3d X_WL;        ///< NaN until it was told of.
-    std::size_t group;                  ///< Index into `groups_`.
-  };
   struct Antenna {
     AntennaOnLink on_link;
     gazebo::physics::LinkPtr link;    ///< None until it is found.
@@ -126,9 +119,8 @@ class RfidWorld {
   [[nodiscard]] bool is_due(Time now) const;
   FieldStep gather(Time now);
   void gather_world(FieldStep& step);
-  void watch_links();
   void gather_tags(FieldStep& step);
-  void tell(Watched& watched, FieldStep& step);
+  static void tell(TagGroup& group, FieldStep& step);
   void gather_antennas(FieldStep& step);
   void set_due(Antenna& antenna, Time from) const;
   std::uint32_t free_number();
@@ -140,8 +132,6 @@ class RfidWorld {
   mutable std::mutex mutex_;
   Handle next_handle_ = 1;
   std::vector<TagGroup> groups_;  ///< In rising order of handles.
-  std::vector<Watched> watched_;
-  bool watches_all_ = true;  ///< Whether `watched_` is of all groups that have a link.
   std::map<Handle, Antenna> antennas_;
   bool all_found_ = true;  ///< All links.
   std::set<std::string> ids_;
