@@ -1,12 +1,13 @@
-# tagfield_room(NAME SOURCES a.cc … LINKS room … PRIVATE library … HEADERS <header> … TESTS a_test.cc …
-#               TEST_PARTS n)
+# tagfield_room(NAME [ONE_BY_ONE] SOURCES a.cc … LINKS room … PRIVATE library … HEADERS <header> …
+#               TESTS a_test.cc … TEST_PARTS n)
 #
 # One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
 # links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
 # sources and are included by their path from the top of the source tree. HEADERS are those of libraries
-# that many of its sources include and other rooms don't.
+# that many of its sources include and other rooms don't. ONE_BY_ONE says that its sources can't be
+# compiled as one, as names of theirs stand for several things.
 function(tagfield_room name)
-  cmake_parse_arguments(ROOM "" "TEST_PARTS" "SOURCES;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
+  cmake_parse_arguments(ROOM "ONE_BY_ONE" "TEST_PARTS" "SOURCES;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
   set(target tagfield_${name})
   add_library(${target} STATIC ${ROOM_SOURCES})
   add_library(tagfield::${name} ALIAS ${target})
@@ -16,8 +17,8 @@ function(tagfield_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE})
   tagfield_warnings(${target})
-  # For the plugins the core is compiled once more; there each room at one go.
-  if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
+  # For the plugins the core is compiled once more; there each room at one go, if it can be.
+  if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND AND NOT ROOM_ONE_BY_ONE)
     tagfield_compile_together(${target})
   else()
     tagfield_read_headers_once(${target} ${ROOM_HEADERS})

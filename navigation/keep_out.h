@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tagfield/map/occupancy_grid.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

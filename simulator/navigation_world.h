@@ -12,8 +12,8 @@
 #include "simulator/robot_senses.h"
 #include "simulator/scenario.h"
 #include "tagfield/map/occupancy_grid.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/world/scene.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

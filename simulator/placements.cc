@@ -17,7 +17,9 @@ AntennaSpec antenna_of(const Placement& placement, Diagnostics& diagnostics) {
 
 TagSpec tag_of(const Placement& placement, Diagnostics& diagnostics) {
   TagSpec tag;
-  tag.id = epc_from(placement.parameters, diagnostics).value_or(placement.name);
+  const SensorTag described = tag_from(placement.parameters, placement.location, diagnostics);
+  tag.id = described.epc.value_or(placement.name);
+  tag.model = described.model;
   tag.motion = {{Time{}, placement.X_WS}};
   tag.location = placement.location;
   return tag;

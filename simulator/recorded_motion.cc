@@ -49,9 +49,14 @@ std::vector<RecordedTag> read_recorded_tags(const std::string& path) {
 }
 
 void replay(const RecordedTag& recorded, TagSpec& tag) {
+  // The table tells places alone.
+  const bool is_turned = tag.on.empty() && !tag.motion.empty();
+  const Eigen::Quaterniond R_WT =
+      is_turned ? tag.motion.front().X_WB.rotation : Eigen::Quaterniond::Identity();
   tag.id = recorded.id;
   tag.on.clear();
   tag.motion = recorded.motion;
+  for (StampedPose& pose : tag.motion) pose.X_WB.rotation = R_WT;
   tag.in_steps = true;
   tag.appears = recorded.motion.front().stamp;
 }

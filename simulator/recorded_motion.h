@@ -17,7 +17,8 @@ Trajectory read_recorded_antenna(const std::string& path, const std::string& ant
 /// Gives the tags the motions in a table of positions (`stamp_s,tag,x_m,y_m,z_m`): each row holds
 /// from its stamp until the tag's next. A tag of the table appears with its first row, and is added
 /// at the end of `tags` if it is not among them; its position there, and what it was on, no longer
-/// count. Throws Error as read_recorded_antenna().
+/// count. It stays turned as it first is in the world, and as the world is where it was on a robot.
+/// Throws Error as read_recorded_antenna().
 void replay_tags(const std::string& path, std::vector<TagSpec>& tags);
 
 /// Latest stamp of all recorded antennas; none where no antenna is recorded.

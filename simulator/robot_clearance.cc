@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "navigation/keep_out.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 namespace {

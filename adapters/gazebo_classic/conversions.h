@@ -14,10 +14,21 @@ inline Time from_gazebo(const gazebo::common::Time& time) {
   return Time(std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec));
 }
 
+inline Eigen::Vector3d from_gazebo(const ignition::math::Vector3d& v) {
+  return {v.X(), v.Y(), v.Z()};
+}
+
 /// The pose of Gazebo's link or sensor; both mean p_A = X_AB * p_B.
 inline RigidTransform from_gazebo(const ignition::math::Pose3d& pose) {
   return {Eigen::Quaterniond(pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()),
-          Eigen::Vector3d(pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z())};
+          from_gazebo(pose.Pos())};
+}
+
+/// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
+inline bool is_same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
+  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() &&
+         a.Rot().W() == b.Rot().W() && a.Rot().X() == b.Rot().X() && a.Rot().Y() == b.Rot().Y() &&
+         a.Rot().Z() == b.Rot().Z();
 }
 
 }  // namespace tagfield

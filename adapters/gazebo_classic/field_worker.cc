@@ -62,6 +62,9 @@ void FieldWorker::take(const FieldStep& step) {
   const double begin = cpu_time_s();
   try {
     field_.step(step);
+    for (const std::string& warning : field_.take_warnings()) {
+      gzwarn << "Tagfield: " << warning << "\n";
+    }
   } catch (const std::exception& error) {
     // Nothing that comes of reads may end the simulation.
     gzerr << "Tagfield: " << error.what() << "\n";

@@ -28,10 +28,7 @@ void lay_over(std::vector<RawParameter>& below, const std::vector<RawParameter>&
 std::vector<sdf::ElementPtr> plugins_of(gazebo::physics::Model& model,
                                         const std::string& filename) {
   std::vector<sdf::ElementPtr> found;
-  const sdf::ElementPtr description = model.GetSDF();
-  if (!description->HasElement("plugin")) return found;
-  for (sdf::ElementPtr plugin = description->GetElement("plugin"); plugin;
-       plugin = plugin->GetNextElement("plugin")) {
+  for (const sdf::ElementPtr& plugin : children(model.GetSDF(), "plugin")) {
     const auto file = plugin->Get<std::string>("filename");
     if (file.find(filename) != std::string::npos) found.push_back(plugin);
   }
@@ -39,6 +36,16 @@ std::vector<sdf::ElementPtr> plugins_of(gazebo::physics::Model& model,
 }
 
 }  // namespace
+
+std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name) {
+  std::vector<sdf::ElementPtr> found;
+  if (!parent || !parent->HasElement(name)) return found;
+  for (sdf::ElementPtr child = parent->GetElement(name); child;
+       child = child->GetNextElement(name)) {
+    found.push_back(child);
+  }
+  return found;
+}
 
 std::vector<RawParameter> parameters_in(const sdf::ElementPtr& plugin) {
   std::vector<RawParameter> parameters;

@@ -12,6 +12,9 @@
 
 namespace tagfield {
 
+/// The children of `parent`, which may be null, that are called `name`.
+std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name);
+
 /// The parameters in a plugin's element; those inside others (`<path><waypoint>`) stand for
 /// themselves.
 std::vector<RawParameter> parameters_in(const sdf::ElementPtr& plugin);

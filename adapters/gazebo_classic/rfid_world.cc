@@ -18,19 +18,13 @@ constexpr const char* kWorldFrame = "world";
 /// Simulated time in which a fault may pass.
 constexpr Duration kPatience = std::chrono::milliseconds(200);
 
-/// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
-bool same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
-  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() &&
-         a.Rot().W() == b.Rot().W() && a.Rot().X() == b.Rot().X() && a.Rot().Y() == b.Rot().Y() &&
-         a.Rot().Z() == b.Rot().Z();
-}
-
 }  // namespace
 
 RfidWorld::RfidWorld(const gazebo::physics::WorldPtr& world,
                      std::vector<std::unique_ptr<FieldListener>> listeners,
                      std::function<void(Time)> on_step)
     : world_(world),
+      solids_(world),
       on_step_(std::move(on_step)),
       worker_(std::move(listeners)),
       connection_(gazebo::event::Events::ConnectWorldUpdateEnd([this] { after_step(); })) {}
@@ -86,6 +80,7 @@ RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
   const std::lock_guard lock(mutex_);
   // At once, so that its topics can be subscribed to while the world is paused.
   FieldStep step;
+  step.antennas_removed.swap(antennas_removed_);  // One of them may have had the name.
   step.antennas_added = {std::make_shared<const FieldAntenna>(antenna.antenna)};
   worker_.post(std::move(step));
   Antenna entry;
@@ -101,6 +96,13 @@ void RfidWorld::remove_antenna(Handle handle) {
   if (found == antennas_.end()) return;
   antennas_removed_.push_back(found->second.on_link.antenna.parameters.name);
   antennas_.erase(found);
+}
+
+void RfidWorld::set_materials(RadioWorldOptions materials) {
+  const std::lock_guard lock(mutex_);
+  if (materials_) throw Error("the world's materials are told already by another plugin");
+  materials_ = std::move(materials);
+  solids_.forget();
 }
 
 FieldCost RfidWorld::cost() const {
@@ -222,26 +224,42 @@ FieldStep RfidWorld::gather(Time now) {
   step.antennas_removed.swap(antennas_removed_);
   gather_tags(step);
   gather_antennas(step);
+  gather_world(step);
   return step;
+}
+
+/// What stands in the world is copied here and made ready for waves by the worker.
+void RfidWorld::gather_world(FieldStep& step) {
+  const bool is_of_use = std::any_of(step.due.begin(), step.due.end(), [](const AntennaDue& due) {
+    return due.antenna->parameters.radio != nullptr;
+  });
+  if (!is_of_use || !solids_.has_changed()) return;
+  step.world = std::make_shared<const FieldWorld>(
+      FieldWorld{solids_.gather(), materials_.value_or(RadioWorldOptions{})});
 }
 
 void RfidWorld::gather_tags(FieldStep& step) {
   for (TagGroup& group : groups_) {
     if (!group.link) continue;
     const ignition::math::Pose3d& pose = group.link->WorldPose();
-    if ((group.told && same(pose, group.X_WL)) || !pose.IsFinite()) continue;
+    if ((group.told && is_same(pose, group.X_WL)) || !pose.IsFinite()) continue;
     group.X_WL = pose;
-    const RigidTransform X_WL = from_gazebo(pose);
-    for (std::size_t i = 0; i < group.tags.size(); ++i) {
-      const Eigen::Vector3d p_WT = X_WL * group.tags[i].p_LT;
-      if (group.told) {
-        step.moved.push_back({group.numbers[i], p_WT});
-      } else {
-        step.added.push_back({group.numbers[i], group.tags[i].id, group.tags[i].label, p_WT});
-      }
-    }
-    group.told = true;
+    tell(group, step);
   }
+}
+
+/// Adds the group's tags, or moves them.
+void RfidWorld::tell(TagGroup& group, FieldStep& step) {
+  const RigidTransform X_WL = from_gazebo(group.X_WL);
+  for (std::size_t i = 0; i < group.tags.size(); ++i) {
+    const TagOnLink& tag = group.tags[i];
+    if (group.told) {
+      step.moved.push_back({group.numbers[i], X_WL * tag.X_LT});
+    } else {
+      step.added.push_back({group.numbers[i], tag.id, tag.label, X_WL * tag.X_LT, tag.model});
+    }
+  }
+  group.told = true;
 }
 
 void RfidWorld::gather_antennas(FieldStep& step) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "adapters/gazebo_classic/field_worker.h"
+#include "adapters/gazebo_classic/static_scene.h"
 #include "tagfield/reader/rfid_field.h"
 
 namespace tagfield {
@@ -24,7 +25,8 @@ namespace tagfield {
 struct TagOnLink {
   std::string id;
   std::string label;
-  Eigen::Vector3d p_LT;  ///< [m]
+  RigidTransform X_LT;
+  std::shared_ptr<const TagModel> model;  ///< Its kind, where it is told.
 };
 
 /// Tags that come and go together.
@@ -79,6 +81,10 @@ class RfidWorld {
   Handle add_antenna(AntennaOnLink antenna);
   void remove_antenna(Handle handle);
 
+  /// What the world is made of, for physical models; guessed from names where it is not told.
+  /// Throws Error if it was told already.
+  void set_materials(RadioWorldOptions materials);
+
   /// Whether an antenna has this name.
   [[nodiscard]] bool has_antenna(const std::string& name) const;
   [[nodiscard]] FieldCost cost() const;
@@ -90,7 +96,7 @@ class RfidWorld {
     gazebo::physics::LinkPtr link;  ///< None until it is found.
     std::optional<Time> faulty_since;
     bool refused = false;         ///< For an error that was told.
-    ignition::math::Pose3d X_WL;  ///< At the last update.
+    ignition::math::Pose3d X_WL;  ///< When it was told of last.
     bool told = false;            ///< Whether its tags were added to the field.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
@@ -112,12 +118,16 @@ class RfidWorld {
   [[nodiscard]] gazebo::physics::LinkPtr find_link(const std::string& name) const;
   [[nodiscard]] bool is_due(Time now) const;
   FieldStep gather(Time now);
+  void gather_world(FieldStep& step);
   void gather_tags(FieldStep& step);
+  static void tell(TagGroup& group, FieldStep& step);
   void gather_antennas(FieldStep& step);
   void set_due(Antenna& antenna, Time from) const;
   std::uint32_t free_number();
 
   gazebo::physics::WorldPtr world_;
+  StaticScene solids_;
+  std::optional<RadioWorldOptions> materials_;
   std::function<void(Time)> on_step_;
   mutable std::mutex mutex_;
   Handle next_handle_ = 1;

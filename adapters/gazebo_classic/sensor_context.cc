@@ -11,17 +11,6 @@
 namespace tagfield {
 namespace {
 
-/// The children called `name`.
-std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name) {
-  std::vector<sdf::ElementPtr> found;
-  if (!parent || !parent->HasElement(name)) return found;
-  for (sdf::ElementPtr child = parent->GetElement(name); child;
-       child = child->GetNextElement(name)) {
-    found.push_back(child);
-  }
-  return found;
-}
-
 /// Names of the tags on a link.
 std::vector<std::string> tags_on(const sdf::ElementPtr& link) {
   std::vector<std::string> names;

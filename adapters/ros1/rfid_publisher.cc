@@ -46,11 +46,12 @@ tagfield_msgs::TagReads reads_message(const AntennaUpdate& update) {
   message.reads.reserve(update.replies.size());
   for (const TagReply& reply : update.replies) {
     tagfield_msgs::TagRead read;
-    read.header = message.header;
+    read.header.frame_id = message.header.frame_id;
+    read.header.stamp = to_ros(reply.stamp);
     read.epc = update.tags.population.id(reply.slot);
     read.reader = antenna.reader;
     read.antenna = antenna.name;
-    read.frequency = antenna.model.frequency_hz;
+    read.frequency = reply.frequency_hz;
     read.phase = reply.phase_rad;
     read.rssi = reply.rssi_dbm;
     message.reads.push_back(std::move(read));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 namespace tagfield {
 namespace {

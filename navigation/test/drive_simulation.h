@@ -13,8 +13,8 @@
 
 #include "navigation/goal_driver.h"
 #include "tagfield/laser/simulated_laser.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield::testing {
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "simulator/internal/yaml_values.h"
 #include "simulator/profile.h"
 
@@ -11,7 +14,9 @@ namespace {
 
 void append_profile(const YamlValue& file, std::vector<ProfileKind> kinds,
                     std::vector<RawParameter>& parameters) {
-  const Profile profile = read_profile(resolve_path(file));
+  const std::string path = resolve_path(file);
+  if (!std::filesystem::exists(path)) file.fail(fmt::format("there is no file '{}'", path));
+  const Profile profile = read_profile(path);
   if (std::find(kinds.begin(), kinds.end(), profile.kind) == kinds.end()) {
     file.fail(
         fmt::format("is a {} profile, expected {}",

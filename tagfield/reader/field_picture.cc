@@ -8,6 +8,11 @@ namespace {
 constexpr Duration kLately = std::chrono::seconds(1);
 constexpr double kLeastAlpha = 0.25;
 
+/// A physical model has none of its own: as far as free space and the usual tag allow.
+double nominal_range_m(const AntennaParameters& antenna) {
+  return antenna.radio ? most_range_m(*antenna.radio, *default_tag_model()) : antenna.range_m;
+}
+
 }  // namespace
 
 ReadColor read_color(double share) {
@@ -46,8 +51,8 @@ void FieldPicture::see(const AntennaUpdate& update) {
 }
 
 void FieldPicture::antenna_updated(const AntennaUpdate& update) {
-  antennas_[update.antenna.parameters.name] = {update.antenna.frame_id, update.X_WA,
-                                               update.antenna.parameters.range_m};
+  const AntennaParameters& antenna = update.antenna.parameters;
+  antennas_[antenna.name] = {update.antenna.frame_id, update.X_WA, nominal_range_m(antenna)};
   see(update);
   const bool reset = update.stamp < drawn_;
   if (!reset && drawn_ != Time::min() && update.stamp < drawn_ + interval_) return;

@@ -79,8 +79,9 @@ struct AirAntenna {
 namespace {
 
 RadioView bare_view_of(const AirAntenna& antenna, const RadioWorld& world,
-                       const RigidTransform& X_WA, double frequency_hz, std::uint64_t seed) {
-  return bare_view(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key, seed);
+                       const RigidTransform& X_WA, double frequency_hz) {
+  return bare_view(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key,
+                   antenna.port.seed);
 }
 
 /// `kept` if it is of this place, and is made anew otherwise.
@@ -120,6 +121,16 @@ RadioAir::~RadioAir() = default;
 RadioAir::RadioAir(RadioAir&&) noexcept = default;
 RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
 
+void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
+  world_ = std::move(world);
+  // Images are of the world that was.
+  tag_images_ = ImageCache(kMostImageBytes);
+  for (const auto& antenna : antennas_) {
+    antenna->images.reset();
+    antenna->receiver_images.reset();
+  }
+}
+
 AirAntenna& RadioAir::antenna_named(const std::string& name) {
   for (const auto& antenna : antennas_) {
     if (antenna->parameters.name == name) return *antenna;
@@ -127,14 +138,16 @@ AirAntenna& RadioAir::antenna_named(const std::string& name) {
   throw Error(fmt::format("there is no antenna '{}' in the air", name));
 }
 
-void RadioAir::add(const AntennaParameters& parameters) {
+void RadioAir::add(const AntennaParameters& parameters, std::optional<std::uint64_t> seed) {
   auto antenna = std::make_unique<AirAntenna>();
   antenna->parameters = parameters;
-  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0, seed_};
+  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0,
+                   seed.value_or(seed_)};
   const RadioModel& model = antenna->model();
   if (takes_inventory(model)) {
-    antenna->inventory = std::make_unique<Inventory>(model.gen2->link, model.gen2->inventory,
-                                                     *memories_, seed_, antenna->port.antenna_key);
+    antenna->inventory =
+        std::make_unique<Inventory>(model.gen2->link, model.gen2->inventory, *memories_,
+                                    antenna->port.seed, antenna->port.antenna_key);
   }
   antennas_.push_back(std::move(antenna));
   plan_turns();
@@ -265,7 +278,7 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
   for (const AirAntenna::Pending& read : antenna.pending) {
     const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
-    RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz, seed_);
+    RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz);
     const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
     if (images == nullptr) add_images(antenna, view);
     const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
@@ -304,7 +317,7 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
                         const TagPopulation& tags, std::vector<TagReply>& replies) {
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-  RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+  RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
   for (const std::uint32_t slot : slots_) {
     const TagEnd tag = tag_end(antenna, slot, tags, view);
@@ -323,7 +336,7 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
   field_.clear();
   if (has_turn_soon(antenna, cycles_, now)) {
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-    RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz, seed_);
+    RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
     for (const std::uint32_t slot : slots_) {
       const TagEnd tag = tag_end(antenna, slot, tags, view);

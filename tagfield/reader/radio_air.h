@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/gen2/inventory.h"
@@ -33,10 +34,12 @@ class RadioAir {
   RadioAir& operator=(RadioAir&&) noexcept;
 
   /// From its next update on; `antenna.radio` must be set. Readers take their antennas' turns in
-  /// the order in which they came.
-  void add(const AntennaParameters& antenna);
+  /// the order in which they came. Its draws come from `seed`, or from that of all.
+  void add(const AntennaParameters& antenna, std::optional<std::uint64_t> seed = std::nullopt);
   /// Nothing where there is no such antenna.
   void remove(const std::string& antenna);
+  /// The world is another one from now on; must not be null.
+  void set_world(std::shared_ptr<const RadioWorld> world);
   /// Before the slot is another tag's.
   void forget_tag(std::uint32_t slot);
 

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/raw_parameter.h"
 #include "tagfield/channel/antenna_pattern.h"
 #include "tagfield/channel/path_gain.h"
 #include "tagfield/gen2/inventory_settings.h"
@@ -86,6 +88,9 @@ struct RadioModel {
   double phase_offset_rad = 0.0;  ///< φ0, on top of what channels and ports add.
   std::optional<Gen2Reader> gen2;
   AirSharing sharing = AirSharing::kChannel;
+  /// What it was made of, for whoever writes it down: `model`, and keys of radio_settings.h in the
+  /// order in which they were applied.
+  std::vector<RawParameter> settings{};
 };
 
 /// Throws Error naming the parameter that is out of its range; what is odd is warned of: more
@@ -99,6 +104,7 @@ struct TagModel {
   double sensitivity_dbm = -18.0;  ///< Least power at the chip that makes it answer.
   double modulation_db = -5.0;     ///< Backscattered over absorbed power; 0 or less.
   double detuning_db = 0.0;        ///< Loss by what the tag is mounted on, each way; 0 or more.
+  std::vector<RawParameter> settings{};  ///< What it was made of, as of RadioModel.
 };
 
 /// Throws Error naming the parameter that is out of its range.

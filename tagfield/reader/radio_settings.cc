@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -388,13 +390,27 @@ AntennaDraft default_draft(PropagationModel model) {
   return draft;
 }
 
+/// In the order of PropagationModel.
+constexpr std::array<const char*, 3> kModels = {"paper", "link_budget", "multipath"};
+
+/// Those of the table, which alone were applied.
+template <class T>
+void add_settings(const std::vector<Setting<T>>& table, const std::vector<RawParameter>& parameters,
+                  std::vector<RawParameter>& settings) {
+  std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(settings),
+               [&](const RawParameter& p) { return find(table, p.key) != nullptr; });
+}
+
 }  // namespace
 
+const char* to_string(PropagationModel model) {
+  return kModels.at(static_cast<std::size_t>(model));
+}
+
 PropagationModel propagation_model(const RawParameter& parameter) {
-  constexpr PropagationModel kAll[] = {PropagationModel::kPaper, PropagationModel::kLinkBudget,
-                                       PropagationModel::kMultipath};
   try {
-    return kAll[choice_in(parameter.value, {"paper", "link_budget", "multipath"})];
+    return static_cast<PropagationModel>(
+        choice_in(parameter.value, {kModels.begin(), kModels.end()}));
   } catch (const Error& error) {
     fail(parameter.location, fmt::format("{} {}", parameter.key, error.what()));
   }
@@ -426,6 +442,8 @@ std::shared_ptr<const RadioModel> radio_model_from(PropagationModel model,
     draft.model.effects.diffuse = false;
   }
   check_at(draft.model, parameters, location, diagnostics);
+  draft.model.settings = {{"model", to_string(model), location}};
+  add_settings(antenna_table(), parameters, draft.model.settings);
   return std::make_shared<const RadioModel>(draft.model);
 }
 
@@ -436,6 +454,7 @@ std::shared_ptr<const TagModel> tag_model_from(const std::string& name,
   tag.name = name;
   apply(tag_table(), parameters, tag);
   check_at(tag, parameters, location, diagnostics);
+  add_settings(tag_table(), parameters, tag.settings);
   return std::make_shared<const TagModel>(tag);
 }
 

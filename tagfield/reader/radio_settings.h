@@ -17,6 +17,7 @@ enum class PropagationModel { kPaper, kLinkBudget, kMultipath };
 
 /// "paper", "link_budget" or "multipath". Throws Error on another word.
 PropagationModel propagation_model(const RawParameter& parameter);
+const char* to_string(PropagationModel model);
 
 /// A key, its unit and meaning.
 struct SettingHelp {

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/channel/radio_world.h"
 #include "tagfield/poses/rigid_transform.h"
+#include "tagfield/reader/radio_air.h"
 #include "tagfield/reader/tag_population.h"
 
 namespace tagfield {
@@ -29,12 +31,19 @@ struct TagAdded {
   std::uint32_t number = 0;
   std::string id;     ///< Unique among the tags present.
   std::string label;  ///< What the other simulator calls it.
-  Eigen::Vector3d p_WT;
+  RigidTransform X_WT;
+  std::shared_ptr<const TagModel> model{};  ///< Its kind; default_tag_model() where it is null.
 };
 
 struct TagMoved {
   std::uint32_t number = 0;
-  Eigen::Vector3d p_WT;
+  RigidTransform X_WT;
+};
+
+/// What stands in the other simulator's world, for physical models.
+struct FieldWorld {
+  Scene scene;
+  RadioWorldOptions materials;
 };
 
 /// An antenna to be updated.
@@ -44,8 +53,8 @@ struct AntennaDue {
   std::optional<RigidTransform> X_PA;  ///< In its parent frame, where it has one.
 };
 
-/// What happened up to `stamp`: first antennas and tags went, then came, then tags moved, and then
-/// antennas update.
+/// What happened up to `stamp`: first antennas and tags went, then the world changed, then antennas
+/// and tags came, then tags moved, and then antennas update.
 struct FieldStep {
   Time stamp;
   std::vector<std::uint32_t> removed;
@@ -54,6 +63,7 @@ struct FieldStep {
   std::vector<AntennaDue> due;
   std::vector<std::string> antennas_removed;  ///< Names.
   std::vector<std::shared_ptr<const FieldAntenna>> antennas_added;
+  std::shared_ptr<const FieldWorld> world;  ///< Null where it is the one before; at first empty.
 };
 
 /// All tags present, with their labels by slot.
@@ -91,28 +101,44 @@ class FieldListener {
   virtual void antenna_removed(const std::string& antenna) = 0;
 };
 
-/// Takes the steps. Not thread-safe.
+/// Takes the steps. Antennas of physical models share one air; they must be added before they
+/// update, and when time goes back they begin anew. Not thread-safe.
 class RfidField {
  public:
   explicit RfidField(std::vector<std::unique_ptr<FieldListener>> listeners);
 
-  /// Applies the step and tells the listeners. Positions that are not finite are left out: a tag
-  /// stays where it was, an antenna skips its update. Throws Error on a tag ID that is present
-  /// already or a number that is not.
+  /// Applies the step and tells the listeners. Poses that are not finite are left out: a tag stays
+  /// where it was, an antenna skips its update. Throws Error on a tag ID that is present already or
+  /// a number that is not.
   void step(const FieldStep& step);
+
+  /// What was odd since the last call, each only once: guessed materials, a world that can't be
+  /// made ready for waves, which then stays the one before.
+  std::vector<std::string> take_warnings();
 
   /// Made so far.
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
+  void add_antenna(const std::shared_ptr<const FieldAntenna>& antenna);
+  void remove_antenna(const std::string& antenna);
+  void set_world(const FieldWorld& world);
+  void begin_anew();
   void remove(std::uint32_t number);
   void add(const TagAdded& tag);
   void move(const std::vector<TagMoved>& moved);
   void update(const AntennaDue& due, Time stamp);
+  void read(const AntennaDue& due, Time stamp);
   [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const;
 
   std::vector<std::unique_ptr<FieldListener>> listeners_;
   FieldTags tags_;
+  std::vector<std::shared_ptr<const FieldAntenna>> physical_;  ///< As they came.
+  std::shared_ptr<const RadioWorld> world_;  ///< Made when the first physical antenna comes.
+  std::optional<RadioAir> air_;              ///< Likewise.
+  std::optional<Time> updated_;              ///< Stamp of the last step in which antennas were due.
+  Diagnostics diagnostics_;
+  std::size_t warnings_taken_ = 0;
   std::vector<std::optional<std::uint32_t>> slots_;  ///< By number.
   std::vector<std::uint32_t> moved_slots_;           ///< Kept to save allocations.
   std::vector<TagReply> replies_;                    ///< Likewise.

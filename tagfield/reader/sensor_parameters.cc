@@ -10,6 +10,7 @@
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
+#include "tagfield/reader/sensor_radio.h"
 
 namespace tagfield {
 namespace {
@@ -24,22 +25,26 @@ double number_of(const RawParameter& parameter, const std::string& text) {
 
 struct NumberSetting {
   const char* key;
-  bool published;  ///< And so to be missed where it is not given.
+  bool published;  ///< And so to be missed where it is not given,
+  bool physical;   ///< by physical models too.
   double& (*field)(AntennaParameters&);
 };
 
 const std::array<NumberSetting, 8>& number_settings() {
   static const std::array<NumberSetting, 8> all = {{
-      {"frequency", true, [](AntennaParameters& a) -> double& { return a.model.frequency_hz; }},
-      {"noisephi", true, [](AntennaParameters& a) -> double& { return a.model.phase_noise_rad; }},
-      {"noiserssi", true, [](AntennaParameters& a) -> double& { return a.model.rssi_noise; }},
-      {"range", true, [](AntennaParameters& a) -> double& { return a.range_m; }},
-      {"communication_gain", true,
+      {"frequency", true, true,
+       [](AntennaParameters& a) -> double& { return a.model.frequency_hz; }},
+      {"noisephi", true, false,
+       [](AntennaParameters& a) -> double& { return a.model.phase_noise_rad; }},
+      {"noiserssi", true, false,
+       [](AntennaParameters& a) -> double& { return a.model.rssi_noise; }},
+      {"range", true, false, [](AntennaParameters& a) -> double& { return a.range_m; }},
+      {"communication_gain", true, false,
        [](AntennaParameters& a) -> double& { return a.model.communication_gain; }},
-      {"update_rate", true, [](AntennaParameters& a) -> double& { return a.rate_hz; }},
-      {"phase_offset", false,
+      {"update_rate", true, true, [](AntennaParameters& a) -> double& { return a.rate_hz; }},
+      {"phase_offset", false, true,
        [](AntennaParameters& a) -> double& { return a.model.phase_offset_rad; }},
-      {"range_sigma", false, [](AntennaParameters& a) -> double& { return a.range_sigma; }},
+      {"range_sigma", false, false, [](AntennaParameters& a) -> double& { return a.range_sigma; }},
   }};
   return all;
 }
@@ -85,7 +90,7 @@ void set_numbers(const std::vector<RawParameter>& parameters, const Location& lo
     double& field = setting.field(antenna);
     if (const RawParameter* const given = find(parameters, setting.key)) {
       field = number_of(*given, given->value);
-    } else if (setting.published) {
+    } else if (setting.published && (setting.physical || !antenna.radio)) {
       missing.push_back(fmt::format("<{}> {:g}", setting.key, field));
     }
   }
@@ -119,13 +124,6 @@ std::uint64_t seed_from(const std::vector<RawParameter>& parameters) {
                      given->value));
   }
   return seed;
-}
-
-void require_known_model(const std::vector<RawParameter>& parameters) {
-  const RawParameter* const given = find(parameters, "model");
-  if (given != nullptr && given->value != "paper") {
-    fail(given->location, fmt::format("<model> is '{}', expected paper", given->value));
-  }
 }
 
 void warn_of_unknown(const std::vector<RawParameter>& parameters, std::vector<std::string> known,
@@ -172,14 +170,15 @@ SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParam
   antenna.parameters = published_defaults();
   antenna.parameters.name = text_of(parameters, "antenna", sensor);
   antenna.parameters.reader = text_of(parameters, "reader", antenna.parameters.name);
-  require_known_model(parameters);
+  antenna.parameters.radio = sensor_radio(parameters, location, diagnostics);
   set_numbers(parameters, location, antenna.parameters, diagnostics);
   set_distribution(parameters, antenna.parameters.model);
   antenna.seed = seed_from(parameters);
   antenna.name_space = text_of(parameters, "robotNamespace", "");
   antenna.frame_id = text_of(parameters, "frame_id", antenna.parameters.name);
   antenna.parent_frame = text_of(parameters, "parent_frame", "");
-  std::vector<std::string> known = text_settings();
+  std::vector<std::string> known = antenna_setting_keys();
+  known.insert(known.begin(), text_settings().begin(), text_settings().end());
   for (const NumberSetting& setting : number_settings()) known.emplace_back(setting.key);
   warn_of_unknown(parameters, std::move(known), diagnostics);
   try {
@@ -191,13 +190,18 @@ SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParam
   return antenna;
 }
 
-std::optional<std::string> epc_from(const std::vector<RawParameter>& parameters,
-                                    Diagnostics& diagnostics) {
-  warn_of_unknown(parameters, {"epc", "update_rate"}, diagnostics);
-  const RawParameter* const given = find(parameters, "epc");
-  if (given == nullptr) return std::nullopt;
-  if (given->value.empty()) fail(given->location, "<epc> is empty, expected the tag's ID");
-  return given->value;
+SensorTag tag_from(const std::vector<RawParameter>& parameters, const Location& location,
+                   Diagnostics& diagnostics) {
+  std::vector<std::string> known = tag_setting_keys();
+  known.insert(known.begin(), {"epc", "update_rate"});
+  warn_of_unknown(parameters, std::move(known), diagnostics);
+  SensorTag tag;
+  if (const RawParameter* const given = find(parameters, "epc")) {
+    if (given->value.empty()) fail(given->location, "<epc> is empty, expected the tag's ID");
+    tag.epc = given->value;
+  }
+  tag.model = sensor_tag_model(parameters, location, diagnostics);
+  return tag;
 }
 
 }  // namespace tagfield

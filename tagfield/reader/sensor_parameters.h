@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,13 +21,16 @@ namespace tagfield {
 /// `optional_distribution` none, `optional_distribution_params` (numbers between spaces); and the
 /// sensor's `update_rate` [Hz] 15.
 ///
-/// Tagfield's own: `model` paper (the only one so far), `antenna` (its name, unique; default: the
-/// sensor's), `reader` (the name of its reader; default: the antenna's), `phase_offset` [rad] 0,
-/// `range_sigma` (relative spread of the range) 0.05.
+/// Tagfield's own: `model` paper | link_budget | multipath (default paper), `antenna` (its name,
+/// unique; default: the sensor's), `reader` (the name of its reader; default: the antenna's),
+/// `phase_offset` [rad] 0, `range_sigma` (relative spread of the range) 0.05.
 ///
 /// In Gazebo alone: `seed` (of all random draws) 1, `robotNamespace` (of the topics) none,
 /// `frame_id` (of the messages; default: the antenna's name), `parent_frame` (the link of the same
 /// model that the frame is told to hang from; none where it is not told).
+///
+/// With a physical model `parameters.radio` is set by sensor_radio() from all settings of
+/// radio_settings.h, and of the published parameters only `frequency` and `update_rate` count.
 struct SensorAntenna {
   AntennaParameters parameters;
   std::uint64_t seed = 1;
@@ -41,10 +45,16 @@ struct SensorAntenna {
 SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParameter>& parameters,
                            const Location& location, Diagnostics& diagnostics);
 
-/// ID from a tag's `epc`; none where it is not given. Throws Error if it is empty. Unknown
-/// parameters are warned of.
-std::optional<std::string> epc_from(const std::vector<RawParameter>& parameters,
-                                    Diagnostics& diagnostics);
+/// What the plugin of an `rfidtag` sensor says.
+struct SensorTag {
+  std::optional<std::string> epc;         ///< Its ID, where one is given.
+  std::shared_ptr<const TagModel> model;  ///< Its kind for physical models; null where not told.
+};
+
+/// Reads a tag's `epc` and its settings of radio_settings.h. Throws Error on an ID that is empty
+/// and on a setting that is wrong, naming it. Unknown parameters are warned of.
+SensorTag tag_from(const std::vector<RawParameter>& parameters, const Location& location,
+                   Diagnostics& diagnostics);
 
 /// The numbers in `parameter`'s value, between white space. Throws Error if one is none.
 std::vector<double> numbers_of(const RawParameter& parameter);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/map/top_view.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/report/axes.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

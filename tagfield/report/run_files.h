@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "tagfield/map/occupancy_grid.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 #include "tagfield/report/summary.h"
 #include "tagfield/report/truth.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

@@ -25,7 +25,15 @@ BAD_ANTENNAS = {
               "<optional_distribution_params>0 x</optional_distribution_params>",
               "<optional_distribution_params> is 'x', expected a number"),
     "seed": ("<seed>-1</seed>", "<seed> is '-1'"),
-    "model": ("<model>magic</model>", "<model> is 'magic', expected paper"),
+    "model": ("<model>magic</model>",
+              "<model> is 'magic', expected paper, link_budget, multipath"),
+    "power": ("<model>link_budget</model><transmit_power_dbm>loud</transmit_power_dbm>",
+              "<transmit_power_dbm> is 'loud', expected a finite number"),
+    "order": ("<model>multipath</model><reflection_order>7</reflection_order>",
+              "<reflection_order> must be"),
+    "carrier": ("<model>multipath</model><channel_plan>etsi</channel_plan>",
+                "<channel_plan> there is no"),
+    "effect": ("<model>multipath</model><without>noises</without>", "did you mean 'noise'"),
     "parent": ("<parent_frame>nowhere</parent_frame>",
                "<parent_frame> is 'nowhere', expected a link of model 'bad_parent'"),
     "name": ("<antenna>gate</antenna>", "there is an antenna called 'gate' already"),
@@ -40,10 +48,13 @@ BAD_SENSORS = {
     "same_epc": (tag_sensor("s", "<epc>good_tag</epc>"),
                  "there is a tag with the ID 'good_tag' already"),
     "rate": (antenna_sensor("s", rate=-5), "<update_rate> must be"),
+    "tag_kind": (tag_sensor("s", "<sensitivity_dbm>weak</sensitivity_dbm>"),
+                 "<sensitivity_dbm> is 'weak', expected a finite number"),
 }
 BAD_SETS = {
     "no_epc": ("<tag>1 2 3</tag>", '<tag> 1 has no epc'),
     "two_numbers": ('<tag epc="A">1 2</tag>', '<tag epc="A"> has 2 numbers, expected x y z'),
+    "kind": ('<tag epc="A">1 2 3</tag><detuning_db>-1</detuning_db>', "<detuning_db> must be"),
     "nan": ('<tag epc="A">1 2 nan</tag>', "'nan', expected a number"),
     "twice": ('<tag epc="A">1 2 3</tag><tag epc="A">1 2 4</tag>', "ID 'A' already"),
     "link": ('<link>roof</link><tag epc="A">1 2 3</tag>', "<link> is 'roof'"),
@@ -71,7 +82,9 @@ def each_bad_parameter_is_one_error_and_everything_else_goes_on(context):
             f'<plugin name="set" filename="libTagfieldTagSetPlugin.so">{text}</plugin></model>'
             for name, (text, _) in BAD_SETS.items()]
     log = context.folder / "schedule.log"
-    text = world(antenna("gate", 0, 0, 2), tag("good_tag", 1, 0, 1), *bad,
+    materials = ('<plugin name="materials" filename="libTagfieldMaterialsPlugin.so">'
+                 '<made_of name="rack">unobtainium</made_of></plugin>')
+    text = world(materials, antenna("gate", 0, 0, 2), tag("good_tag", 1, 0, 1), *bad,
                  schedule(log, stop=1.0))
     with Run(context, text, record=True) as running:
         running.finish(log)
@@ -85,6 +98,9 @@ def each_bad_parameter_is_one_error_and_everything_else_goes_on(context):
         check_equal(len(about), 1, f"errors about {name}")
         for line in about:
             check_in(expected, line, f"the error about {name}")
+    about = [line for line in said if "plugin 'materials': " in line]
+    check_equal(len(about), 1, "errors about the materials")
+    check_in('<made_of name="rack">: ', about[0], "the error about the materials")
     for name, (_, expected) in BAD_SETS.items():
         about = [line for line in said if f"model 'set_{name}', plugin 'set': " in line]
         check_equal(len(about), 1, f"errors about the set {name}")

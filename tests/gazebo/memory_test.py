@@ -47,17 +47,24 @@ def is_sanitized(world_file):
 @case
 def load_spawn_delete_and_shutdown_have_no_memory_errors(context):
     context, library = sanitized(context)
-    cart = model("cart", "0 0 1 0 0 0", antenna_sensor("reader", "<range>1000</range>")
+    physical = "<model>multipath</model><inventory>gen2</inventory>"
+    cart = model("cart", "0 0 1 0 0 0", antenna_sensor("reader", physical)
                  + tag_sensor("a") + tag_sensor("b"), static=False)
+    wall = ('<model name="wall"><static>1</static><pose>0 3 1 0 0 0</pose><link name="link">'
+            '<collision name="c"><geometry><box><size>9 0.1 2</size></box></geometry></collision>'
+            '</link></model>')
+    materials = ('<plugin name="materials" filename="libTagfieldMaterialsPlugin.so">'
+                 '<made_of name="wall">brick</made_of></plugin>')
     rows = "".join(f'<tag epc="S{i}">{0.01 * i} 0 1</tag>' for i in range(200))
     shelf = (f'<model name="shelf"><static>true</static><link name="link"/>'
              f'<plugin name="tags" filename="libTagfieldTagSetPlugin.so">{rows}</plugin></model>')
     events = "".join(insert(1.0 + 0.02 * i, tag(f"tag{i}", i % 10, i // 10, 1)) for i in range(50))
     events += "".join(remove(3.0 + 0.02 * i, f"tag{i}") for i in range(0, 50, 2))
     events += remove(3.5, "cart") + insert(4.5, cart) + remove(4.0, "shelf")
+    events += insert(1.5, wall) + remove(3.2, "wall")
     bad = antenna("bad", 1, 1, 1, "<range>-1</range>")
     log = context.folder / "schedule.log"
-    text = world(antenna("gate", 0, 0, 2), cart, shelf, bad, tag("rest", 1, 0, 1),
+    text = world(materials, antenna("gate", 0, 0, 2), cart, shelf, bad, tag("rest", 1, 0, 1),
                  schedule(log, events, stop=6.0))
     report = context.folder / "asan"
     options = f"log_path={report}:detect_leaks=1:new_delete_type_mismatch=0:detect_odr_violation=0"

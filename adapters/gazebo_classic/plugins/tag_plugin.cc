@@ -33,16 +33,17 @@ void RfidTagPlugin::load(const sensors::SensorPtr& sensor, const sdf::ElementPtr
         fmt::format("sensor type is '{}', expected 'rfidtag' for a tag", sensor->Type()));
   }
   tagfield::Diagnostics diagnostics;
-  const std::optional<std::string> epc =
-      tagfield::epc_from(tagfield::parameters_of(plugin), diagnostics);
+  const tagfield::SensorTag tag =
+      tagfield::tag_from(tagfield::parameters_of(plugin), {}, diagnostics);
   for (const std::string& warning : diagnostics.warnings()) {
     gzwarn << tagfield::place_of(*sensor) << ": " << warning << "\n";
   }
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
-  const Eigen::Vector3d p_LT = tagfield::from_gazebo(sensor->Pose()).translation;
-  const auto describe = [epc, p_LT, name = sensor->Name()](physics::Link& link) {
-    return std::vector<tagfield::TagOnLink>{{epc ? *epc : tagfield::tag_id_of(name, link),
-                                             tagfield::published_name_of(name, link), p_LT}};
+  const tagfield::RigidTransform X_LT = tagfield::from_gazebo(sensor->Pose());
+  const auto describe = [tag, X_LT, name = sensor->Name()](physics::Link& link) {
+    const std::string id = tag.epc ? *tag.epc : tagfield::tag_id_of(name, link);
+    return std::vector<tagfield::TagOnLink>{
+        {id, tagfield::published_name_of(name, link), X_LT, tag.model}};
   };
   handle_ = world->add_tags({tagfield::place_of(*sensor), sensor->ParentName(), describe});
   world_ = world;

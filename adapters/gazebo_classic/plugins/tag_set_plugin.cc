@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <gazebo/common/SystemPaths.hh>
 #include <gazebo/physics/physics.hh>
 
@@ -9,12 +10,14 @@
 #include "adapters/gazebo_classic/plugins/shared_world.h"
 #include "tagfield/base/error.h"
 #include "tagfield/reader/sensor_parameters.h"
+#include "tagfield/reader/sensor_radio.h"
 #include "tagfield/stream/csv.h"
 
 namespace gazebo {
 namespace {
 
 using tagfield::Error;
+using tagfield::from_xyz_rpy;
 using tagfield::TagOnLink;
 
 TagOnLink tag_in_row(const sdf::ElementPtr& row, std::size_t number) {
@@ -22,12 +25,14 @@ TagOnLink tag_in_row(const sdf::ElementPtr& row, std::size_t number) {
   if (epc.empty()) throw Error(fmt::format("<tag> {} has no epc=\"…\"", number));
   const std::string key = fmt::format("tag epc=\"{}\"", epc);
   const sdf::ParamPtr value = row->GetValue();
-  const std::vector<double> xyz =
-      tagfield::numbers_of({key, value ? value->GetAsString() : "", {}});
-  if (xyz.size() != 3) {
-    throw Error(fmt::format("<{}> has {} numbers, expected x y z", key, xyz.size()));
+  const std::vector<double> n = tagfield::numbers_of({key, value ? value->GetAsString() : "", {}});
+  if (n.size() != 3 && n.size() != 6) {
+    throw Error(
+        fmt::format("<{}> has {} numbers, expected x y z, or x y z roll pitch yaw", key, n.size()));
   }
-  return {epc, epc, {xyz[0], xyz[1], xyz[2]}};
+  const Eigen::Vector3d rpy =
+      n.size() == 6 ? Eigen::Vector3d(n[3], n[4], n[5]) : Eigen::Vector3d::Zero();
+  return {epc, epc, from_xyz_rpy({n[0], n[1], n[2]}, rpy), nullptr};
 }
 
 std::vector<TagOnLink> tags_in_rows(const sdf::ElementPtr& plugin) {
@@ -48,9 +53,16 @@ std::vector<TagOnLink> tags_in_table(const std::string& uri) {
   std::vector<TagOnLink> tags;
   for (const tagfield::CsvRow& row : table.rows) {
     const std::string& id = table.text(row, epc);
-    tags.push_back({id, id, table.position(row, place)});
+    tags.push_back({id, id, tagfield::from_translation(table.position(row, place)), nullptr});
   }
   return tags;
+}
+
+/// Whether the plugin has more to say about an element than that it is not known.
+bool is_known(const std::string& element) {
+  const std::vector<std::string> settings = tagfield::tag_setting_keys();
+  return element == "tag" || element == "link" ||
+         std::find(settings.begin(), settings.end(), element) != settings.end();
 }
 
 /// The tables named in the plugin; warns of what it does not know there.
@@ -60,7 +72,7 @@ std::vector<std::string> tables_in(physics::Model& model, const sdf::ElementPtr&
     const std::string name = child->GetName();
     if (name == "table") {
       tables.push_back(child->Get<std::string>());
-    } else if (name != "tag" && name != "link") {
+    } else if (!is_known(name)) {
       gzwarn << tagfield::place_of(model, plugin) << ": <" << name
              << "> is not known and left out\n";
     }
@@ -99,6 +111,12 @@ void RfidTagSetPlugin::load(const physics::ModelPtr& model, const sdf::ElementPt
   for (const std::string& table : tables_in(*model, plugin)) {
     const std::vector<TagOnLink> more = tags_in_table(table);
     tags.insert(tags.end(), more.begin(), more.end());
+  }
+  tagfield::Diagnostics diagnostics;
+  const auto kind = tagfield::sensor_tag_model(tagfield::parameters_in(plugin), {}, diagnostics);
+  for (TagOnLink& tag : tags) tag.model = kind;
+  for (const std::string& warning : diagnostics.warnings()) {
+    gzwarn << tagfield::place_of(*model, plugin) << ": " << warning << "\n";
   }
   if (tags.empty()) gzwarn << tagfield::place_of(*model, plugin) << ": has no tags\n";
   const physics::LinkPtr link = link_in(*model, plugin);

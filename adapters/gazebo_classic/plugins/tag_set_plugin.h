@@ -4,8 +4,9 @@
 ///     <plugin name="tags" filename="libTagfieldTagSetPlugin.so">
 ///       <link>shelf</link>                         <!-- default: the model's canonical link -->
 ///       <tag epc="E28011700001">0.3 0 1.2</tag>    <!-- x y z on the link [m] -->
-///       <tag epc="E28011700002">0.6 0 1.2</tag>
+///       <tag epc="E28011700002">0.6 0 1.2 0 0 1.57</tag>  <!-- and roll pitch yaw [rad]; 0 0 0 -->
 ///       <table>model://shelf/tags.csv</table>      <!-- more of them: epc,x_m,y_m,z_m -->
+///       <sensitivity_dbm>-18</sensitivity_dbm>     <!-- their kind, as in tag_plugin.h -->
 ///     </plugin>
 ///
 /// EPCs are unique in the world. One row that is wrong leaves the whole set out, with one error

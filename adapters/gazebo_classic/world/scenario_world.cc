@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "adapters/gazebo_classic/world/internal/bodies.h"
+#include "adapters/gazebo_classic/world/internal/radio.h"
 #include "adapters/gazebo_classic/world/internal/robot.h"
 #include "tagfield/base/units.h"
 #include "tagfield/sdf/resource_path.h"
@@ -193,6 +194,7 @@ std::string gazebo_world(const Scenario& scenario, const Scene& scene,
     set_pace(world, scenario.real_time);
   }
   add_view(scenario, world);
+  gazebo_world_internal::add_materials(scenario, world);
   Builder builder{scenario, diagnostics, {}, {}};
   reserve_names(scene, world, builder);
   add_bodies(builder, options, world);

@@ -26,8 +26,9 @@ struct GazeboWorldOptions {
 inline constexpr std::size_t kMostTagModels = 100;
 
 /// The text of a `.world` file: the scenario's own world, or a floor and a sun where it has none,
-/// and in it the scenario's robots, antennas and tags. `scenario` holds what the YAML file says and
-/// not what stands in its world already; `scene` is that world.
+/// and in it the scenario's robots, antennas and tags, with what the world is made of where
+/// antennas have physical models, whose profiles become plain settings. `scenario` holds what the
+/// YAML file says and not what stands in its world already; `scene` is that world.
 ///
 /// Relative paths in the world are made absolute; `model://` and what the models name stay, and are
 /// found if Gazebo gets gazebo_model_paths(). Warned of and left out: antennas that follow a

@@ -74,9 +74,9 @@ TEST_F(PictureOfAField, IsDrawnAtItsIntervals) {
 }
 
 TEST_F(PictureOfAField, NearTagsAreRedFarOnesBlueUnreadOnesGrey) {
-  step(0.0, {{0, "near", "", {1.0, 0.0, 0.0}},
-             {1, "far", "", {4.0, 0.0, 0.0}},
-             {2, "away", "", {90.0, 0.0, 0.0}}});
+  step(0.0, {{0, "near", "", from_translation({1.0, 0.0, 0.0})},
+             {1, "far", "", from_translation({4.0, 0.0, 0.0})},
+             {2, "away", "", from_translation({90.0, 0.0, 0.0})}});
   EXPECT_EQ(picture->colors.at("near").red, 1.0);
   EXPECT_EQ(picture->colors.at("far").blue, 1.0);
   EXPECT_EQ(picture->colors.at("away").red, silent_color().red);
@@ -84,8 +84,8 @@ TEST_F(PictureOfAField, NearTagsAreRedFarOnesBlueUnreadOnesGrey) {
 }
 
 TEST_F(PictureOfAField, AnotherTagInTheSameSlotHasNotBeenRead) {
-  step(0.0, {{0, "near", "", {1.0, 0.0, 0.0}}});
-  step(0.5, {{0, "away", "", {90.0, 0.0, 0.0}}}, {0});
+  step(0.0, {{0, "near", "", from_translation({1.0, 0.0, 0.0})}});
+  step(0.5, {{0, "away", "", from_translation({90.0, 0.0, 0.0})}}, {0});
   EXPECT_EQ(picture->colors.count("near"), 0U);
   EXPECT_EQ(picture->colors.at("away").alpha, silent_color().alpha);
   EXPECT_EQ(picture->colors.at("away").green, silent_color().green);

@@ -63,7 +63,8 @@ TEST(AntennaFrom, SaysWhichParameterIsWrong) {
             "hall.world:7: <noisephi> is 'much', expected a number");
   EXPECT_TRUE(contains(complaint_about({"seed", "-1", {}}), "<seed> is '-1'"));
   EXPECT_TRUE(contains(complaint_about({"seed", "1.5", {}}), "<seed> is '1.5'"));
-  EXPECT_EQ(complaint_about({"model", "magic", {}}), "<model> is 'magic', expected paper");
+  EXPECT_EQ(complaint_about({"model", "magic", {}}),
+            "<model> is 'magic', expected paper, link_budget, multipath");
   EXPECT_TRUE(contains(complaint_about({"optional_distribution", "normal_distribution", {}}),
                        "<optional_distribution>: normal_distribution takes 2 parameters"));
 }
@@ -76,12 +77,13 @@ TEST(AntennaFrom, WarnsOfWhatItDoesNotKnow) {
   EXPECT_TRUE(contains(diagnostics.warnings()[1], "frequency"));
 }
 
-TEST(EpcFrom, IsNoneUnlessGiven) {
+TEST(TagFrom, HasNoIdAndNoKindUnlessGiven) {
   Diagnostics diagnostics;
-  EXPECT_EQ(epc_from({}, diagnostics), std::nullopt);
-  EXPECT_EQ(epc_from({{"epc", "E280", {}}}, diagnostics), "E280");
+  EXPECT_EQ(tag_from({}, {}, diagnostics).epc, std::nullopt);
+  EXPECT_EQ(tag_from({}, {}, diagnostics).model, nullptr);
+  EXPECT_EQ(tag_from({{"epc", "E280", {}}}, {}, diagnostics).epc, "E280");
   EXPECT_TRUE(diagnostics.warnings().empty());
-  EXPECT_TRUE(contains(error_of([&] { epc_from({{"epc", "", {}}}, diagnostics); }), "<epc>"));
+  EXPECT_TRUE(contains(error_of([&] { tag_from({{"epc", "", {}}}, {}, diagnostics); }), "<epc>"));
 }
 
 }  // namespace

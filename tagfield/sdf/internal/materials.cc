@@ -7,7 +7,7 @@
 #include <sdf/Mesh.hh>
 
 #include "tagfield/sdf/internal/shapes.h"
-#include "tagfield/world/mesh_file.h"
+#include "tagfield/sdf/mesh_file.h"
 
 namespace tagfield::sdf_internal {
 namespace {

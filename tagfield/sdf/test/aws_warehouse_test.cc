@@ -6,7 +6,7 @@
 #include <map>
 
 #include "tagfield/sdf/load_world.h"
-#include "tagfield/world/mesh_file.h"
+#include "tagfield/sdf/mesh_file.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {

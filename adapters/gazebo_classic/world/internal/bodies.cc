@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "adapters/gazebo_classic/world/internal/radio.h"
 #include "adapters/gazebo_classic/world/scenario_world.h"
 
 namespace tagfield::gazebo_world_internal {
@@ -46,6 +47,15 @@ void add_distribution(XMLElement* plugin, const OptionalDistribution& distributi
       one ? fmt::format("{}", parameters[0]) : fmt::format("{}", fmt::join(parameters, " ")));
 }
 
+void add_paper_model(XMLElement* plugin, const AntennaParameters& parameters) {
+  add(plugin, "noisephi", parameters.model.phase_noise_rad);
+  add(plugin, "noiserssi", parameters.model.rssi_noise);
+  add(plugin, "range", parameters.range_m);
+  add(plugin, "range_sigma", parameters.range_sigma);
+  add(plugin, "communication_gain", parameters.model.communication_gain);
+  add_distribution(plugin, parameters.model.optional);
+}
+
 void add_antenna_sensor(Builder& builder, const AntennaSpec& antenna, XMLElement* link,
                         const RigidTransform& X_LA, const std::string& parent_frame) {
   const AntennaParameters& parameters = antenna.parameters;
@@ -64,12 +74,11 @@ void add_antenna_sensor(Builder& builder, const AntennaSpec& antenna, XMLElement
   add(plugin, "seed", fmt::format("{}", builder.scenario.seed));
   add(plugin, "frequency", parameters.model.frequency_hz);
   add(plugin, "phase_offset", parameters.model.phase_offset_rad);
-  add(plugin, "noisephi", parameters.model.phase_noise_rad);
-  add(plugin, "noiserssi", parameters.model.rssi_noise);
-  add(plugin, "range", parameters.range_m);
-  add(plugin, "range_sigma", parameters.range_sigma);
-  add(plugin, "communication_gain", parameters.model.communication_gain);
-  add_distribution(plugin, parameters.model.optional);
+  if (parameters.radio) {
+    add_settings(plugin, parameters.radio->settings);
+  } else {
+    add_paper_model(plugin, parameters);
+  }
 }
 
 void add_lift_plugin(XMLElement* model, const std::string& joint, const Lift& lift) {
@@ -135,14 +144,37 @@ std::vector<const TagSpec*> fixed_tags(const Builder& builder) {
   return tags;
 }
 
-void add_tag_set(Builder& builder, const std::vector<const TagSpec*>& tags, XMLElement* world) {
+void add_tag_row(XMLElement* plugin, const TagSpec& tag) {
+  require_xml_text(tag.id, "tag", tag.location);
+  const RigidTransform& X_WT = tag.motion.front().X_WB;
+  const Eigen::Vector3d& p = X_WT.translation;
+  const bool is_turned = !X_WT.rotation.isApprox(Eigen::Quaterniond::Identity(), 0.0);
+  const std::string place =
+      is_turned ? pose_text(X_WT) : fmt::format("{} {} {}", p.x(), p.y(), p.z());
+  XMLElement* const row = add(plugin, "tag", place);
+  row->SetAttribute("epc", tag.id.c_str());
+}
+
+/// The plugin of the tags of one kind, which is called after the number of those before it.
+XMLElement* add_tag_set(XMLElement* model, const TagModel* kind, std::size_t number) {
+  XMLElement* const plugin = add_plugin(model, kTagSetPlugin);
+  if (number > 0) plugin->SetAttribute("name", fmt::format("tags_{}", number + 1).c_str());
+  if (kind != nullptr) add_settings(plugin, kind->settings);
+  return plugin;
+}
+
+/// One model with a set for each run of tags of one kind, so that their order stays.
+void add_tag_sets(Builder& builder, const std::vector<const TagSpec*>& tags, XMLElement* world) {
   const Carrier carrier = add_static_model(builder, world, "tags", {});
-  XMLElement* const plugin = add_plugin(carrier.model, kTagSetPlugin);
+  XMLElement* plugin = nullptr;
+  const TagModel* kind = nullptr;
+  std::size_t count = 0;
   for (const TagSpec* tag : tags) {
-    require_xml_text(tag->id, "tag", tag->location);
-    const Eigen::Vector3d& p = tag->motion.front().X_WB.translation;
-    XMLElement* const row = add(plugin, "tag", fmt::format("{} {} {}", p.x(), p.y(), p.z()));
-    row->SetAttribute("epc", tag->id.c_str());
+    if (plugin == nullptr || tag->model.get() != kind) {
+      kind = tag->model.get();
+      plugin = add_tag_set(carrier.model, kind, count++);
+    }
+    add_tag_row(plugin, *tag);
   }
 }
 
@@ -170,7 +202,9 @@ void add_tag(Builder& builder, const TagSpec& tag, const Carrier& carrier) {
   sensor->SetAttribute("type", "rfidtag");
   add_pose(sensor, X_LT);
   add(sensor, "always_on", std::string("1"));
-  add(add_plugin(sensor, kTagPlugin), "epc", tag.id);
+  XMLElement* const plugin = add_plugin(sensor, kTagPlugin);
+  add(plugin, "epc", tag.id);
+  if (tag.model) add_settings(plugin, tag.model->settings);
 }
 
 void add_fixed_antennas(Builder& builder, XMLElement* world) {
@@ -190,7 +224,7 @@ void add_fixed_antennas(Builder& builder, XMLElement* world) {
 void add_fixed_tags(Builder& builder, XMLElement* world) {
   const std::vector<const TagSpec*> tags = fixed_tags(builder);
   if (tags.size() > kMostTagModels) {
-    add_tag_set(builder, tags, world);
+    add_tag_sets(builder, tags, world);
     return;
   }
   for (const TagSpec* tag : tags) {

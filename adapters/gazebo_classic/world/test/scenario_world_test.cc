@@ -100,6 +100,84 @@ INSTANTIATE_TEST_SUITE_P(All, ScenarioFiles,
                          testing::Values("paper_warehouse.yaml", "two_antennas.yaml", "z_axis.yaml",
                                          "moving_tags.yaml", "spawn.yaml"));
 
+constexpr const char* kPhysical = R"(name: test
+seed: 5
+duration_s: 1
+model: multipath
+without: [noise]
+materials:
+  - {name: foam, permittivity: 1.25, wall_m: 0.02}
+world:
+  path: hall.world
+  materials: {"hall*": foam, door: glass}
+  default_material: wood
+  least_facet_m2: 0.25
+antennas:
+  - {name: one, pose: [3, -4, 2], channel_plan: etsi_high, transmit_power_dbm: 27.3, tari_us: 12.5,
+     inventory: gen2}
+  - {name: two, pose: [3, 4, 2], model: link_budget, frequency_hz: 910e6, phase_offset_rad: 0.25}
+  - {name: three, pose: [3, 6, 2], model: paper, range_m: 6.5}
+tags:
+  - {id: t, position: [2, 2, 1]}
+  - {id: turned, position: [1, 2, 1], rpy: [0, 0.5, 1], sensitivity_dbm: -20.5}
+)";
+
+/// A hall for kPhysical, with materials of its own that are not the scenario's.
+constexpr const char* kHall = R"(<sdf version="1.6"><world name="w">
+  <plugin name="old" filename="libTagfieldMaterialsPlugin.so"/>
+  <model name="hall"><static>1</static><link name="link"><collision name="c"><geometry>
+    <box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>)";
+
+std::string write_physical() {
+  write_text_file(temp("hall.world").string(), kHall);
+  return write_scenario(kPhysical);
+}
+
+/// The models of a world's sensor are those of the scenario's.
+void expect_same(const RadioModel& read, const RadioModel& given) {
+  EXPECT_EQ(read.plan.carriers_hz, given.plan.carriers_hz);
+  EXPECT_EQ(read.transmit_power_dbm, given.transmit_power_dbm);
+  EXPECT_EQ(read.phase_offset_rad, given.phase_offset_rad);
+  EXPECT_EQ(read.reflection_order, given.reflection_order);
+  EXPECT_EQ(read.effects.noise, given.effects.noise);
+  EXPECT_EQ(read.effects.reflections, given.effects.reflections);
+  ASSERT_EQ(read.gen2.has_value(), given.gen2.has_value());
+  if (!read.gen2) return;
+  EXPECT_EQ(read.gen2->link.tari_s, given.gen2->link.tari_s);
+}
+
+TEST(GazeboWorld, HoldsPhysicalModels) {
+  const std::string path = write_physical();
+  Diagnostics diagnostics;
+  const Scenario given = load_scenario(path, {}, diagnostics);
+  Scenario read;
+  add_placements(read_back(path), read, diagnostics);
+  ASSERT_EQ(read.antennas.size(), 3U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(read.antennas[i].parameters.radio);
+    expect_same(*read.antennas[i].parameters.radio, *given.antennas[i].parameters.radio);
+  }
+  EXPECT_EQ(read.antennas[2].parameters.radio, nullptr);
+  ASSERT_EQ(read.tags.size(), 2U);
+  EXPECT_EQ(read.tags[1].model->sensitivity_dbm, -20.5);
+  EXPECT_LT(
+      read.tags[1].motion[0].X_WB.rotation.angularDistance(given.tags[1].motion[0].X_WB.rotation),
+      kTiny);
+}
+
+TEST(GazeboWorld, SaysWhatItIsMadeOfOnce) {
+  Diagnostics diagnostics;
+  const std::string text = world_text(write_physical(), diagnostics);
+  const auto has = [&](const char* part) { return text.find(part) != std::string::npos; };
+  EXPECT_FALSE(has("name=\"old\""));
+  EXPECT_TRUE(has("<made_of name=\"hall*\">foam</made_of>"));
+  EXPECT_TRUE(has("<made_of name=\"door\">glass</made_of>"));
+  EXPECT_TRUE(has("<default_material>wood</default_material>"));
+  EXPECT_TRUE(has("<least_facet_m2>0.25</least_facet_m2>"));
+  EXPECT_TRUE(has("<material name=\"foam\">"));
+  EXPECT_TRUE(has("<wall_m>0.02</wall_m>"));
+}
+
 constexpr const char* kAntennas = R"(name: test
 seed: 77
 duration_s: 1

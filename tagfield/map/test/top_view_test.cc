@@ -1,4 +1,4 @@
-#include "tagfield/world/top_view.h"
+#include "tagfield/map/top_view.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
