@@ -11,8 +11,8 @@
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/reader/radio_settings.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 namespace {

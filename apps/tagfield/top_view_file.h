@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "simulator/scenario_yaml.h"
+#include "tagfield/map/top_view.h"
 #include "tagfield/stream/files.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

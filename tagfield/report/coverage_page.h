@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/map/top_view.h"
 #include "tagfield/report/coverage.h"
 #include "tagfield/report/figures.h"
-#include "tagfield/world/top_view.h"
 
 namespace tagfield {
 

@@ -145,6 +145,7 @@ TEST(Doppler, IsThePhasesRateOfChangeAmongManyPaths) {
 TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
   const RadioWorld world = free_space();
   RadioModel model = antenna(35.15, 865.7e6);
+  model.antenna.polarization = PolarizationKind::kLinear;  // The same towards both places.
   model.X_AR = from_translation({0.0, 1.0, 0.0});
   const RadioLink link = link_at(model, tag(2.0, -20.0), world, 2.0);
   const double lambda = wavelength(865.7e6);
