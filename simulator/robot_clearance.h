@@ -30,7 +30,7 @@ double distance_to_line(const RobotOutline& outline, const Eigen::Vector2d& a,
 /// The world's solids between the floor and the robot's height, from above.
 class RobotClearance {
  public:
-  // No distance is given as more [m].
+  /// Neither distance() nor room_at() gives more than these [m].
   static constexpr double kMost = 1.0;
   static constexpr double kMostRoom = 10.0;
 
@@ -41,8 +41,8 @@ class RobotClearance {
   /// are taller than the robot, as a hall is.
   [[nodiscard]] double distance(const PlanarPose& pose_W, const Obstacles& obstacles) const;
 
-  /// Least distance from a point to a solid [m], to 3 cm below and nothing above; 2 m where all is
-  /// farther.
+  /// Least distance from a point to a solid [m], to 3 cm below and nothing above; 10 m where all is
+  /// farther, 2 m outside of where anything stands.
   [[nodiscard]] double room_at(const Eigen::Vector2d& p_W) const;
 
  private:

@@ -1,0 +1,181 @@
+// How fast the signal models are: links a second of the paper's model and of the link budget, an
+// antenna that moves among tags with reflections, and Gen2 inventory with four antennas.
+// BENCHMARK.md has the results and the commands.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "tagfield/base/units.h"
+#include "tagfield/reader/radio_air.h"
+#include "tagfield/sdf/load_world.h"
+
+namespace tagfield {
+namespace {
+
+/// Tags within a disc of 5 m around the origin, 1 m to 2.5 m high.
+TagPopulation tags_around(std::int64_t count, const Eigen::Vector3d& middle) {
+  TagPopulation tags(3.5);
+  RandomStream stream(1, Purpose::kPlaces);
+  const auto uniform = [&] { return static_cast<double>(stream() >> 11U) * 0x1.0p-53; };
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double radius = 5.0 * std::sqrt(uniform());
+    const double around = kTwoPi * uniform();
+    tags.add("tag" + std::to_string(i),
+             middle + Eigen::Vector3d(radius * std::cos(around), radius * std::sin(around),
+                                      1.0 + 1.5 * uniform()));
+  }
+  return tags;
+}
+
+AntennaParameters antenna(const std::string& name, std::shared_ptr<const RadioModel> radio) {
+  AntennaParameters parameters;
+  parameters.name = name;
+  parameters.radio = std::move(radio);
+  return parameters;
+}
+
+/// An omnidirectional antenna strong enough for all tags around it.
+RadioModel strong_model() {
+  RadioModel model;
+  model.plan = fixed_plan(865.7e6);
+  model.antenna.shape = PatternShape::kDipole;
+  model.antenna.gain_dbi = 2.15;
+  model.transmit_power_dbm = 36.0;
+  return model;
+}
+
+std::shared_ptr<const RadioWorld> world_at(const std::string& path) {
+  Diagnostics diagnostics;
+  const Scene scene = path.empty() ? Scene{} : load_world(path, {}, diagnostics);
+  return std::make_shared<const RadioWorld>(radio_world(scene, {}, diagnostics));
+}
+
+void count_links(benchmark::State& state, std::size_t links) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(links));
+}
+
+void paper(benchmark::State& state) {
+  const TagPopulation tags = tags_around(state.range(0), Eigen::Vector3d::Zero());
+  AntennaParameters parameters;
+  parameters.name = "a";
+  parameters.range_m = 50.0;
+  std::vector<TagReply> replies;
+  std::int64_t update = 0;
+  for (auto _ : state) {
+    read_tags(parameters, {0.0, 0.0, 1.5}, update_stamp(parameters, ++update), 1, tags, replies);
+  }
+  count_links(state, replies.size());
+}
+
+/// One link after the other; the receiver's noise and steps are not part of a link.
+void link_budget(benchmark::State& state, RadioModel model) {
+  const TagPopulation tags = tags_around(1000, Eigen::Vector3d::Zero());
+  const auto world = world_at("");
+  const RadioView view = view_from(model, *world, from_translation({0.0, 0.0, 1.5}), 865.7e6, 1, 1);
+  std::vector<RadioPath> paths;
+  double sum = 0.0;
+  for (auto _ : state) {
+    tags.for_each([&](std::uint32_t slot) {
+      sum += link_of(view, {tags.model(slot), tags.pose(slot), tags.key(slot)}, paths).reply_dbm;
+    });
+  }
+  benchmark::DoNotOptimize(sum);
+  count_links(state, tags.size());
+}
+
+RadioModel in_free_space() {
+  RadioModel model = strong_model();
+  model.effects.occlusion = false;
+  return model;
+}
+
+RadioModel without_any_effect() {
+  RadioModel model = strong_model();
+  model.effects = no_effects();
+  return model;
+}
+
+/// An antenna at walking pace, 15 updates a second, that reads all it hears.
+void moving_antenna(benchmark::State& state, const std::string& path,
+                    const Eigen::Vector3d& middle) {
+  if (path.empty() || !std::filesystem::exists(path)) {
+    state.SkipWithError("no such world: set TAGFIELD_AWS_WORLD");
+    return;
+  }
+  RadioModel model = strong_model();
+  model.reflection_order = static_cast<int>(state.range(0));
+  const TagPopulation tags = tags_around(state.range(1), middle);
+  RadioAir air(world_at(path), 1);
+  const AntennaParameters parameters = antenna("a", std::make_shared<const RadioModel>(model));
+  air.add(parameters);
+  std::vector<TagReply> replies;
+  std::int64_t update = 0;
+  for (auto _ : state) {
+    const Time now = update_stamp(parameters, ++update);
+    const double way = std::fmod(0.3 * to_seconds(now), 2.0);
+    air.update("a", from_translation(middle + Eigen::Vector3d(way - 1.0, 0.0, 1.5)), now, tags,
+               replies);
+  }
+  state.counters["real_time_factor"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) / parameters.rate_hz, benchmark::Counter::kIsRate);
+  state.counters["reads"] = static_cast<double>(replies.size());
+}
+
+std::string aws_world() {
+  const char* const path = std::getenv("TAGFIELD_AWS_WORLD");
+  return path == nullptr ? "" : path;
+}
+
+void aws(benchmark::State& state) { moving_antenna(state, aws_world(), {-0.2, -0.2, 0.0}); }
+void small_warehouse(benchmark::State& state) {
+  moving_antenna(state, TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf", {1.4, 0.0, 0.0});
+}
+
+/// Four antennas of one reader by turns, noise, steps, hopping and half turns on.
+void gen2(benchmark::State& state) {
+  RadioModel model = strong_model();
+  model.plan = known_plan("etsi_low");
+  model.gen2 = Gen2Reader{};
+  model.gen2->inventory.target = Target::kAlternate;
+  const auto radio = std::make_shared<const RadioModel>(model);
+  const TagPopulation tags = tags_around(state.range(0), Eigen::Vector3d::Zero());
+  RadioAir air(world_at(""), 1);
+  for (int i = 0; i < 4; ++i) air.add(antenna("a" + std::to_string(i), radio));
+  const AntennaParameters any = antenna("a0", radio);
+  std::vector<TagReply> replies;
+  std::int64_t update = 0;
+  std::size_t reads = 0;
+  for (auto _ : state) {
+    const Time now = update_stamp(any, ++update);
+    for (int i = 0; i < 4; ++i) {
+      air.update("a" + std::to_string(i), from_translation({2.0 * i - 3.0, 0.0, 2.0}), now, tags,
+                 replies);
+      reads += replies.size();
+    }
+  }
+  const double seconds = static_cast<double>(state.iterations()) / any.rate_hz;
+  state.counters["real_time_factor"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
+  state.counters["reads_per_s"] = static_cast<double>(reads) / seconds;
+}
+
+BENCHMARK(paper)->Arg(1000)->Arg(100000);
+BENCHMARK_CAPTURE(link_budget, all_effects_but_occlusion, in_free_space());
+BENCHMARK_CAPTURE(link_budget, no_effect, without_any_effect());
+BENCHMARK_CAPTURE(link_budget, all_effects, strong_model());
+BENCHMARK(aws)
+    ->ArgNames({"order", "tags"})
+    ->ArgsProduct({{0, 1, 2}, {1000}})
+    ->ArgsProduct({{2}, {10, 100}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(small_warehouse)
+    ->ArgNames({"order", "tags"})
+    ->ArgsProduct({{0, 1, 2, 3}, {1000}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(gen2)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace tagfield
