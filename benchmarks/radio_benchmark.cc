@@ -2,6 +2,7 @@
 // antenna that moves among tags with reflections, and Gen2 inventory with four antennas.
 // BENCHMARK.md has the results and the commands.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -24,7 +25,7 @@ TagPopulation tags_around(std::int64_t count, const Eigen::Vector3d& middle) {
   for (std::int64_t i = 0; i < count; ++i) {
     const double radius = 5.0 * std::sqrt(uniform());
     const double around = kTwoPi * uniform();
-    tags.add("tag" + std::to_string(i),
+    tags.add(fmt::format("tag{}", i),
              middle + Eigen::Vector3d(radius * std::cos(around), radius * std::sin(around),
                                       1.0 + 1.5 * uniform()));
   }
@@ -144,7 +145,7 @@ void gen2(benchmark::State& state) {
   const auto radio = std::make_shared<const RadioModel>(model);
   const TagPopulation tags = tags_around(state.range(0), Eigen::Vector3d::Zero());
   RadioAir air(world_at(""), 1);
-  for (int i = 0; i < 4; ++i) air.add(antenna("a" + std::to_string(i), radio));
+  for (int i = 0; i < 4; ++i) air.add(antenna(fmt::format("a{}", i), radio));
   const AntennaParameters any = antenna("a0", radio);
   std::vector<TagReply> replies;
   std::int64_t update = 0;
@@ -152,7 +153,7 @@ void gen2(benchmark::State& state) {
   for (auto _ : state) {
     const Time now = update_stamp(any, ++update);
     for (int i = 0; i < 4; ++i) {
-      air.update("a" + std::to_string(i), from_translation({2.0 * i - 3.0, 0.0, 2.0}), now, tags,
+      air.update(fmt::format("a{}", i), from_translation({2.0 * i - 3.0, 0.0, 2.0}), now, tags,
                  replies);
       reads += replies.size();
     }

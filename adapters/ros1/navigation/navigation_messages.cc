@@ -63,7 +63,9 @@ void check_size(const nav_msgs::OccupancyGrid& message) {
 
 }  // namespace
 
-PlanarPose to_planar(const RigidTransform& X) { return planar(X); }
+PlanarPose to_planar(const RigidTransform& X) {
+  return {X.translation.x(), X.translation.y(), yaw_of(X.rotation)};
+}
 
 Time time_of(const ros::Time& stamp) {
   return Time{} + std::chrono::seconds(stamp.sec) + std::chrono::nanoseconds(stamp.nsec);
