@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tagfield/base/units.h"
 
@@ -19,7 +21,8 @@ constexpr double kMostBeam_rad = radians(179.0);
 /// Steps in which a table is integrated.
 constexpr int kIntegrationSteps = 720;
 
-double from_db(double db) { return std::pow(10.0, db / 10.0); }
+/// 10^(db/10), by the quicker of the two functions that give it.
+double from_db(double db) { return std::exp(db * (0.1 * std::numbers::ln10)); }
 
 /// cosⁿ falls to ½ at half of the width.
 double lobe_exponent(double beam_width_rad) {
@@ -38,8 +41,10 @@ double between_cuts(double horizontal, double vertical, const Eigen::Vector3d& u
 double patch_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
   const double back = from_db(-pattern.front_to_back_db);
   if (u_A.x() <= 0.0) return back;
-  const double exponent = between_cuts(lobe_exponent(pattern.beam_width_rad),
-                                       lobe_exponent(pattern.vertical_beam_width_rad), u_A);
+  double exponent = lobe_exponent(pattern.beam_width_rad);
+  if (pattern.vertical_beam_width_rad != pattern.beam_width_rad) {
+    exponent = between_cuts(exponent, lobe_exponent(pattern.vertical_beam_width_rad), u_A);
+  }
   return std::max(back, std::pow(u_A.x(), exponent));
 }
 

@@ -155,7 +155,7 @@ double spreading(const Carrier& carrier, double length_m) {
 }
 
 Complex phasor(const Carrier& carrier, double length_m) {
-  return std::polar(1.0, -wrap_to_two_pi(carrier.wave_number * length_m));
+  return std::polar(1.0, -carrier.wave_number * length_m);
 }
 
 }  // namespace
