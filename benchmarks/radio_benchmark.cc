@@ -73,7 +73,7 @@ void paper(benchmark::State& state) {
 }
 
 /// One link after the other; the receiver's noise and steps are not part of a link.
-void link_budget(benchmark::State& state, RadioModel model) {
+void link_budget(benchmark::State& state, const RadioModel& model) {
   const TagPopulation tags = tags_around(1000, Eigen::Vector3d::Zero());
   const auto world = world_at("");
   const RadioView view = view_from(model, *world, from_translation({0.0, 0.0, 1.5}), 865.7e6, 1, 1);

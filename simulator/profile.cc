@@ -14,6 +14,7 @@ namespace {
 std::vector<std::string> keys_of(ProfileKind kind) {
   std::vector<std::string> keys;
   const auto& settings = kind == ProfileKind::kTag ? tag_settings() : antenna_settings();
+  keys.reserve(settings.size());
   for (const SettingHelp& setting : settings) keys.push_back(setting.key);
   return keys;
 }

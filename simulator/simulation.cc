@@ -315,7 +315,7 @@ void Simulation::handle_events(Time until) {
 double Simulation::seconds_into_step(Time stamp) const { return to_seconds(stamp - step_begin_); }
 
 RigidTransform Simulation::tag_pose(const TagSpec& tag, Time stamp) const {
-  const RigidTransform X_PT =
+  RigidTransform X_PT =
       tag.in_steps ? row_at(tag.motion, stamp).X_WB : held_pose_at(tag.motion, stamp);
   if (tag.on.empty()) return X_PT;
   return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * X_PT;
@@ -323,7 +323,7 @@ RigidTransform Simulation::tag_pose(const TagSpec& tag, Time stamp) const {
 
 RigidTransform Simulation::antenna_pose(const AntennaSpec& antenna, Time stamp) const {
   if (!antenna.recorded.empty()) return row_at(antenna.recorded, stamp).X_WB;
-  const RigidTransform X_PA = mount_at(antenna, stamp);
+  RigidTransform X_PA = mount_at(antenna, stamp);
   if (antenna.on.empty()) return X_PA;
   return robot_named(antenna.on)->true_pose(seconds_into_step(stamp)) * X_PA;
 }
@@ -357,7 +357,7 @@ void Simulation::move_tags(Time stamp, Recording& recording) {
 RigidTransform Simulation::place_antenna(const AntennaSpec& antenna, Time stamp,
                                          Recording& recording) {
   const std::string& name = antenna.parameters.name;
-  const RigidTransform X_WA = antenna_pose(antenna, stamp);
+  RigidTransform X_WA = antenna_pose(antenna, stamp);
   RigidTransform believed = X_WA;
   if (is_fixed(antenna)) {
     if (std::find(recorded_fixed_.begin(), recorded_fixed_.end(), name) != recorded_fixed_.end()) {

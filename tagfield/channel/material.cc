@@ -60,6 +60,7 @@ const Material& find_material(const std::vector<Material>& materials, const std:
                                   [&](const Material& material) { return material.name == name; });
   if (found != materials.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(materials.size());
   for (const Material& material : materials) names.push_back(material.name);
   throw Error(fmt::format("there is no material '{}'{}", name, suggestion(name, names)));
 }

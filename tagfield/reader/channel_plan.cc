@@ -20,6 +20,7 @@ constexpr double kDipole_db = 2.15;
 
 std::vector<double> evenly(double first_hz, double step_hz, int count) {
   std::vector<double> carriers;
+  carriers.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) carriers.push_back(first_hz + i * step_hz);
   return carriers;
 }
@@ -71,6 +72,7 @@ const ChannelPlan& known_plan(const std::string& name) {
                                   [&](const ChannelPlan& plan) { return plan.name == name; });
   if (found != all.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const ChannelPlan& plan : all) names.push_back(plan.name);
   throw Error(fmt::format("there is no channel plan '{}'{}", name, suggestion(name, names)));
 }

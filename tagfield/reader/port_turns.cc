@@ -40,6 +40,7 @@ std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antenna
     append(antenna, in_common ? by_time : of_reader[antenna.reader]);
   }
   std::vector<PortCycle> cycles;
+  cycles.reserve(of_reader.size() + 1);
   for (auto& [reader, cycle] : of_reader) cycles.push_back(std::move(cycle));
   if (!by_time.empty()) cycles.push_back(std::move(by_time));
   return cycles;

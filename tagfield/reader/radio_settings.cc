@@ -149,6 +149,7 @@ void set_without(AntennaDraft& draft, const std::string& text) {
                      [&](const EffectSwitch& effect) { return name == effect.name; });
     if (found == kEffectSwitches.end()) {
       std::vector<std::string> names;
+      names.reserve(kEffectSwitches.size());
       for (const EffectSwitch& effect : kEffectSwitches) names.emplace_back(effect.name);
       throw Error(fmt::format("there is no effect '{}'{}", name, suggestion(name, names)));
     }
@@ -338,6 +339,7 @@ const Setting<T>* find(const std::vector<Setting<T>>& table, const std::string& 
 template <class T>
 std::vector<SettingHelp> helps(const std::vector<Setting<T>>& table) {
   std::vector<SettingHelp> all;
+  all.reserve(table.size());
   for (const Setting<T>& setting : table) all.push_back(setting.help);
   return all;
 }

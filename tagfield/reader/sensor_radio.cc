@@ -80,6 +80,7 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
 
 std::vector<std::string> keys_of(const std::vector<SettingHelp>& settings) {
   std::vector<std::string> keys;
+  keys.reserve(settings.size());
   for (const SettingHelp& setting : settings) keys.push_back(setting.key);
   return keys;
 }

@@ -8,7 +8,7 @@ namespace {
 
 /// "10 of 10, 8.6 mm (p95 16 mm)".
 std::string outcome(const EffectCost& cost) {
-  const std::string located = fmt::format("{} of {}", cost.located, cost.tags);
+  std::string located = fmt::format("{} of {}", cost.located, cost.tags);
   if (!cost.error_m) return located;
   return fmt::format("{}, {} (95 % below {})", located, spoken_length(cost.error_m->mean),
                      spoken_length(cost.error_m->p95));

@@ -14,8 +14,8 @@ POSE_NOISE = ("--set", "pose.source=noisy", "--set", "pose.sigma_m=0.01",
               "--set", "pose.yaw_sigma_deg=0.5")
 SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "pose", "complete", "path_length_m",
                 "reads", "simulated_s", "wall_s", "real_time_factor", "pose_error",
-                "compared_pose", "navigation", "tags", "error_m", "over_0_3_m", "located", "ambiguous",
-                "not_located", "warnings"}
+                "compared_pose", "navigation", "effects", "tags", "error_m", "over_0_3_m", "located",
+                "ambiguous", "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",
             "candidates_expected_error_m", "reads", "reads_used"}
@@ -306,6 +306,42 @@ def paper_warehouse_slam(context):
 
 
 @case
+def warehouse_physics(context):
+    """Everything on: what is read, and that what is claimed of the tags is true."""
+    folder = context.simulate("warehouse_physics")
+    summary = read_json(folder / "summary.json")
+    reads = read_csv(folder / "reads.csv")
+    check_between(len(reads), 8000, 20000, "reads")
+    check_equal({row["frequency_hz"] for row in reads},
+                {"865700000", "866300000", "866900000", "867500000"}, "carriers")
+    check_equal({row["antenna"] for row in reads}, {"left", "right"}, "antennas")
+    check_equal(len({row["stamp_s"] for row in reads}), len(reads), "stamps, each of one read,")
+    check(all(math.isfinite(float(row["doppler_hz"])) for row in reads), "Doppler is not finite")
+    steps = [float(row["phase_rad"]) / (2 * math.pi / 4096) for row in reads]
+    check(max(abs(step - round(step)) for step in steps) < 1e-3, "phases are not in 4096 steps")
+    for tag in summary["tags"]:
+        if tag["verdict"] == "located":
+            check(tag["error_m"] < 0.5, f"{tag['id']} is said to be located, {tag['error_m']} m off")
+    check_in("half turns", "".join(summary["warnings"]), "warnings")
+
+
+@case
+def warehouse_physics_broken_down(context):
+    """Without any effect the phase is exact; each that is added may only cost."""
+    folder = context.simulate("warehouse_physics", "--breakdown", "--set", "duration_s=30")
+    rows = read_json(folder / "summary.json")["effects"]
+    check_equal(rows[0]["set"], "none", "first row")
+    check_equal(rows[-1]["set"], "all", "last row")
+    check_equal(len(rows), 2 * 10 + 2, "rows")
+    check(rows[0]["located"] >= 8, f"without any effect only {rows[0]['located']} tags are located")
+    check(rows[0]["error_m"]["max"] < 1e-3, f"without any effect: {rows[0]['error_m']}")
+    reflections = next(row for row in rows
+                       if row["set"] == "alone" and row["effect"] == "reflections")
+    mean = reflections["error_m"]["mean"] if reflections["error_m"] else math.inf
+    check(reflections["located"] < rows[0]["located"] or mean > 0.01, "reflections cost nothing")
+
+
+@case
 def z_axis(context):
     folder = context.simulate("z_axis")
     summary = check_run_folder(folder)
@@ -443,7 +479,7 @@ def spawn(context):
 
 @case
 def same_bytes_for_one_and_two_threads(context):
-    for name in ("paper_warehouse", "two_antennas"):
+    for name in ("paper_warehouse", "two_antennas", "warehouse_physics"):
         one = files_in(context.simulate(name, "--threads", "1", name=f"{name}_1"))
         two = files_in(context.simulate(name, "--threads", "2", name=f"{name}_2"))
         for file in ("reads.csv", "antenna_poses.csv", "estimates.csv", "truth/distances.csv"):
