@@ -33,6 +33,15 @@ void append_settings(YamlMap& map, const std::vector<SettingHelp>& settings,
   }
 }
 
+/// Keys that the paper's model has too, with ranges of its own.
+void drop_the_papers_own(std::vector<RawParameter>& parameters) {
+  const auto is_papers = [](const RawParameter& parameter) {
+    return parameter.key == "frequency_hz" || parameter.key == "phase_offset_rad";
+  };
+  parameters.erase(std::remove_if(parameters.begin(), parameters.end(), is_papers),
+                   parameters.end());
+}
+
 Material material_of(YamlMap map) {
   Material material;
   material.name = map.at("name").text();
@@ -109,6 +118,7 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, const RadioDe
   }
   append_settings(antenna, antenna_settings(), parameters);
   parameters.insert(parameters.end(), defaults.antenna.begin(), defaults.antenna.end());
+  if (model == PropagationModel::kPaper) drop_the_papers_own(parameters);
   Diagnostics of_model;
   auto radio = radio_model_from(model, parameters, antenna.self().location(), of_model);
   if (model == PropagationModel::kPaper) return nullptr;

@@ -413,7 +413,7 @@ def lists_and_words_of_the_wrong_kind(context):
             ("refine: true", "refine: perhaps", "must be true or false"),
             ("method: hyperbola", "method: parabola", ["not known", "hyperbola"]),
             ("source: noisy", "source: noizy", ["not known", "noisy"]),
-            ("model: paper", "model: papier", ["not known", "paper"]),
+            ("model: paper", "model: papier", ["papier", "expected paper, link_budget, multipath"]),
             ("tag_height_m: 1", "tag_heights: knwon", ["not known", "known"]),
             ("seed: 1", "seed: -1", "whole number"),
             ("seed: 1", "seed: 1.5", "whole number"),
