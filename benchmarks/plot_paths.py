@@ -11,7 +11,7 @@ import re
 import sys
 
 WORLDS = (("small warehouse", 0, "#2a6fbb"), ("AWS warehouse", 1, "#c2571a"))
-WIDTH, HEIGHT, LEFT, TOP, GAP, SIDE = 960, 330, 62, 46, 84, 230
+WIDTH, HEIGHT, LEFT, TOP, GAP, SIDE = 960, 346, 62, 62, 84, 230
 
 
 def medians(path):
