@@ -17,4 +17,4 @@ write_basic_package_version_file(
 install(FILES ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
               ${PROJECT_BINARY_DIR}/tagfieldConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
-install(DIRECTORY models scenarios worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield)
+install(DIRECTORY models profiles scenarios worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield)
