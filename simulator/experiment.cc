@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "simulator/known_beforehand.h"
 #include "simulator/navigation_summary.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
@@ -113,29 +114,12 @@ double mapping_s(const SeedRun& run) {
 
 }  // namespace
 
-TagHeights known_heights(const Scenario& scenario) {
-  TagHeights heights;
-  if (scenario.localization.known_height == KnownHeight::kNumber) {
-    heights.of_all = scenario.localization.height_m;
-  }
-  if (scenario.localization.known_height == KnownHeight::kTag) {
-    for (const TagSpec& tag : scenario.tags) {
-      if (!moves(tag)) heights.of_tag[tag.id] = tag.motion.front().X_WB.translation.z();
-    }
-  }
-  return heights;
-}
-
 LocalizationOptions localization_options(const Scenario& scenario, int threads) {
   LocalizationOptions options;
-  options.hyperbola = scenario.localization.hyperbola;
-  options.heights = known_heights(scenario);
-  options.half_turns = scenario.localization.half_turns;
+  options.method = scenario.localization.method;
+  options.settings = scenario.localization.settings;
+  options.known = known_beforehand(scenario);
   options.threads = threads;
-  // Between two updates an antenna's poses are as far apart as its rate says.
-  for (const AntennaSpec& antenna : scenario.antennas) {
-    options.max_pose_gap_s = std::max(options.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
-  }
   return options;
 }
 
@@ -162,11 +146,15 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
   const LocalizationOptions options = localization_options(scenario, threads);
   const Recording& recording = run.recording;
   run.estimates = in_scenario_order(
-      scenario, locate_tags(recording.reads, recording.believed_poses, options, diagnostics));
+      scenario,
+      locate_tags(recording.reads, recording.believed_poses, options, diagnostics).estimates);
   run.outcomes = outcomes_of(scenario, run, run.estimates);
   if (scenario.pose.source == PoseSource::kTrue) return;
+  LocalizationOptions exact = options;
+  exact.known.pose_error = PoseErrorModel{};
   const std::vector<TagEstimate> with_truth = in_scenario_order(
-      scenario, locate_tags(recording.reads, recording.truth.antenna_poses, options, diagnostics));
+      scenario,
+      locate_tags(recording.reads, recording.truth.antenna_poses, exact, diagnostics).estimates);
   run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run, with_truth));
 }
 

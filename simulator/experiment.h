@@ -45,9 +45,6 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
                                const RunControl& control, Diagnostics& diagnostics,
                                const NavigationWorld* world = nullptr);
 
-/// What is known of the tags' heights in this scenario, for localization.
-TagHeights known_heights(const Scenario& scenario);
-
 /// How this scenario's tags are to be located.
 LocalizationOptions localization_options(const Scenario& scenario, int threads);
 

@@ -15,7 +15,7 @@
 #include "simulator/robot.h"
 #include "tagfield/base/error.h"
 #include "tagfield/channel/radio_world.h"
-#include "tagfield/localization/hyperbola.h"
+#include "tagfield/localization/locate.h"
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
@@ -61,13 +61,20 @@ enum class KnownHeight {
   kTag,      ///< Each tag's own, as from the rack that it is on.
   kAntenna,  ///< Not at all: as high as the antennas in the mean.
   kNumber,   ///< One for all, in `height_m`.
+  kAbove,    ///< To be estimated, above the antennas.
+  kBelow,    ///< Likewise below.
 };
 
 struct LocalizationSpec {
-  HyperbolaOptions hyperbola;
+  std::string method = "hyperbola";
+  MethodSettings settings;
+  EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;
-  std::optional<bool> half_turns;  ///< As in LocalizationOptions.
+  std::optional<bool> half_turns;  ///< As in KnownBeforehand.
+  bool offset_known = false;  ///< Whether the antennas' phase offsets are known, as calibrated.
+  std::vector<std::string> reference_tags;   ///< IDs of those whose places are known.
+  std::optional<PoseErrorModel> pose_error;  ///< Where not told, that of the pose's source.
 };
 
 struct Scenario {

@@ -174,22 +174,44 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
   return tag;
 }
 
+/// The name of a method that there is.
+std::string method_of(const YamlValue& value) {
+  std::vector<std::string> names;
+  for (const Method& method : built_in_methods({})) names.push_back(method.name);
+  return names[static_cast<std::size_t>(choice(value, names))];
+}
+
+PoseErrorModel pose_error_of(YamlMap map) {
+  PoseErrorModel model;
+  model.sigma_m = map.number("sigma_m", model.sigma_m, kNotNegative);
+  model.yaw_sigma_rad = radians(map.number("yaw_sigma_deg", 0.0, kNotNegative));
+  model.time_constant_s = map.number("time_constant_s", model.time_constant_s, kPositive);
+  map.finish();
+  return model;
+}
+
 LocalizationSpec localization_of(YamlMap map) {
   LocalizationSpec spec;
-  HyperbolaOptions& options = spec.hyperbola;
-  if (map.has("method")) choice(map.at("method"), {"hyperbola"});
+  HyperbolaOptions& options = spec.settings.hyperbola;
+  if (map.has("method")) spec.method = method_of(map.at("method"));
   options.stride_m = map.number("stride_m", options.stride_m, kPositive);
   options.refine = map.boolean("refine", options.refine);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
-  options.max_expected_error_m =
-      map.number("max_expected_error_m", options.max_expected_error_m, kPositive);
-  options.max_rms_m = map.number("max_rms_m", options.max_rms_m, kPositive);
+  if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
+  for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
+  if (map.has("pose_error")) spec.pose_error = pose_error_of(YamlMap(map.at("pose_error")));
+  EstimateLimits& limits = spec.limits;
+  limits.max_expected_error_m =
+      map.number("max_expected_error_m", limits.max_expected_error_m, kPositive);
+  limits.max_rms_m = map.number("max_rms_m", limits.max_rms_m, kPositive);
   if (map.has("tag_height_m")) {
     spec.known_height = KnownHeight::kNumber;
     spec.height_m = map.at("tag_height_m").number();
   } else if (map.has("tag_heights")) {
-    constexpr KnownHeight kKinds[] = {KnownHeight::kTag, KnownHeight::kAntenna};
-    spec.known_height = kKinds[choice(map.at("tag_heights"), {"known", "unknown"})];
+    constexpr KnownHeight kKinds[] = {KnownHeight::kTag, KnownHeight::kAntenna, KnownHeight::kAbove,
+                                      KnownHeight::kBelow};
+    spec.known_height =
+        kKinds[choice(map.at("tag_heights"), {"known", "unknown", "above", "below"})];
   }
   map.finish();
   return spec;

@@ -36,11 +36,12 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   LocalizationOptions options;
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
-  if (arguments.stride_m) options.hyperbola.stride_m = *arguments.stride_m;
-  if (arguments.tag_height_m || !arguments.heights_file.empty()) options.heights = {};
-  options.heights.of_all = arguments.tag_height_m ? arguments.tag_height_m : options.heights.of_all;
+  if (arguments.stride_m) options.settings.hyperbola.stride_m = *arguments.stride_m;
+  TagHeights& heights = options.known.heights;
+  if (arguments.tag_height_m || !arguments.heights_file.empty()) heights = {};
+  heights.of_all = arguments.tag_height_m ? arguments.tag_height_m : heights.of_all;
   if (!arguments.heights_file.empty()) {
-    options.heights.of_tag = read_tag_heights_csv(arguments.heights_file);
+    heights.of_tag = read_tag_heights_csv(arguments.heights_file);
   }
   return options;
 }
@@ -58,9 +59,9 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
                                      const std::vector<std::string>& order) {
   if (recording.other.poses.empty()) return std::nullopt;
   Diagnostics of_other;  // Would be taken for warnings about the run's own poses.
-  const std::vector<TagEstimate> estimates =
-      with_all_tags(locate_tags(recording.reads, recording.other.poses, options, of_other),
-                    recording.truth, order);
+  const std::vector<TagEstimate> estimates = with_all_tags(
+      locate_tags(recording.reads, recording.other.poses, options, of_other).estimates,
+      recording.truth, order);
   Summary summary;
   summary.tags = judged(estimates, recording.reads, recording.truth);
   ComparedPose result;
@@ -102,8 +103,8 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
   folder.add("estimates.csv", estimates_to_csv(estimates));
   if (!is_empty(recording.truth)) stage_truth(recording.truth, folder);
   if (!loaded) return;
-  if (!options.heights.of_tag.empty()) {
-    folder.add("tag_heights.csv", tag_heights_to_csv(options.heights.of_tag));
+  if (!options.known.heights.of_tag.empty()) {
+    folder.add("tag_heights.csv", tag_heights_to_csv(options.known.heights.of_tag));
   }
   stage_top_view(*loaded, folder);
 }
@@ -146,9 +147,9 @@ int localize(const LocalizeArguments& arguments) {
   const std::string out = folder_of(arguments);
   StagedFolder folder(out);
   const std::vector<std::string> order = order_of(loaded);
-  const std::vector<TagEstimate> estimates =
-      with_all_tags(locate_tags(recording.reads, recording.poses.poses, options, diagnostics),
-                    recording.truth, order);
+  const std::vector<TagEstimate> estimates = with_all_tags(
+      locate_tags(recording.reads, recording.poses.poses, options, diagnostics).estimates,
+      recording.truth, order);
   Summary summary = summary_of(arguments, recording, loaded, estimates);
   summary.compared_pose = compared(recording, options, order);
   summary.warnings = diagnostics.warnings();

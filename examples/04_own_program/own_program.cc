@@ -40,8 +40,9 @@ int main() {
     }
   }
   tagfield::Diagnostics diagnostics;
-  for (const tagfield::TagEstimate& estimate :
-       tagfield::locate_tags(recording.reads, recording.believed_poses, {}, diagnostics)) {
+  const tagfield::LocalizationResult result =
+      tagfield::locate_tags(recording.reads, recording.believed_poses, {}, diagnostics);
+  for (const tagfield::TagEstimate& estimate : result.estimates) {
     if (estimate.verdict == tagfield::Verdict::kLocated) {
       const Eigen::Vector3d& p = estimate.candidates.front().p_WT;
       std::printf("%s: %.3f %.3f m\n", estimate.tag.c_str(), p.x(), p.y());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulator/known_beforehand.h"
 #include "tagfield/stream/reads_csv.h"
 
 namespace tagfield {
@@ -91,11 +92,11 @@ TEST(RunSeeds, StopsEarlyAndSaysSo) {
 
 TEST(KnownHeights, AreTheRestingTags) {
   Scenario scenario = small_experiment();
-  EXPECT_EQ(known_heights(scenario).of_tag.size(), 2U);
-  EXPECT_EQ(known_heights(scenario).of_tag.at("near"), 1.4);
+  EXPECT_EQ(known_beforehand(scenario).heights.of_tag.size(), 2U);
+  EXPECT_EQ(known_beforehand(scenario).heights.of_tag.at("near"), 1.4);
   scenario.localization.known_height = KnownHeight::kAntenna;
-  EXPECT_TRUE(known_heights(scenario).of_tag.empty());
-  EXPECT_FALSE(known_heights(scenario).of_all.has_value());
+  EXPECT_TRUE(known_beforehand(scenario).heights.of_tag.empty());
+  EXPECT_FALSE(known_beforehand(scenario).heights.of_all.has_value());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/seeds.h"
 #include "tagfield/localization/segment_fit.h"
@@ -14,7 +15,6 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kFewestReads = 8;
 /// Reads beyond one for each unknown; a fit to fewer follows the noise and seems better than it is.
 constexpr std::size_t kFewestSpare = 16;
 constexpr Eigen::Index kThinReads = 120;  ///< Reads by which intersections are ranked.
@@ -31,8 +31,6 @@ void require_positive(double value, const char* name) {
 void check(const HyperbolaOptions& options, double tag_height) {
   require_positive(options.stride_m, "stride_m");
   require_positive(options.max_step, "max_step");
-  require_positive(options.max_expected_error_m, "max_expected_error_m");
-  require_positive(options.max_rms_m, "max_rms_m");
   if (options.max_step > 1.0) throw Error("max_step must be at most 1");
   if (options.max_hyperbolae < 2) throw Error("max_hyperbolae must be at least 2");
   if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
@@ -43,60 +41,6 @@ struct Problem {
   std::vector<PhaseSegment> segments;
   FitData data;
 };
-
-/// Largest extent of any of the antennas, in all and seen from above [m].
-struct Extent {
-  double whole = 0.0;
-  double level = 0.0;
-};
-
-Extent extent_in_space(const std::vector<PhaseSample>& samples) {
-  if (samples.empty()) return {};
-  Eigen::Vector3d low = samples.front().p_WA;
-  Eigen::Vector3d high = low;
-  for (const PhaseSample& sample : samples) {
-    low = low.cwiseMin(sample.p_WA);
-    high = high.cwiseMax(sample.p_WA);
-  }
-  return {(high - low).norm(), (high - low).head<2>().norm()};
-}
-
-Extent largest_extent(const SamplesOfTag& samples) {
-  Extent largest;
-  for (const auto& [antenna, series] : samples) {
-    const Extent extent = extent_in_space(series);
-    largest.whole = std::max(largest.whole, extent.whole);
-    largest.level = std::max(largest.level, extent.level);
-  }
-  return largest;
-}
-
-std::size_t count_reads(const SamplesOfTag& samples) {
-  std::size_t count = 0;
-  for (const auto& [antenna, series] : samples) count += series.size();
-  return count;
-}
-
-/// Why these samples can't locate anything; empty if they might.
-std::string hopeless(const SamplesOfTag& samples) {
-  const std::size_t reads = count_reads(samples);
-  const Extent extent = largest_extent(samples);
-  if (reads == 0) return "no reads";
-  if (reads < kFewestReads) {
-    return fmt::format("only {} reads, at least {} are needed", reads, kFewestReads);
-  }
-  if (extent.whole < kStillExtent) {
-    return fmt::format("the antenna moved only {:.2f} m", extent.whole);
-  }
-  if (extent.level < kStillExtent) {
-    return fmt::format(
-        "geometry too weak: the antenna moved {:.2f} m, but only {:.2f} m of it sideways, so the "
-        "tag "
-        "may be anywhere around it",
-        extent.whole, extent.level);
-  }
-  return "";
-}
 
 Problem pose_problem(const SamplesOfTag& samples, double height, double max_step) {
   Problem problem;
@@ -190,54 +134,17 @@ Candidate candidate_at(const FitData& data, const Eigen::Vector2d& p, double hei
       {p.x(), p.y(), height}, std::sqrt(sum_of_squares(data, p) / reads), expected_error(data, p)};
 }
 
-/// Why the best candidate is no answer; empty if it is.
-std::string doubt(const Candidate& best, const HyperbolaOptions& options) {
-  if (best.rms_m > options.max_rms_m) {
-    return fmt::format("the phase does not fit a tag at rest: misfit {:.3f} m, limit {:.3f} m",
-                       best.rms_m, options.max_rms_m);
-  }
-  if (best.expected_error_m > options.max_expected_error_m) {
-    return best.expected_error_m > 100.0
-               ? "geometry too weak: the tag may be anywhere"
-               : fmt::format("geometry too weak: expected error {:.2f} m, limit {:.2f} m",
-                             best.expected_error_m, options.max_expected_error_m);
-  }
-  return "";
-}
-
-TagEstimate not_located(TagEstimate estimate, const std::string& why) {
-  estimate.verdict = Verdict::kNotLocated;
-  estimate.reason = fmt::format("cannot localize: {}", why);
-  estimate.candidates.clear();
-  return estimate;
-}
-
-void judge(const HyperbolaOptions& options, TagEstimate& estimate) {
-  const std::string why_not = doubt(estimate.candidates.front(), options);
-  if (!why_not.empty()) {
-    estimate = not_located(std::move(estimate), why_not);
-  } else if (estimate.candidates.size() == 1) {
-    estimate.verdict = Verdict::kLocated;
-  } else {
-    estimate.verdict = Verdict::kAmbiguous;
-    estimate.reason = fmt::format(
-        "{} places explain the phase equally well; a turn of the path would tell them apart",
-        estimate.candidates.size());
-  }
-}
-
 }  // namespace
 
-double extent_of(const std::vector<PhaseSample>& samples) { return extent_in_space(samples).whole; }
-
 TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
-                                 double tag_height, const HyperbolaOptions& options) {
+                                 double tag_height, const HyperbolaOptions& options,
+                                 const EstimateLimits& limits) {
   check(options, tag_height);
   TagEstimate estimate;
   estimate.tag = tag;
   estimate.reads = count_reads(samples);
-  const std::string why_hopeless = hopeless(samples);
-  if (!why_hopeless.empty()) return not_located(std::move(estimate), why_hopeless);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
   Problem problem = pose_problem(samples, tag_height, options.max_step);
   estimate.reads = static_cast<std::size_t>(problem.data.distance.size());
   const std::string why_too_few = too_few(problem);
@@ -252,8 +159,23 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   for (const Eigen::Vector2d& p : places) {
     estimate.candidates.push_back(candidate_at(problem.data, p, tag_height));
   }
-  judge(options, estimate);
+  judge(limits, estimate);
   return estimate;
+}
+
+Method hyperbola_method(const HyperbolaOptions& options) {
+  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
+    LocalizationResult result;
+    result.method = "hyperbola";
+    result.estimates =
+        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+          return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), options,
+                                      problem.limits);
+        });
+    return result;
+  };
+  return {"hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
+          locate};
 }
 
 }  // namespace tagfield

@@ -1,43 +1,43 @@
 /// @file
-/// The door of this room: reads and antenna poses in, an estimate for each tag out. Knows nothing
-/// of where the tags really are.
+/// The door of this room: reads and antenna poses in, an estimate for each tag out, by any method.
+/// Knows nothing of where the tags really are.
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "tagfield/base/error.h"
 #include "tagfield/localization/hyperbola.h"
-#include "tagfield/localization/tag_estimate.h"
+#include "tagfield/localization/method.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 
 namespace tagfield {
 
-/// What is known of the tags' heights [m, world]. Where nothing is, a tag is taken to be as high
-/// as the antennas are in the mean.
-struct TagHeights {
-  std::optional<double> of_all;
-  std::map<std::string, double> of_tag;  ///< Goes before `of_all`.
+/// Settings of the methods that have any.
+struct MethodSettings {
+  HyperbolaOptions hyperbola;
 };
 
+/// All methods that come with Tagfield, in the order in which people are told of them.
+std::vector<Method> built_in_methods(const MethodSettings& settings);
+
+/// The method of that name. Throws Error on an unknown one, with the nearest known.
+Method find_method(const std::vector<Method>& methods, const std::string& name);
+
 struct LocalizationOptions {
-  HyperbolaOptions hyperbola;
-  TagHeights heights;
-  double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
-  /// Whether phases are known but for half a turn; where not told, the reads tell it.
-  std::optional<bool> half_turns;
+  std::string method = "hyperbola";
+  MethodSettings settings;
+  KnownBeforehand known;
   int threads = 1;
 };
 
-/// Locates every tag in `reads`, in rising order of their IDs, by the paper's method (hyperbola.h).
-/// Reads may come in any order; poses give the antennas' believed places and are interpolated at
-/// each read's stamp. Reads without a pose are left out with a warning. Deterministic, whatever
-/// the number of threads.
-std::vector<TagEstimate> locate_tags(const std::vector<TagRead>& reads,
-                                     const std::vector<AntennaPose>& poses,
-                                     const LocalizationOptions& options, Diagnostics& diagnostics);
+/// Locates every tag in `reads` by the method that `options` names. Reads may come in any order;
+/// poses give the antennas' believed places. Deterministic, whatever the number of threads. Throws
+/// Error on options out of their range.
+LocalizationResult locate_tags(const std::vector<TagRead>& reads,
+                               const std::vector<AntennaPose>& poses,
+                               const LocalizationOptions& options, Diagnostics& diagnostics);
 
 }  // namespace tagfield

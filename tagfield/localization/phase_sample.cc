@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 namespace {
@@ -15,8 +16,9 @@ namespace {
 /// long that took.
 constexpr double kStillDistance = 0.01;
 
-bool is_finite(const RigidTransform& pose) {
-  return pose.translation.allFinite() && pose.rotation.coeffs().allFinite();
+bool is_finite(const AntennaPose& pose) {
+  return pose.X_WA.translation.allFinite() && pose.X_WA.rotation.coeffs().allFinite() &&
+         (!pose.covariance || pose.covariance->allFinite());
 }
 
 bool is_usable(const TagRead& read) {
@@ -24,39 +26,25 @@ bool is_usable(const TagRead& read) {
          read.frequency_hz > 0.0;
 }
 
-/// Sorts by time and keeps the first of those with equal stamps; how many were dropped.
-std::size_t sort_and_drop_repeats(Trajectory& trajectory) {
-  const std::size_t before = trajectory.size();
-  std::stable_sort(trajectory.begin(), trajectory.end(),
-                   [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
-  const auto same = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
-  trajectory.erase(std::unique(trajectory.begin(), trajectory.end(), same), trajectory.end());
-  return before - trajectory.size();
+/// In order of time, the first of those with equal stamps kept; how many were dropped.
+std::size_t sort_and_drop_repeats(std::vector<const AntennaPose*>& poses) {
+  const std::size_t before = poses.size();
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto* a, const auto* b) { return a->stamp < b->stamp; });
+  const auto same = [](const auto* a, const auto* b) { return a->stamp == b->stamp; };
+  poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
+  return before - poses.size();
 }
 
-std::map<std::string, Trajectory> trajectories_of(const std::vector<AntennaPose>& poses,
-                                                  Diagnostics& diagnostics) {
-  std::map<std::string, Trajectory> trajectories;
-  std::map<std::string, std::size_t> broken;
-  for (const AntennaPose& pose : poses) {
-    if (is_finite(pose.X_WA)) {
-      trajectories[pose.antenna].push_back({pose.stamp, pose.X_WA});
-    } else {
-      ++broken[pose.antenna];
-    }
+/// Covariances count only where every pose has one.
+BelievedTrack track_of(const std::vector<const AntennaPose*>& poses) {
+  BelievedTrack track;
+  for (const AntennaPose* pose : poses) {
+    track.X_WA.push_back({pose->stamp, pose->X_WA});
+    if (pose->covariance) track.covariance.push_back(*pose->covariance);
   }
-  for (const auto& [antenna, count] : broken) {
-    diagnostics.warn(
-        fmt::format("antenna '{}': {} poses are not finite and are left out", antenna, count));
-  }
-  for (auto& [antenna, trajectory] : trajectories) {
-    const std::size_t repeats = sort_and_drop_repeats(trajectory);
-    if (repeats == 0) continue;
-    diagnostics.warn(
-        fmt::format("antenna '{}': {} poses repeat the stamp of another, of which the first counts",
-                    antenna, repeats));
-  }
-  return trajectories;
+  if (track.covariance.size() != track.X_WA.size()) track.covariance.clear();
+  return track;
 }
 
 struct ReadCount {
@@ -91,10 +79,36 @@ void put_in_order(std::vector<PhaseSample>& samples) {
 
 }  // namespace
 
-SamplesByTag join_reads_with_poses(const std::vector<TagRead>& reads,
-                                   const std::vector<AntennaPose>& poses, double max_pose_gap_s,
-                                   Diagnostics& diagnostics) {
-  const auto trajectories = trajectories_of(poses, diagnostics);
+std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
+                                               Diagnostics& diagnostics) {
+  std::map<std::string, std::vector<const AntennaPose*>> by_antenna;
+  std::map<std::string, std::size_t> broken;
+  for (const AntennaPose& pose : poses) {
+    if (is_finite(pose)) {
+      by_antenna[pose.antenna].push_back(&pose);
+    } else {
+      ++broken[pose.antenna];
+    }
+  }
+  for (const auto& [antenna, count] : broken) {
+    diagnostics.warn(
+        fmt::format("antenna '{}': {} poses are not finite and are left out", antenna, count));
+  }
+  std::map<std::string, BelievedTrack> tracks;
+  for (auto& [antenna, of_antenna] : by_antenna) {
+    const std::size_t repeats = sort_and_drop_repeats(of_antenna);
+    tracks[antenna] = track_of(of_antenna);
+    if (repeats == 0) continue;
+    diagnostics.warn(
+        fmt::format("antenna '{}': {} poses repeat the stamp of another, of which the first counts",
+                    antenna, repeats));
+  }
+  return tracks;
+}
+
+SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
+                                    const std::map<std::string, BelievedTrack>& tracks,
+                                    double max_pose_gap_s, Diagnostics& diagnostics) {
   const Duration max_gap = duration_from_seconds(max_pose_gap_s);
   SamplesByTag joined;
   std::map<std::string, ReadCount> counts;
@@ -106,17 +120,18 @@ SamplesByTag join_reads_with_poses(const std::vector<TagRead>& reads,
       ++count.broken;
       continue;
     }
-    const auto trajectory = trajectories.find(read.antenna);
+    const auto track = tracks.find(read.antenna);
     std::optional<RigidTransform> X_WA;
-    if (trajectory != trajectories.end()) {
-      X_WA = pose_at(trajectory->second, read.stamp, max_gap, kStillDistance);
+    if (track != tracks.end()) {
+      X_WA = pose_at(track->second.X_WA, read.stamp, max_gap, kStillDistance);
     }
     if (!X_WA) {
       ++count.without_pose;
       continue;
     }
-    of_tag[read.antenna].push_back(
-        {read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz, X_WA->translation});
+    of_tag[read.antenna].push_back({read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz,
+                                    X_WA->translation,
+                                    std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
   }
   for (auto& [tag, of_tag] : joined) {
     for (auto& [antenna, samples] : of_tag) put_in_order(samples);

@@ -20,7 +20,11 @@ struct PhaseSample {
   double phase_rad = 0.0;     ///< In [0, 2π).
   double frequency_hz = 0.0;  ///< Carrier.
   Eigen::Vector3d p_WA;       ///< Antenna [m].
+  double rssi_dbm = 0.0;
 };
+
+/// Stands for an RSSI that was not reported [dBm].
+inline constexpr double kNoRssi = -200.0;
 
 /// Samples of one tag, by antenna, each in rising order of time.
 using SamplesOfTag = std::map<std::string, std::vector<PhaseSample>>;
@@ -28,13 +32,20 @@ using SamplesOfTag = std::map<std::string, std::vector<PhaseSample>>;
 /// All samples, by tag.
 using SamplesByTag = std::map<std::string, SamplesOfTag>;
 
+struct BelievedTrack;
+
+/// The antennas' believed poses by antenna, in rising order of time. Poses that are not finite, or
+/// repeat a stamp, are left out, which is counted in one warning for each antenna.
+std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
+                                               Diagnostics& diagnostics);
+
 /// Joins reads with the antennas' poses, interpolated at each read's stamp. A read whose antenna
 /// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
 /// the stamp before the first or after the last) is left out and counted in one warning for each
 /// antenna. An antenna with one pose stands still. Two reads of a tag by an antenna at the same
 /// stamp: the first counts.
-SamplesByTag join_reads_with_poses(const std::vector<TagRead>& reads,
-                                   const std::vector<AntennaPose>& poses, double max_pose_gap_s,
-                                   Diagnostics& diagnostics);
+SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
+                                    const std::map<std::string, BelievedTrack>& tracks,
+                                    double max_pose_gap_s, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Candidate {
   Eigen::Vector3d p_WT;           ///< [m]
   double rms_m = 0.0;             ///< Quality E: rms misfit of the unwrapped phase distance [m].
   double expected_error_m = 0.0;  ///< Root of the horizontal covariance's trace [m].
+  /// Covariance of p_WT [m²], of methods that tell it; rows of z are 0 where the height was given.
+  std::optional<Eigen::Matrix3d> covariance{};
 };
 
 struct TagEstimate {

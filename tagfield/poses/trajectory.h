@@ -22,6 +22,8 @@ struct AntennaPose {
   Time stamp;
   std::string antenna;
   RigidTransform X_WA;
+  /// Of a believed pose's x, y, yaw [m², m·rad, rad²], where it is told.
+  std::optional<Eigen::Matrix3d> covariance{};
 };
 
 /// Poses in rising order of time.

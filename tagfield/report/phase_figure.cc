@@ -6,6 +6,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/localization/hyperbola.h"
 #include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/localization/unwrap.h"
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
@@ -43,7 +44,8 @@ std::vector<PhaseSegment> segments_of(const AntennaTrack& track, const std::stri
     poses.push_back({pose.stamp, track.antenna, pose.X_WB});
   }
   Diagnostics told_before;  // Localization met the same reads and its warnings are in the summary.
-  const SamplesByTag samples = join_reads_with_poses(reads, poses, kMaxPoseGap, told_before);
+  const SamplesByTag samples =
+      join_reads_with_tracks(reads, tracks_of(poses, told_before), kMaxPoseGap, told_before);
   const auto of_tag = samples.find(tag);
   if (of_tag == samples.end() || of_tag->second.empty()) return {};
   return unwrap(of_tag->second.begin()->second, HyperbolaOptions{}.max_step);

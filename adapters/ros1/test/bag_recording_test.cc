@@ -83,13 +83,14 @@ TEST(ReadBag, GivesReadsThatLocateTheTagWithTheTruePose) {
   const BagRecording bag = written(write_turn);
   ASSERT_EQ(bag.reads.size(), 190U);
   LocalizationOptions options;
-  options.heights.of_all = kTag.z();
+  options.known.heights.of_all = kTag.z();
   Diagnostics diagnostics;
-  const auto with_truth = locate_tags(bag.reads, bag.truth.antenna_poses, options, diagnostics);
+  const auto with_truth =
+      locate_tags(bag.reads, bag.truth.antenna_poses, options, diagnostics).estimates;
   ASSERT_EQ(with_truth.at(0).verdict, Verdict::kLocated) << with_truth[0].reason;
   EXPECT_LT((with_truth[0].candidates[0].p_WT - kTag).norm(), 1e-3);
   // A belief that is off by the same everywhere shifts the tag by as much.
-  const auto believed = locate_tags(bag.reads, bag.believed.poses, options, diagnostics);
+  const auto believed = locate_tags(bag.reads, bag.believed.poses, options, diagnostics).estimates;
   ASSERT_EQ(believed.at(0).verdict, Verdict::kLocated) << believed[0].reason;
   const Eigen::Vector3d shifted = kTag + Eigen::Vector3d(0.1, 0.0, 0.0);
   EXPECT_LT((believed[0].candidates[0].p_WT - shifted).norm(), 3e-3);
@@ -255,8 +256,8 @@ TEST(ReadBag, TakesTagArraysWhereThereAreNoTagReads) {
   EXPECT_TRUE(contains(diagnostics.warnings()[0], "865.7 MHz is assumed"));
   for (const TagRead& read : bag.reads) EXPECT_GE(read.phase_rad, 0.0);
   LocalizationOptions options;
-  options.heights.of_all = kTag.z();
-  const auto estimates = locate_tags(bag.reads, bag.believed.poses, options, diagnostics);
+  options.known.heights.of_all = kTag.z();
+  const auto estimates = locate_tags(bag.reads, bag.believed.poses, options, diagnostics).estimates;
   ASSERT_EQ(estimates.at(0).verdict, Verdict::kLocated);
   EXPECT_LT((estimates[0].candidates[0].p_WT - kTag).norm(), 1e-3);
 }

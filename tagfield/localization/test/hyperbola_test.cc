@@ -25,7 +25,7 @@ double nearest(const TagEstimate& estimate, const Eigen::Vector3d& p_WT) {
 
 TagEstimate locate(const SamplesOfTag& samples, double height,
                    const HyperbolaOptions& options = {}) {
-  return locate_by_hyperbolae("t", samples, height, options);
+  return locate_by_hyperbolae("t", samples, height, options, {});
 }
 
 /// Verdicts and errors over many tags.

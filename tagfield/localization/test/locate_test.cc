@@ -41,7 +41,7 @@ Scenario make_scenario(int tags) {
 
 LocalizationOptions at_height(double height, int threads = 1) {
   LocalizationOptions options;
-  options.heights.of_all = height;
+  options.known.heights.of_all = height;
   options.threads = threads;
   return options;
 }
@@ -62,7 +62,8 @@ void expect_equal(const std::vector<TagEstimate>& a, const std::vector<TagEstima
 TEST(Locate, FindsEveryTagInTheOrderOfTheirIds) {
   const Scenario scenario = make_scenario(12);
   Diagnostics diagnostics;
-  const auto estimates = locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics);
+  const auto estimates =
+      locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics).estimates;
   ASSERT_EQ(estimates.size(), 12u);
   EXPECT_TRUE(std::is_sorted(estimates.begin(), estimates.end(),
                              [](const auto& a, const auto& b) { return a.tag < b.tag; }));
@@ -76,24 +77,27 @@ TEST(Locate, FindsEveryTagInTheOrderOfTheirIds) {
 TEST(Locate, SameResultWhateverTheThreadsAndTheOrder) {
   Scenario scenario = make_scenario(6);
   Diagnostics diagnostics;
-  const auto one = locate_tags(scenario.reads, scenario.poses, at_height(0.9, 1), diagnostics);
-  const auto two = locate_tags(scenario.reads, scenario.poses, at_height(0.9, 2), diagnostics);
+  const auto one =
+      locate_tags(scenario.reads, scenario.poses, at_height(0.9, 1), diagnostics).estimates;
+  const auto two =
+      locate_tags(scenario.reads, scenario.poses, at_height(0.9, 2), diagnostics).estimates;
   expect_equal(one, two);
   std::reverse(scenario.reads.begin(), scenario.reads.end());
   std::reverse(scenario.poses.begin(), scenario.poses.end());
-  expect_equal(one, locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics));
+  expect_equal(one,
+               locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics).estimates);
 }
 
 TEST(Locate, TakesTheHeightOfTheTagBeforeThatOfAllBeforeTheAntennas) {
   const Scenario scenario = make_scenario(2);
   Diagnostics diagnostics;
   LocalizationOptions options;
-  options.heights.of_tag["tag0"] = 0.9;
-  auto estimates = locate_tags(scenario.reads, scenario.poses, options, diagnostics);
+  options.known.heights.of_tag["tag0"] = 0.9;
+  auto estimates = locate_tags(scenario.reads, scenario.poses, options, diagnostics).estimates;
   EXPECT_DOUBLE_EQ(estimates.at(0).candidates.at(0).p_WT.z(), 0.9);
   EXPECT_NEAR(estimates.at(1).candidates.at(0).p_WT.z(), 0.4, 1e-9);
-  options.heights.of_all = 1.1;
-  estimates = locate_tags(scenario.reads, scenario.poses, options, diagnostics);
+  options.known.heights.of_all = 1.1;
+  estimates = locate_tags(scenario.reads, scenario.poses, options, diagnostics).estimates;
   EXPECT_DOUBLE_EQ(estimates.at(0).candidates.at(0).p_WT.z(), 0.9);
   EXPECT_DOUBLE_EQ(estimates.at(1).candidates.at(0).p_WT.z(), 1.1);
 }
@@ -103,7 +107,8 @@ TEST(Locate, ATagWithoutPosesIsListedWithItsReason) {
   scenario.reads.push_back(
       {time_from_seconds(1.0), "reader", "unknown", "zebra", 865.7e6, 1.0, -50.0});
   Diagnostics diagnostics;
-  const auto estimates = locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics);
+  const auto estimates =
+      locate_tags(scenario.reads, scenario.poses, at_height(0.9), diagnostics).estimates;
   ASSERT_EQ(estimates.size(), 2u);
   EXPECT_EQ(estimates[1].tag, "zebra");
   EXPECT_EQ(estimates[1].verdict, Verdict::kNotLocated);
@@ -113,7 +118,7 @@ TEST(Locate, ATagWithoutPosesIsListedWithItsReason) {
 
 TEST(Locate, NothingGivesNothing) {
   Diagnostics diagnostics;
-  EXPECT_TRUE(locate_tags({}, {}, {}, diagnostics).empty());
+  EXPECT_TRUE(locate_tags({}, {}, {}, diagnostics).estimates.empty());
 }
 
 TEST(Locate, AHeightThatIsNotFiniteIsAnError) {

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "tagfield/localization/problem.h"
+
 namespace tagfield {
 namespace {
 
@@ -20,7 +22,7 @@ AntennaPose pose_at_x(double time, double x, const std::string& antenna = "a") {
 
 SamplesByTag join(const std::vector<TagRead>& reads, const std::vector<AntennaPose>& poses,
                   Diagnostics& diagnostics) {
-  return join_reads_with_poses(reads, poses, 0.5, diagnostics);
+  return join_reads_with_tracks(reads, tracks_of(poses, diagnostics), 0.5, diagnostics);
 }
 
 TEST(Join, InterpolatesThePoseAtTheReadsStamp) {

@@ -1,0 +1,36 @@
+/// @file
+/// What all methods have in common when they judge: why a tag can't be located at all, and whether
+/// candidates are an answer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
+#include "tagfield/localization/tag_estimate.h"
+
+namespace tagfield {
+
+/// Fewer reads of a tag than this locate nothing.
+inline constexpr std::size_t kFewestReads = 8;
+
+/// An antenna that moved less than this [m] stood still.
+inline constexpr double kStillExtent = 0.1;
+
+/// Largest extent of an antenna's places, the diagonal of the box around them [m].
+double extent_of(const std::vector<PhaseSample>& samples);
+
+/// Over all antennas.
+std::size_t count_reads(const SamplesOfTag& samples);
+
+/// Why these samples can't locate anything by the phase of a moving antenna; empty if they might.
+std::string why_hopeless(const SamplesOfTag& samples);
+
+/// The estimate without candidates, with the reason "cannot localize: WHY".
+TagEstimate not_located(TagEstimate estimate, const std::string& why);
+
+/// Sets verdict and reason by the candidates, of which there is at least one, best first.
+void judge(const EstimateLimits& limits, TagEstimate& estimate);
+
+}  // namespace tagfield

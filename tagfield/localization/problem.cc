@@ -1,0 +1,140 @@
+#include "tagfield/localization/problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tagfield/base/units.h"
+#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+void require_finite(double value, const std::string& what) {
+  if (!std::isfinite(value)) throw Error(what + " must be finite");
+}
+
+void require_positive(double value, const char* name) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
+}
+
+void check(const PoseErrorModel& model) {
+  if (!(std::isfinite(model.sigma_m) && model.sigma_m >= 0.0 &&
+        std::isfinite(model.yaw_sigma_rad) && model.yaw_sigma_rad >= 0.0)) {
+    throw Error("the standard deviations of the pose error must be finite and at least 0");
+  }
+  require_positive(model.time_constant_s, "time_constant_s");
+}
+
+void check(const KnownBeforehand& known) {
+  if (known.heights.of_all) require_finite(*known.heights.of_all, "the height of all tags");
+  for (const auto& [tag, height] : known.heights.of_tag) {
+    require_finite(height, "the height of tag '" + tag + "'");
+  }
+  for (const auto& [tag, place] : known.reference_tags) {
+    if (!place.allFinite()) throw Error("the place of tag '" + tag + "' must be finite");
+  }
+  for (const KnownOffset& offset : known.offsets) {
+    require_finite(offset.offset_rad, "the offset of antenna '" + offset.antenna + "'");
+  }
+  if (known.pose_error) check(*known.pose_error);
+  require_positive(known.limits.max_expected_error_m, "max_expected_error_m");
+  require_positive(known.limits.max_rms_m, "max_rms_m");
+}
+
+/// The offset of one channel goes before that of all.
+const KnownOffset* offset_of(const std::vector<KnownOffset>& offsets, const std::string& antenna,
+                             double frequency_hz) {
+  const KnownOffset* of_all = nullptr;
+  for (const KnownOffset& offset : offsets) {
+    if (offset.antenna != antenna) continue;
+    if (!offset.frequency_hz) {
+      of_all = &offset;
+    } else if (std::abs(*offset.frequency_hz - frequency_hz) < 1.0) {
+      return &offset;
+    }
+  }
+  return of_all;
+}
+
+/// Antennas of which every sample has a known offset, which is taken out.
+std::set<std::string> take_out_offsets(const std::vector<KnownOffset>& offsets,
+                                       SamplesByTag& samples) {
+  std::set<std::string> known;
+  std::set<std::string> unknown;
+  for (auto& [tag, of_tag] : samples) {
+    for (auto& [antenna, series] : of_tag) {
+      for (PhaseSample& sample : series) {
+        const KnownOffset* offset = offset_of(offsets, antenna, sample.frequency_hz);
+        (offset == nullptr ? unknown : known).insert(antenna);
+        if (offset == nullptr) continue;
+        sample.phase_rad = wrap_to_two_pi(sample.phase_rad - offset->offset_rad);
+      }
+    }
+  }
+  for (const std::string& antenna : unknown) known.erase(antenna);
+  return known;
+}
+
+/// Mean height of the antennas that moved while they read a tag, as only those locate it; of all
+/// where none did; 0 without samples.
+double mean_antenna_height(const SamplesOfTag& samples) {
+  double sum[2] = {0.0, 0.0};
+  double count[2] = {0.0, 0.0};
+  for (const auto& [antenna, series] : samples) {
+    const int moved = extent_of(series) >= kStillExtent ? 1 : 0;
+    for (const PhaseSample& sample : series) sum[moved] += sample.p_WA.z();
+    count[moved] += static_cast<double>(series.size());
+  }
+  for (const int moved : {1, 0}) {
+    if (count[moved] > 0.0) return sum[moved] / count[moved];
+  }
+  return 0.0;
+}
+
+std::optional<double> known_height(const LocalizationProblem& problem, const std::string& tag) {
+  const auto known = problem.heights.of_tag.find(tag);
+  if (known != problem.heights.of_tag.end()) return known->second;
+  return problem.heights.of_all;
+}
+
+}  // namespace
+
+LocalizationProblem make_problem(const std::vector<TagRead>& reads,
+                                 const std::vector<AntennaPose>& poses,
+                                 const KnownBeforehand& known, Diagnostics& diagnostics) {
+  check(known);
+  LocalizationProblem problem;
+  problem.tracks = tracks_of(poses, diagnostics);
+  problem.samples =
+      join_reads_with_tracks(reads, problem.tracks, known.max_pose_gap_s, diagnostics);
+  problem.offset_known = take_out_offsets(known.offsets, problem.samples);
+  problem.half_turns = known.half_turns.value_or(has_half_turns(problem.samples));
+  if (problem.half_turns) {
+    if (!known.half_turns) {
+      diagnostics.warn("phases jump by half turns: they are taken as known but for π");
+    }
+    double_phases(problem.samples);
+  }
+  problem.heights = known.heights;
+  problem.reference_tags = known.reference_tags;
+  problem.pose_error = known.pose_error;
+  problem.limits = known.limits;
+  return problem;
+}
+
+double plane_height(const LocalizationProblem& problem, const std::string& tag) {
+  const auto samples = problem.samples.find(tag);
+  const SamplesOfTag none;
+  return known_height(problem, tag)
+      .value_or(mean_antenna_height(samples == problem.samples.end() ? none : samples->second));
+}
+
+std::optional<HeightSide> side_to_estimate(const LocalizationProblem& problem,
+                                           const std::string& tag) {
+  return known_height(problem, tag) ? std::nullopt : problem.heights.estimated;
+}
+
+}  // namespace tagfield

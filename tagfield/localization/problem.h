@@ -1,0 +1,100 @@
+/// @file
+/// What a localization method is given: reads joined with believed antenna places, and all that is
+/// known besides. Nothing of where the tags really are.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/tag_estimate.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/tag_read.h"
+
+namespace tagfield {
+
+/// On which side of the antennas' heights a tag of unknown height is: from a level path only its
+/// distance from that level can be told.
+enum class HeightSide { kAbove, kBelow };
+
+/// What is known of the tags' heights [m, world]. Where nothing is, a tag is taken to be as high
+/// as the antennas are in the mean, or its height is estimated.
+struct TagHeights {
+  std::optional<double> of_all;
+  std::map<std::string, double> of_tag;  ///< Goes before `of_all`.
+  std::optional<HeightSide> estimated;  ///< Heights that are not known are estimated, on this side.
+};
+
+/// Error of the believed poses: an Ornstein-Uhlenbeck process in x, y and yaw, with variances σ²
+/// and the correlation e^(−|Δt|/τ).
+struct PoseErrorModel {
+  double sigma_m = 0.0;  ///< Standard deviation in x and in y; 0 where the pose is true.
+  double yaw_sigma_rad = 0.0;
+  double time_constant_s = 5.0;  ///< τ > 0.
+};
+
+/// Where an antenna was believed to be.
+struct BelievedTrack {
+  Trajectory X_WA;  ///< In rising order of time.
+  /// Covariance of x, y, yaw at each of these [m², m·rad, rad²]; empty where it is not told.
+  std::vector<Eigen::Matrix3d> covariance;
+};
+
+/// A phase offset that is known, as from a calibration.
+struct KnownOffset {
+  std::string antenna;
+  std::optional<double> frequency_hz;  ///< Of one channel; none for all of them.
+  double offset_rad = 0.0;             ///< φ = offset + 4π r/λ.
+};
+
+/// An estimate worse than this is not given as located.
+struct EstimateLimits {
+  double max_expected_error_m = 0.15;
+  double max_rms_m = 0.08;  ///< A worse misfit than this is no tag at rest.
+};
+
+/// All that the methods share. Phases in `samples` have the known offsets taken out.
+struct LocalizationProblem {
+  SamplesByTag samples;                         ///< In order; see join_reads_with_poses().
+  std::map<std::string, BelievedTrack> tracks;  ///< By antenna.
+  TagHeights heights;
+  std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known places [m, world].
+  std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
+  std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
+  bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
+  EstimateLimits limits;
+};
+
+/// What a problem is made from, besides reads and poses.
+struct KnownBeforehand {
+  TagHeights heights;
+  std::map<std::string, Eigen::Vector3d> reference_tags;
+  std::vector<KnownOffset> offsets;
+  std::optional<PoseErrorModel> pose_error;
+  double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
+  /// Whether phases are known but for half a turn; where not told, the reads tell it.
+  std::optional<bool> half_turns;
+  EstimateLimits limits;
+};
+
+/// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
+/// takes known offsets out and doubles phases with half turns. Reads without a pose are left out
+/// with a warning. Throws Error on what is known beforehand where it is not finite or out of range.
+LocalizationProblem make_problem(const std::vector<TagRead>& reads,
+                                 const std::vector<AntennaPose>& poses,
+                                 const KnownBeforehand& known, Diagnostics& diagnostics);
+
+/// Height of a tag's plane [m]: known, or else that of the antennas that moved while they read it,
+/// in the mean.
+double plane_height(const LocalizationProblem& problem, const std::string& tag);
+
+/// Whether the tag's height is to be estimated, and on which side.
+std::optional<HeightSide> side_to_estimate(const LocalizationProblem& problem,
+                                           const std::string& tag);
+
+}  // namespace tagfield
