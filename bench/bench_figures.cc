@@ -8,6 +8,7 @@
 
 #include "bench/series.h"
 #include "bench/statistics.h"
+#include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
@@ -149,9 +150,7 @@ Figure errors_figure(const Bench& bench, std::size_t condition) {
     add_polyline(svg, curve_of(axes, errors, count_tags(*entry)),
                  styled(series_of(bench, entry->name).line));
   }
-  figure.caption =
-      "Share of the tags that were located no further off than the value below. Where a line ends "
-      "below 100 %, the rest was ambiguous or not located.";
+  figure.caption = counted(count_tags(*entries.front()), "tag") + " for each method.";
   return figure;
 }
 

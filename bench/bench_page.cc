@@ -12,6 +12,10 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kMostName = 28;
+constexpr const char* kErrorsText =
+    "<p class=\"muted\">The share of the tags that were located no further off than the value "
+    "below. "
+    "Where a line ends below 100 %, the rest was ambiguous or not located.</p>\n";
 
 std::string header(const Bench& bench) {
   std::string html = "<header>\n<p class=\"kind\">Tagfield bench</p>\n<h1><bdi>" +
@@ -206,7 +210,7 @@ std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, T
   return page_head(bench.name + " – Tagfield bench") + "<body>\n" + header(bench) + "<main>\n" +
          numbers(bench, timing) + warnings(bench) + table(bench, timing) +
          legend(columns_of(bench, timing)) + bound_notes(bench) + "<h2>Figures</h2>\n" +
-         figures_html(figures, false) + "<h2>Errors by condition</h2>\n" +
+         figures_html(figures, false) + "<h2>Errors by condition</h2>\n" + kErrorsText +
          figures_html(figures, true) +
          "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv lie beside "
          "this "

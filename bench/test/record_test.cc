@@ -101,7 +101,7 @@ TEST(Records, AreAlignedAsAWhole) {
   }
   tags.emplace_back();
   add_aligned_errors(tags);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(tags[i].aligned_error.value(), 0.0, 1e-12);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(tags[i].aligned_error.value(), 0.0, 1e-12);
   EXPECT_FALSE(tags[3].aligned_error);
   std::vector<TagRecord> two = {tags[0], tags[1]};
   two[0].aligned_error.reset();

@@ -75,10 +75,12 @@ TEST(RunBench, RunsEachMethodInItsConditions) {
     EXPECT_EQ(entry.runs[2].seed, 7U);
   }
   // Both methods of a condition get the same reads, and the lossy one about half of them.
-  const std::size_t reads = bench.entries[1].runs[0].tags[0].reads;
-  EXPECT_EQ(bench.entries[0].runs[0].tags[0].reads, reads);
-  EXPECT_NEAR(static_cast<double>(bench.entries[2].runs[0].tags[0].reads), 0.5 * reads,
-              2.5 * std::sqrt(reads));
+  const auto reads_of = [&](std::size_t entry) {
+    return static_cast<double>(bench.entries[entry].runs[0].tags[0].reads);
+  };
+  const double reads = reads_of(1);
+  EXPECT_EQ(reads_of(0), reads);
+  EXPECT_NEAR(reads_of(2), 0.5 * reads, 2.5 * std::sqrt(reads));
   EXPECT_TRUE(bench.entries[1].runs[0].tags[0].nees);
   ASSERT_EQ(bench.warnings.size(), 2U);
   EXPECT_EQ(bench.warnings[0], "condition 'plain', seed 5: guessed");
