@@ -9,7 +9,7 @@
 namespace tagfield {
 
 std::vector<Method> built_in_methods(const MethodSettings& settings) {
-  return {hyperbola_method(settings.hyperbola)};
+  return {hyperbola_method(settings.hyperbola), sar_method(settings.sar)};
 }
 
 Method find_method(const std::vector<Method>& methods, const std::string& name) {
