@@ -11,6 +11,7 @@
 #include "apps/tagfield/top_view_file.h"
 #include "simulator/effect_breakdown.h"
 #include "simulator/experiment.h"
+#include "simulator/known_beforehand.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
 #include "tagfield/map/map_file.h"
@@ -54,7 +55,7 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   folder.add("reads.csv", reads_to_csv(run.recording.reads));
   folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
   folder.add("estimates.csv", estimates_to_csv(run.estimates));
-  const TagHeights heights = known_heights(loaded.scenario);
+  const TagHeights heights = known_beforehand(loaded.scenario).heights;
   if (!heights.of_tag.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights.of_tag));
   if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_truth(run.recording.truth, folder);

@@ -1,8 +1,8 @@
 /// @file
-/// Likelihood of places by wrapped phase: the waves of a group, turned back by the phase that a tag
-/// there would give, add up to S = Σ e^{j(φ − k r)}. With von Mises noise and the offset unknown
-/// the log-likelihood is κ Σ_groups |S| but for constants; with a known offset Re S takes the place
-/// of |S|.
+/// Likelihood of places by wrapped phase: the waves of an aperture, turned back by the phase that a
+/// tag there would give, add up to S = Σ e^{j(φ − k r)}. With von Mises noise and the offset
+/// unknown the log-likelihood is κ Σ |S| but for constants; with a known offset Re S takes the
+/// place of |S|.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,23 +13,18 @@
 
 namespace tagfield {
 
-/// Σ |S| over the groups, Re S where the offset is known; at most the number of reads.
-double coherence(const CoherentReads& reads, const std::vector<CoherentGroup>& groups,
-                 const HeightModel& model, const FitPlace& place);
+/// Σ |S| over the apertures, Re S where the offset is known; at most the number of reads.
+double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
+                 const HeightModel& height, const PlaceVector& place);
 
 /// The local maximum of coherence() near `start`: scoring steps (expected information in place of
 /// the Hessian) with Levenberg's damping. Finite for finite input.
-FitPlace climb(const CoherentReads& reads, const std::vector<CoherentGroup>& groups,
-               const HeightModel& model, const FitPlace& start);
+PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
+                  const HeightModel& height, const PlaceVector& start);
 
-/// Phase less that of a tag at `place`, as distance within ±λ/4, each group's offset removed [m].
-Eigen::ArrayXd wrapped_residuals(const CoherentReads& reads, const HeightModel& model,
-                                 const FitPlace& place);
-
-/// The place with its covariance: σ² τ N⁻¹ from the residuals' variance and correlation
-/// (residuals.h) and the normal matrix N, offsets eliminated. Rows of a height that was given are
-/// 0; an estimated q becomes a height by the slope of √q over one standard deviation.
-Candidate candidate_at(const CoherentReads& reads, const HeightModel& model, const FitPlace& place);
+/// The place with its covariance (fit_candidates.h).
+Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
+                       const PlaceVector& place);
 
 /// What is done with places that a search found.
 struct CoherentJudgement {
@@ -41,8 +36,8 @@ struct CoherentJudgement {
 
 /// Finishes: climbs from the places and from mirror images of the best, and gives verdict,
 /// candidates (those that the data can't tell from the best) and covariances.
-TagEstimate judge_places(const CoherentReads& reads, const HeightModel& model,
-                         const std::vector<FitPlace>& places, const CoherentJudgement& judgement,
+TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
+                         const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
                          const EstimateLimits& limits, TagEstimate estimate);
 
 }  // namespace tagfield

@@ -19,7 +19,7 @@ constexpr double kFinestCell = 0.1;     ///< [λ]
 constexpr std::int64_t kSplit = 3;      ///< A cell is split into so many by so many.
 constexpr std::size_t kMostKept = 250;  ///< Cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
-constexpr float kBrightEnough = 0.6f;    ///< Of the brightest.
+constexpr float kBrightEnough = 0.6f;     ///< Of the brightest.
 constexpr double kApart = 0.05;           ///< Maxima nearer than this are one [m].
 constexpr Eigen::Index kReachReads = 60;  ///< Antenna places by which the range is checked.
 constexpr double kPlanesApart = 0.7;      ///< Of unknown height [m].
@@ -38,52 +38,48 @@ void require_positive(double value, const char* name) {
   throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
 }
 
-CoherentReads thinned(const CoherentReads& reads, std::size_t count) {
-  const auto all = static_cast<std::size_t>(reads.phase.size());
+/// Every n-th read, so that at most `count` or so are left.
+TagPhases thinned(const TagPhases& phases, std::size_t count) {
+  const auto all = static_cast<std::size_t>(phases.size());
   const auto stride = static_cast<Eigen::Index>((all + count - 1) / count);
-  if (stride <= 1) return reads;
-  CoherentReads thin;
-  for (Eigen::ArrayXd* column : {&thin.x, &thin.y, &thin.z, &thin.phase}) {
-    column->resize(reads.phase.size());
+  if (stride <= 1) return phases;
+  std::vector<Eigen::Index> kept;
+  TagPhases thin;
+  for (const TagPhases::Span& span : phases.spans) {
+    TagPhases::Span of_kept = span;
+    of_kept.begin = static_cast<Eigen::Index>(kept.size());
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
+    of_kept.count = static_cast<Eigen::Index>(kept.size()) - of_kept.begin;
+    thin.spans.push_back(of_kept);
   }
-  Eigen::Index at = 0;
-  for (const CoherentGroup& group : reads.groups) {
-    CoherentGroup kept = group;
-    kept.begin = at;
-    for (Eigen::Index i = group.begin; i < group.begin + group.count; i += stride, ++at) {
-      thin.x[at] = reads.x[i];
-      thin.y[at] = reads.y[i];
-      thin.z[at] = reads.z[i];
-      thin.phase[at] = reads.phase[i];
-    }
-    kept.count = at - kept.begin;
-    thin.groups.push_back(kept);
-  }
-  for (Eigen::ArrayXd* column : {&thin.x, &thin.y, &thin.z, &thin.phase}) {
-    column->conservativeResize(at);
-  }
+  thin.x = phases.x(kept);
+  thin.y = phases.y(kept);
+  thin.z = phases.z(kept);
+  thin.value = phases.value(kept);
+  thin.cycle = phases.cycle(kept);
+  thin.wavenumber = phases.wavenumber(kept);
+  thin.time_s = phases.time_s(kept);
   return thin;
 }
 
-Eigen::Vector2d middle_of(const CoherentReads& reads) {
-  return {0.5 * (reads.x.minCoeff() + reads.x.maxCoeff()),
-          0.5 * (reads.y.minCoeff() + reads.y.maxCoeff())};
+Eigen::Vector2d middle_of(const TagPhases& phases) {
+  return {0.5 * (phases.x.minCoeff() + phases.x.maxCoeff()),
+          0.5 * (phases.y.minCoeff() + phases.y.maxCoeff())};
 }
 
 /// Whether a tag at `p`, about `middle`, is in range of some of the reads spread over all.
-bool in_reach(const CoherentReads& reads, double height, const Eigen::Vector2d& p,
-              double max_range) {
-  const Eigen::Index step = std::max<Eigen::Index>(1, reads.x.size() / kReachReads);
-  for (Eigen::Index i = 0; i < reads.x.size(); i += step) {
-    const double dx = p.x() - reads.x[i];
-    const double dy = p.y() - reads.y[i];
-    const double dz = height - reads.z[i];
+bool in_reach(const TagPhases& phases, double height, const Eigen::Vector2d& p, double max_range) {
+  const Eigen::Index step = std::max<Eigen::Index>(1, phases.x.size() / kReachReads);
+  for (Eigen::Index i = 0; i < phases.x.size(); i += step) {
+    const double dx = p.x() - phases.x[i];
+    const double dy = p.y() - phases.y[i];
+    const double dz = height - phases.z[i];
     if (dx * dx + dy * dy + dz * dz > max_range * max_range) return false;
   }
   return true;
 }
 
-Cells all_cells(const CoherentReads& reads, double height, const Eigen::Vector2d& middle,
+Cells all_cells(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
                 const SearchOptions& options) {
   Cells cells;
   const auto reach = static_cast<std::int64_t>(options.max_range_m / options.cell_m) + 1;
@@ -91,7 +87,7 @@ Cells all_cells(const CoherentReads& reads, double height, const Eigen::Vector2d
     for (std::int64_t j = -reach; j <= reach; ++j) {
       const Eigen::Vector2d p =
           middle + options.cell_m * Eigen::Vector2d(static_cast<double>(i), static_cast<double>(j));
-      if (in_reach(reads, height, p, options.max_range_m)) cells.push_back({i, j, 0.0f});
+      if (in_reach(phases, height, p, options.max_range_m)) cells.push_back({i, j, 0.0f});
     }
   }
   return cells;
@@ -177,10 +173,10 @@ std::vector<Eigen::Vector2d> places_of(const Cells& maxima, double size,
 }
 
 /// The place near `start` where growing apertures lead the fit.
-FitPlace climb_gradually(const CoherentReads& reads, const HeightModel& model, FitPlace place) {
-  const double lambda = longest_wavelength(reads);
+PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, PlaceVector place) {
+  const double lambda = longest_wavelength(phases);
   for (const double length : {3.0 * kFirstAperture * lambda, 9.0 * kFirstAperture * lambda}) {
-    place = climb(reads, apertures(reads, length), model, place);
+    place = climb(phases, apertures(phases, length), height, place);
   }
   return place;
 }
@@ -197,21 +193,21 @@ void check(const SearchOptions& options) {
   if (options.reads < 1) throw Error("reads must be at least 1");
 }
 
-SearchReads search_reads(const CoherentReads& reads, double length, double height,
+SearchReads search_reads(const TagPhases& phases, double length, double height,
                          const Eigen::Vector2d& middle) {
   SearchReads result;
-  result.apertures = apertures(reads, length);
-  result.reads.reserve(static_cast<std::size_t>(reads.phase.size()));
-  for (const CoherentGroup& group : reads.groups) {
-    for (Eigen::Index i = group.begin; i < group.begin + group.count; ++i) {
-      SearchRead read;
-      read.x = static_cast<float>(reads.x[i] - middle.x());
-      read.y = static_cast<float>(reads.y[i] - middle.y());
-      read.height_squared = static_cast<float>((height - reads.z[i]) * (height - reads.z[i]));
-      read.turns = static_cast<float>(wrap_to_pi(reads.phase[i]) / kTwoPi);
-      read.turns_per_metre = static_cast<float>(group.wavenumber / kTwoPi);
-      result.reads.push_back(read);
-    }
+  result.apertures = apertures(phases, length);
+  result.reads.reserve(static_cast<std::size_t>(phases.size()));
+  for (Eigen::Index i = 0; i < phases.size(); ++i) {
+    const double up = height - phases.z[i];
+    const double turns = phases.value[i] / phases.cycle[i];
+    SearchRead read;
+    read.x = static_cast<float>(phases.x[i] - middle.x());
+    read.y = static_cast<float>(phases.y[i] - middle.y());
+    read.height_squared = static_cast<float>(up * up);
+    read.turns = static_cast<float>(turns - std::round(turns));
+    read.turns_per_metre = static_cast<float>(1.0 / phases.cycle[i]);
+    result.reads.push_back(read);
   }
   return result;
 }
@@ -220,7 +216,7 @@ Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y)
   Tile light = Tile::Zero();
   Tile cosine;
   Tile sine;
-  for (const CoherentGroup& aperture : reads.apertures) {
+  for (const Aperture& aperture : reads.apertures) {
     Tile in_phase = Tile::Zero();
     Tile quadrature = Tile::Zero();
     for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
@@ -239,34 +235,33 @@ Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y)
   return light;
 }
 
-std::vector<Eigen::Vector2d> search_plane(const CoherentReads& reads, double height,
+std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,
                                           const SearchOptions& options,
                                           const Brightness& brightness) {
-  if (reads.phase.size() == 0) return {};
-  const double lambda = longest_wavelength(reads);
-  const CoherentReads coarse = thinned(reads, options.reads);
-  const Eigen::Vector2d middle = middle_of(reads);
+  if (phases.size() == 0) return {};
+  const double lambda = longest_wavelength(phases);
+  const TagPhases coarse = thinned(phases, options.reads);
+  const Eigen::Vector2d middle = middle_of(phases);
   double size = options.cell_m;
   double length = kFirstAperture * lambda;
-  Cells cells = all_cells(reads, height, middle, options);
+  Cells cells = all_cells(phases, height, middle, options);
   for (; size > kFinestCell * lambda; size /= static_cast<double>(kSplit), length *= 3.0) {
     illuminate(search_reads(coarse, length, height, middle), size, brightness, cells);
     cells = split(std::move(cells));
   }
-  illuminate(search_reads(reads, kWholeAperture, height, middle), size, brightness, cells);
+  illuminate(search_reads(phases, kWholeAperture, height, middle), size, brightness, cells);
   return places_of(local_maxima(cells), size, middle, options.maxima);
 }
 
-std::vector<FitPlace> search_places(const CoherentReads& reads, const HeightModel& model,
-                                    const SearchOptions& options, const Brightness& brightness) {
-  std::vector<FitPlace> places;
-  const bool known = model.kind == HeightModel::Kind::kKnown;
-  const double sign = model.side == HeightSide::kAbove ? 1.0 : -1.0;
+std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightModel& height,
+                                       const SearchOptions& options, const Brightness& brightness) {
+  std::vector<PlaceVector> places;
+  const bool known = height.kind == HeightModel::Kind::kKnown;
   for (int plane = 0; plane < (known ? 1 : kPlanes); ++plane) {
-    const double height = model.level + sign * kPlanesApart * plane;
-    for (const Eigen::Vector2d& p : search_plane(reads, height, options, brightness)) {
-      const FitPlace place = fit_place(model, p, height);
-      places.push_back(known ? place : climb_gradually(reads, model, place));
+    const double z = height.z + height.side * kPlanesApart * plane;
+    for (const Eigen::Vector2d& p : search_plane(phases, z, options, brightness)) {
+      const PlaceVector place = to_unknowns(height, {p.x(), p.y(), z});
+      places.push_back(known ? place : climb_gradually(phases, height, place));
     }
   }
   return places;

@@ -30,7 +30,7 @@ struct SearchRead {
 /// The reads that one level of the search looks at.
 struct SearchReads {
   std::vector<SearchRead> reads;
-  std::vector<CoherentGroup> apertures;  ///< Of `reads`.
+  std::vector<Aperture> apertures;  ///< Of `reads`.
 };
 
 /// Brightness of the places (x, y) of a tile, relative to the same middle [m].
@@ -77,19 +77,19 @@ void check(const SearchOptions& options);
 /// The brightest local maxima on the plane z = `height`, brightest first; none where no place is
 /// within the range of all reads. With λ the longest wavelength, apertures are 1.5 λ, three times
 /// that for each level on, and whole on the last, whose cells are at most λ/10.
-std::vector<Eigen::Vector2d> search_plane(const CoherentReads& reads, double height,
+std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,
                                           const SearchOptions& options,
                                           const Brightness& brightness);
 
 /// search_plane() as the fit sees it. Where the height is unknown, planes at several heights on the
 /// tag's side are searched, and each place found is fitted in all three coordinates over growing
 /// apertures, as lobes are narrower than planes are apart.
-std::vector<FitPlace> search_places(const CoherentReads& reads, const HeightModel& model,
-                                    const SearchOptions& options, const Brightness& brightness);
+std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightModel& height,
+                                       const SearchOptions& options, const Brightness& brightness);
 
 /// Reads in single precision about `middle`, for a tag at `height`, with the apertures of `length`
 /// [m].
-SearchReads search_reads(const CoherentReads& reads, double length, double height,
+SearchReads search_reads(const TagPhases& phases, double length, double height,
                          const Eigen::Vector2d& middle);
 
 }  // namespace tagfield

@@ -15,15 +15,15 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
   estimate.reads = count_reads(samples);
   const std::string hopeless = why_hopeless(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  const CoherentReads reads = make_coherent_reads(samples, problem.offset_known);
-  estimate.reads = static_cast<std::size_t>(reads.phase.size());
-  const std::string why_too_few = too_few(reads);
+  const TagPhases phases = coherent_reads(problem, samples);
+  estimate.reads = static_cast<std::size_t>(phases.size());
+  const std::string why_too_few = too_few(phases);
   if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
-  const HeightModel model = height_model(problem, tag, reads);
+  const HeightModel height = height_model(problem, tag, phases);
   CoherentJudgement judgement;
   judgement.max_rms_rad = options.max_rms_rad;
-  return judge_places(reads, model,
-                      search_places(reads, model, options.search, coherent_brightness), judgement,
+  return judge_places(phases, height,
+                      search_places(phases, height, options.search, coherent_brightness), judgement,
                       problem.limits, std::move(estimate));
 }
 

@@ -215,13 +215,13 @@ RC_GTEST_PROP(Hologram, BrightnessInSinglePrecisionIsThatInDouble, ()) {
   Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   const Path path = s_curve(6.0, 0.05);
   const auto samples = read_along(path, {2.0, 2.0, 0.4}, Noise{}, rng);
-  const CoherentReads reads = make_coherent_reads({{"a", samples}}, {});
+  const TagPhases phases = coherent_reads({}, {{"a", samples}});
   const Eigen::Vector2d middle(3.0, 0.0);
   Tile x = Tile::Zero();
   Tile y = Tile::Zero();
   x[5] = static_cast<float>(uniform(rng, -9.0, 9.0));
   y[5] = static_cast<float>(uniform(rng, -9.0, 9.0));
-  const Tile light = coherent_brightness(search_reads(reads, kWholeAperture, 0.4, middle), x, y);
+  const Tile light = coherent_brightness(search_reads(phases, kWholeAperture, 0.4, middle), x, y);
   const Eigen::Vector3d p(3.0 + static_cast<double>(x[5]), static_cast<double>(y[5]), 0.4);
   RC_ASSERT(std::abs(static_cast<double>(light[5]) - brightness(samples, p)) <
             1e-3 * static_cast<double>(samples.size()));
