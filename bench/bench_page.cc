@@ -118,8 +118,7 @@ std::string head_of(const Columns& columns) {
 
 std::string ambiguous_cell(const EntryStatistics& all) {
   if (all.ambiguous == 0) return cell("0");
-  return fmt::format("<td title=\"{} with a candidate within {:g} m\">{}</td>", all.candidate_hits,
-                     kCandidateHits_m, all.ambiguous);
+  return cell(fmt::format("{} ({})", all.ambiguous, all.candidate_hits));
 }
 
 std::string row_of(const BenchEntry& entry, const Columns& columns) {
@@ -185,7 +184,8 @@ std::string bound_notes(const Bench& bench) {
 std::string legend(const Columns& columns) {
   std::string html =
       "<p class=\"muted\">Errors are horizontal, of the tags that were located; wrong are those "
-      "over 0.3 m off. Times bound: the mean error over that of an efficient estimator (the "
+      "over 0.3 m off. In brackets: ambiguous tags with a candidate within 0.1 m. Times bound: the "
+      "mean error over that of an efficient estimator (the "
       "Cramér-Rao "
       "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right, ▲ "
       "beyond chance too bold, ▼ too cautious.";
