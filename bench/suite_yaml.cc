@@ -128,7 +128,7 @@ struct Common {
   std::optional<double> phase_noise_rad;
 };
 
-void append(std::vector<Override>& overrides, std::vector<Override> more) {
+void append(std::vector<Override>& overrides, const std::vector<Override>& more) {
   overrides.insert(overrides.end(), more.begin(), more.end());
 }
 
