@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/dah.h"
 #include "tagfield/localization/hyperbola.h"
 #include "tagfield/localization/method.h"
+#include "tagfield/localization/particle.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/sar.h"
 #include "tagfield/poses/trajectory.h"
@@ -20,6 +22,8 @@ namespace tagfield {
 struct MethodSettings {
   HyperbolaOptions hyperbola;
   SarOptions sar;
+  DahOptions dah;
+  ParticleOptions particle;
 };
 
 /// All methods that come with Tagfield, in the order in which people are told of them.
