@@ -26,6 +26,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_check_command(app, chosen);
   tagfield::add_explain_command(app, chosen);
   tagfield::add_coverage_command(app, chosen);
+  tagfield::add_bench_command(app, chosen);
   tagfield::add_gazebo_command(app, chosen);
   try {
     app.parse(argc, argv);
@@ -37,8 +38,8 @@ int parse_and_run(int argc, char** argv) {
   }
   if (!chosen) {
     fmt::print(stderr,
-               "tagfield: no command: expected run, localize, report, check, explain, coverage or"
-               " gazebo (see tagfield --help)\n");
+               "tagfield: no command: expected run, localize, report, check, explain, coverage,"
+               " bench or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

@@ -25,6 +25,7 @@ enum class Purpose : std::uint64_t {
   kDiffuse = 12,       ///< Waves that come from everywhere.
   kGen2 = 13,          ///< Slots that tags draw and replies made out, in one inventory round.
   kMeasuring = 14,     ///< Noise of what a reader measures of one reply.
+  kReadLoss = 15,      ///< Reads that are lost on the way, in a comparison of methods.
   kTagSearch = 20,     ///< Particles that stand for the places where a tag may be.
 };
 
