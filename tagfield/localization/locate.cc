@@ -18,7 +18,9 @@ std::vector<Method> built_in_methods(const MethodSettings& settings) {
           joint_method(),
           sar_method(settings.sar),
           dah_method(settings.dah),
-          particle_method(settings.particle)};
+          particle_method(settings.particle),
+          trilateration_method(settings.trilateration),
+          landmarc_method(settings.landmarc)};
 }
 
 Method find_method(const std::vector<Method>& methods, const std::string& name) {

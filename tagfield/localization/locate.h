@@ -9,10 +9,12 @@
 #include "tagfield/base/error.h"
 #include "tagfield/localization/dah.h"
 #include "tagfield/localization/hyperbola.h"
+#include "tagfield/localization/landmarc.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/particle.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/sar.h"
+#include "tagfield/localization/trilateration.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 
@@ -24,6 +26,8 @@ struct MethodSettings {
   SarOptions sar;
   DahOptions dah;
   ParticleOptions particle;
+  TrilaterationOptions trilateration;
+  LandmarcOptions landmarc;
 };
 
 /// All methods that come with Tagfield, in the order in which people are told of them.

@@ -85,6 +85,7 @@ TEST(EveryMethod, ReferenceTagsAreWhereTheyAre) {
     const LocalizationResult result = method.locate(problem, 1, diagnostics);
     for (const TagEstimate& estimate : result.estimates) {
       if (estimate.tag != "tag0") continue;
+      ASSERT_EQ(estimate.candidates.size(), 1u) << method.name << ": " << estimate.reason;
       EXPECT_EQ(estimate.candidates.at(0).p_WT, problem.reference_tags.at("tag0")) << method.name;
     }
   }
