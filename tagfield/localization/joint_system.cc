@@ -34,31 +34,38 @@ Layout layout_of(const JointTag& tag) {
   return layout;
 }
 
-/// The pose error's part of the normal equations: diagonal blocks, and those of each knot with the
-/// next, side by side.
+/// Blocks of D × D side by side, one a knot.
+template <int D>
+using Blocks = Eigen::Matrix<double, D, Eigen::Dynamic>;
+
+/// The pose error's part of the normal equations, with D unknowns a knot.
+template <int D>
 struct ChainPart {
-  Eigen::MatrixXd diagonal;  ///< size × size·knots
-  Eigen::MatrixXd next;      ///< Likewise; block k is that of rows k, columns k + 1.
+  Blocks<D> diagonal;
+  Blocks<D> next;  ///< Block k is that of rows k, columns k + 1.
   Eigen::VectorXd gradient;
 };
 
-ChainPart empty_chain(int size, Index knots) {
-  return {Eigen::MatrixXd::Zero(size, size * knots), Eigen::MatrixXd::Zero(size, size * knots),
-          Eigen::VectorXd::Zero(size * knots)};
+template <int D>
+ChainPart<D> empty_chain(Index knots) {
+  return {Blocks<D>::Zero(D, D * knots), Blocks<D>::Zero(D, D * knots),
+          Eigen::VectorXd::Zero(D * knots)};
 }
 
 /// One tag's part. `chain` covers only the tag's own knots.
+template <int D>
 struct TagPart {
   Layout layout;
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd coupling;  ///< Rows: unknowns of the tag's knots. Columns: the tag's unknowns.
-  ChainPart chain;
+  ChainPart<D> chain;
 };
 
+template <int D>
 struct Linear {
-  std::vector<TagPart> tags;
-  ChainPart chain;
+  std::vector<TagPart<D>> tags;
+  ChainPart<D> chain;
 };
 
 double nearest_to_zero(double error, double cycle) {
@@ -90,59 +97,75 @@ ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t spa
 }
 
 /// Derivative of a read's range by the unknowns of a knot: the antenna moves back by the error.
-Eigen::RowVector3d by_knot(const JointSystem& system, const JointTag& tag, Index i,
-                           const PlaceVector& gradient, Index knot) {
-  const Eigen::RowVector3d by_error(gradient[0], gradient[1],
-                                    -gradient[0] * tag.lever_y[i] + gradient[1] * tag.lever_x[i]);
-  return by_error * system.knots.scale[static_cast<std::size_t>(knot)];
+template <int D>
+Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
+                                    const PlaceVector& gradient, Index knot) {
+  const Eigen::Vector3d by_error(gradient[0], gradient[1],
+                                 -gradient[0] * tag.lever_y[i] + gradient[1] * tag.lever_x[i]);
+  const Eigen::Matrix3d& scale = system.knots.scale[static_cast<std::size_t>(knot)];
+  return scale.topLeftCorner<D, D>().transpose() * by_error.head<D>();
+}
+
+/// Adds one read's products with the pose error.
+template <int D>
+void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int column,
+                  const ReadNow& now, double weight, TagPart<D>& part) {
+  const Index before = (tag.knot[i] - tag.first_knot) * D;
+  const Index after = before + D;
+  const double w = tag.knot_weight[i];
+  using Vector = Eigen::Matrix<double, D, 1>;
+  const Eigen::Vector3d& g = now.range.gradient;
+  const Vector a = (1.0 - w) * by_knot<D>(system, tag, i, g, tag.knot[i]);
+  const Vector b = w * by_knot<D>(system, tag, i, g, tag.knot[i] + 1);
+  for (int c = 0; c < part.layout.place; ++c) {
+    part.coupling.col(c).template segment<D>(before) += weight * g[c] * a;
+    part.coupling.col(c).template segment<D>(after) += weight * g[c] * b;
+  }
+  if (column >= 0) {
+    part.coupling.col(column).template segment<D>(before) += weight * a;
+    part.coupling.col(column).template segment<D>(after) += weight * b;
+  }
+  part.chain.diagonal.template middleCols<D>(before) += (weight * a) * a.transpose();
+  part.chain.diagonal.template middleCols<D>(after) += (weight * b) * b.transpose();
+  part.chain.next.template middleCols<D>(before) += (weight * a) * b.transpose();
+  part.chain.gradient.template segment<D>(before) += weight * now.error * a;
+  part.chain.gradient.template segment<D>(after) += weight * now.error * b;
 }
 
 /// Adds one read's products to the tag's part.
+template <int D>
 void add_read(const JointSystem& system, const JointTag& tag, std::size_t span, Index i,
-              TagPart& part) {
+              TagPart<D>& part) {
   const ReadNow now = read_now(system, tag, span, i);
   const double k = tag.phases.wavenumber[i] / system.noise_rad;
   const double weight = k * k * tag.weight;
   const int place = part.layout.place;
   const int column = part.layout.of_span[span];
   const Eigen::Vector3d& g = now.range.gradient;
-  const auto g_place = g.head(place);
-  part.normal.topLeftCorner(place, place).noalias() += weight * g_place * g_place.transpose();
-  part.gradient.head(place) += weight * now.error * g_place;
+  for (int c = 0; c < place; ++c) {
+    for (int r = 0; r < place; ++r) part.normal(r, c) += weight * g[r] * g[c];
+    part.gradient[c] += weight * now.error * g[c];
+  }
   if (column >= 0) {
     part.normal(column, column) += weight;
-    part.normal.col(column).head(place) += weight * g_place;
-    part.normal.row(column).head(place) += weight * g_place.transpose();
+    for (int c = 0; c < place; ++c) {
+      part.normal(column, c) += weight * g[c];
+      part.normal(c, column) += weight * g[c];
+    }
     part.gradient[column] += weight * now.error;
   }
-  if (tag.knot[i] < 0) return;
-  const int size = system.knots.size;
-  const Index at = tag.knot[i] - tag.first_knot;
-  const double w = tag.knot_weight[i];
-  // Unknowns of the two knots side by side: the one before the read, and the next.
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6> J(2 * size);
-  J.head(size) = (1.0 - w) * by_knot(system, tag, i, g, tag.knot[i]).head(size);
-  J.tail(size) = w * by_knot(system, tag, i, g, tag.knot[i] + 1).head(size);
-  auto coupling = part.coupling.middleRows(at * size, 2 * size);
-  coupling.leftCols(place).noalias() += weight * J.transpose() * g_place.transpose();
-  if (column >= 0) coupling.col(column) += weight * J.transpose();
-  part.chain.diagonal.middleCols(at * size, size).noalias() +=
-      weight * J.head(size).transpose() * J.head(size);
-  part.chain.diagonal.middleCols((at + 1) * size, size).noalias() +=
-      weight * J.tail(size).transpose() * J.tail(size);
-  part.chain.next.middleCols(at * size, size).noalias() +=
-      weight * J.head(size).transpose() * J.tail(size);
-  part.chain.gradient.segment(at * size, 2 * size) += weight * now.error * J.transpose();
+  if (tag.knot[i] >= 0) add_to_knots(system, tag, i, column, now, weight, part);
 }
 
-TagPart part_of(const JointSystem& system, const JointTag& tag) {
-  TagPart part;
+template <int D>
+TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
+  TagPart<D> part;
   part.layout = layout_of(tag);
   const Index m = part.layout.size;
   part.normal = Eigen::MatrixXd::Zero(m, m);
   part.gradient = Eigen::VectorXd::Zero(m);
-  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * system.knots.size, m);
-  part.chain = empty_chain(system.knots.size, tag.knot_count);
+  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * D, m);
+  part.chain = empty_chain<D>(tag.knot_count);
   for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
     const TagPhases::Span& span = tag.phases.spans[s];
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
@@ -154,8 +177,9 @@ TagPart part_of(const JointSystem& system, const JointTag& tag) {
 }
 
 /// What is known of the pose error beforehand: uᵀ Λ u with the process' precision Λ.
-void add_prior(const JointSystem& system, ChainPart& chain) {
-  const int size = system.knots.size;
+template <int D>
+void add_prior(const JointSystem& system, ChainPart<D>& chain) {
+  constexpr int size = D;
   for (const PoseKnots::Chain& of : system.knots.chains) {
     const double rho = system.knots.correlation(of);
     const double fresh = 1.0 / (1.0 - rho * rho);
@@ -189,17 +213,17 @@ double prior_cost(const JointSystem& system) {
   return cost;
 }
 
-Linear linearize(const JointSystem& system, int threads) {
-  const int size = system.knots.size;
-  Linear linear;
+template <int D>
+Linear<D> linearize(const JointSystem& system, int threads) {
+  Linear<D> linear;
   linear.tags.resize(system.tags.size());
   parallel_for(system.tags.size(), threads,
-               [&](std::size_t j) { linear.tags[j] = part_of(system, system.tags[j]); });
-  linear.chain = empty_chain(size, system.knots.count());
+               [&](std::size_t j) { linear.tags[j] = part_of<D>(system, system.tags[j]); });
+  linear.chain = empty_chain<D>(system.knots.count());
   for (std::size_t j = 0; j < system.tags.size(); ++j) {
-    const Index begin = system.tags[j].first_knot * size;
-    const Index count = system.tags[j].knot_count * size;
-    const ChainPart& part = linear.tags[j].chain;
+    const Index begin = system.tags[j].first_knot * D;
+    const Index count = system.tags[j].knot_count * D;
+    const ChainPart<D>& part = linear.tags[j].chain;
     linear.chain.diagonal.middleCols(begin, count) += part.diagonal;
     linear.chain.next.middleCols(begin, count) += part.next;
     linear.chain.gradient.segment(begin, count) += part.gradient;
@@ -208,74 +232,76 @@ Linear linearize(const JointSystem& system, int threads) {
   return linear;
 }
 
-void damp(Linear& linear, double damping) {
-  for (TagPart& part : linear.tags) part.normal.diagonal() *= 1.0 + damping;
+template <int D>
+void damp(Linear<D>& linear, double damping) {
+  for (TagPart<D>& part : linear.tags) part.normal.diagonal() *= 1.0 + damping;
 }
 
 /// Block Cholesky factors of the chain: P = L Lᵀ with blocks on and below the diagonal.
+template <int D>
 struct ChainFactors {
-  int size = 2;
-  Eigen::MatrixXd own;    ///< Lower triangular blocks, side by side.
-  Eigen::MatrixXd below;  ///< Block k is that of rows k + 1, columns k.
+  Blocks<D> own;    ///< Lower triangular.
+  Blocks<D> below;  ///< Block k is that of rows k + 1, columns k.
   double log_determinant = 0.0;
 };
 
-ChainFactors factorize(const ChainPart& chain, int size) {
-  const Index knots = chain.gradient.size() / size;
-  ChainFactors factors{size, chain.diagonal, Eigen::MatrixXd::Zero(size, size * knots), 0.0};
+template <int D>
+ChainFactors<D> factorize(const ChainPart<D>& chain) {
+  using Block = Eigen::Matrix<double, D, D>;
+  const Index knots = chain.gradient.size() / D;
+  ChainFactors<D> factors{chain.diagonal, Blocks<D>::Zero(D, D * knots), 0.0};
   for (Index k = 0; k < knots; ++k) {
-    Eigen::MatrixXd block = factors.own.middleCols(k * size, size);
-    const Eigen::LLT<Eigen::MatrixXd> cholesky(block);
-    const Eigen::MatrixXd L = cholesky.matrixL();
-    factors.own.middleCols(k * size, size) = L;
+    const Block block = factors.own.template middleCols<D>(k * D);
+    const Block L = block.llt().matrixL();
+    factors.own.template middleCols<D>(k * D) = L;
     factors.log_determinant += 2.0 * L.diagonal().array().log().sum();
     if (k + 1 == knots) break;
+    const Block next = chain.next.template middleCols<D>(k * D);
     // (L⁻¹ N)ᵀ for the block N beside the diagonal.
-    const Eigen::MatrixXd below =
-        L.triangularView<Eigen::Lower>().solve(chain.next.middleCols(k * size, size)).transpose();
-    factors.below.middleCols(k * size, size) = below;
-    factors.own.middleCols((k + 1) * size, size) -= below * below.transpose();
+    const Block below = L.template triangularView<Eigen::Lower>().solve(next).transpose();
+    factors.below.template middleCols<D>(k * D) = below;
+    factors.own.template middleCols<D>((k + 1) * D) -= below * below.transpose();
   }
   return factors;
 }
 
-/// L⁻¹ right, in place.
-template <typename Matrix>
-void solve_forward(const ChainFactors& factors, Matrix& right) {
-  const int size = factors.size;
-  const Index knots = factors.own.cols() / size;
+/// L⁻¹ right, in place; row by row, which lie one after the other.
+template <int D, typename Matrix>
+void solve_forward(const ChainFactors<D>& factors, Matrix& right) {
+  const Index knots = factors.own.cols() / D;
   for (Index k = 0; k < knots; ++k) {
-    auto rows = right.middleRows(k * size, size);
-    if (k > 0) {
-      rows.noalias() -=
-          factors.below.middleCols((k - 1) * size, size) * right.middleRows((k - 1) * size, size);
+    for (int r = 0; r < D; ++r) {
+      auto row = right.row(k * D + r);
+      for (int c = 0; c < D && k > 0; ++c) {
+        row -= factors.below(r, (k - 1) * D + c) * right.row((k - 1) * D + c);
+      }
+      for (int c = 0; c < r; ++c) row -= factors.own(r, k * D + c) * right.row(k * D + c);
+      row *= 1.0 / factors.own(r, k * D + r);
     }
-    factors.own.middleCols(k * size, size)
-        .template triangularView<Eigen::Lower>()
-        .solveInPlace(rows);
   }
 }
 
 /// L⁻ᵀ right, in place.
-void solve_backward(const ChainFactors& factors, Eigen::VectorXd& right) {
-  const int size = factors.size;
-  const Index knots = factors.own.cols() / size;
+template <int D>
+void solve_backward(const ChainFactors<D>& factors, Eigen::VectorXd& right) {
+  using Block = Eigen::Matrix<double, D, D>;
+  const Index knots = factors.own.cols() / D;
   for (Index k = knots - 1; k >= 0; --k) {
-    auto rows = right.segment(k * size, size);
+    Eigen::Matrix<double, D, 1> rows = right.template segment<D>(k * D);
     if (k + 1 < knots) {
-      rows -= factors.below.middleCols(k * size, size).transpose() *
-              right.segment((k + 1) * size, size);
+      const Block below = factors.below.template middleCols<D>(k * D);
+      rows -= below.transpose() * right.template segment<D>((k + 1) * D);
     }
-    factors.own.middleCols(k * size, size)
-        .triangularView<Eigen::Lower>()
-        .transpose()
-        .solveInPlace(rows);
+    const Block L = factors.own.template middleCols<D>(k * D);
+    right.template segment<D>(k * D) =
+        L.template triangularView<Eigen::Lower>().transpose().solve(rows);
   }
 }
 
-std::vector<Index> starts_of(const Linear& linear) {
+template <int D>
+std::vector<Index> starts_of(const Linear<D>& linear) {
   std::vector<Index> starts{0};
-  for (const TagPart& part : linear.tags) starts.push_back(starts.back() + part.layout.size);
+  for (const TagPart<D>& part : linear.tags) starts.push_back(starts.back() + part.layout.size);
   return starts;
 }
 
@@ -286,36 +312,38 @@ struct Move {
 };
 
 /// With the chain eliminated: the tags' own system, and what leads back.
+template <int D>
 struct Reduced {
-  ChainFactors factors;
+  ChainFactors<D> factors;
   std::vector<Index> starts;
   RowMajor couplings;  ///< L⁻¹ C.
   Eigen::LLT<Eigen::MatrixXd> tags;
 };
 
-Reduced reduce_to_tags(const JointSystem& system, const Linear& linear) {
-  const int size = system.knots.size;
-  Reduced reduced;
+template <int D>
+Reduced<D> reduce_to_tags(const JointSystem& system, const Linear<D>& linear) {
+  Reduced<D> reduced;
   reduced.starts = starts_of(linear);
   const Index unknowns = reduced.starts.back();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   reduced.couplings = RowMajor::Zero(linear.chain.gradient.size(), unknowns);
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
-    const TagPart& part = linear.tags[j];
+    const TagPart<D>& part = linear.tags[j];
     const Index m = part.layout.size;
     normal.block(reduced.starts[j], reduced.starts[j], m, m) = part.normal;
-    reduced.couplings.block(system.tags[j].first_knot * size, reduced.starts[j],
-                            part.coupling.rows(), m) = part.coupling;
+    reduced.couplings.block(system.tags[j].first_knot * D, reduced.starts[j], part.coupling.rows(),
+                            m) = part.coupling;
   }
-  reduced.factors = factorize(linear.chain, size);
+  reduced.factors = factorize<D>(linear.chain);
   solve_forward(reduced.factors, reduced.couplings);
   normal.selfadjointView<Eigen::Lower>().rankUpdate(reduced.couplings.transpose(), -1.0);
   reduced.tags.compute(normal.selfadjointView<Eigen::Lower>());
   return reduced;
 }
 
-Move solve_for_tags_first(const JointSystem& system, const Linear& linear) {
-  const Reduced reduced = reduce_to_tags(system, linear);
+template <int D>
+Move solve_for_tags_first(const JointSystem& system, const Linear<D>& linear) {
+  const Reduced<D> reduced = reduce_to_tags(system, linear);
   Eigen::VectorXd chain = linear.chain.gradient;
   solve_forward(reduced.factors, chain);
   Eigen::VectorXd right(reduced.starts.back());
@@ -340,7 +368,9 @@ struct KnotSystem {
   Eigen::VectorXd gradient;
 };
 
-Eigen::MatrixXd dense(const ChainPart& chain, int size) {
+template <int D>
+Eigen::MatrixXd dense(const ChainPart<D>& chain) {
+  constexpr int size = D;
   const Index knots = chain.gradient.size() / size;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size * knots, size * knots);
   for (Index k = 0; k < knots; ++k) {
@@ -352,15 +382,15 @@ Eigen::MatrixXd dense(const ChainPart& chain, int size) {
   return matrix;
 }
 
-KnotSystem reduce_to_knots(const JointSystem& system, const Linear& linear) {
-  const int size = system.knots.size;
+template <int D>
+KnotSystem reduce_to_knots(const JointSystem& system, const Linear<D>& linear) {
   KnotSystem reduced;
-  Eigen::MatrixXd normal = dense(linear.chain, size);
+  Eigen::MatrixXd normal = dense(linear.chain);
   reduced.gradient = linear.chain.gradient;
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
-    const TagPart& part = linear.tags[j];
+    const TagPart<D>& part = linear.tags[j];
     reduced.of_tag.emplace_back(part.normal);
-    const Index begin = system.tags[j].first_knot * size;
+    const Index begin = system.tags[j].first_knot * D;
     const Index rows = part.coupling.rows();
     if (rows == 0) continue;
     const Eigen::MatrixXd root = reduced.of_tag.back().matrixL().solve(part.coupling.transpose());
@@ -374,11 +404,12 @@ KnotSystem reduce_to_knots(const JointSystem& system, const Linear& linear) {
   return reduced;
 }
 
-Move solve_for_knots_first(const JointSystem& system, const Linear& linear) {
+template <int D>
+Move solve_for_knots_first(const JointSystem& system, const Linear<D>& linear) {
   const KnotSystem reduced = reduce_to_knots(system, linear);
   Move move{reduced.knots.solve(reduced.gradient), {}};
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
-    const TagPart& part = linear.tags[j];
+    const TagPart<D>& part = linear.tags[j];
     const Index begin = system.tags[j].first_knot * system.knots.size;
     move.of_tag.push_back(reduced.of_tag[j].solve(
         part.gradient - part.coupling.transpose() * move.u.segment(begin, part.coupling.rows())));
@@ -386,13 +417,15 @@ Move solve_for_knots_first(const JointSystem& system, const Linear& linear) {
   return move;
 }
 
-bool knots_first(const JointSystem& system, const Linear& linear) {
+template <int D>
+bool knots_first(const JointSystem& system, const Linear<D>& linear) {
   std::vector<Index> unknowns;
-  for (const TagPart& part : linear.tags) unknowns.push_back(part.layout.size);
+  for (const TagPart<D>& part : linear.tags) unknowns.push_back(part.layout.size);
   return eliminates_knots_first(system.knots.count() * system.knots.size, unknowns);
 }
 
-Move solve(const JointSystem& system, const Linear& linear) {
+template <int D>
+Move solve(const JointSystem& system, const Linear<D>& linear) {
   return knots_first(system, linear) ? solve_for_tags_first(system, linear)
                                      : solve_for_knots_first(system, linear);
 }
@@ -433,8 +466,9 @@ Eigen::Matrix3d place_block(const Layout& layout, const Eigen::MatrixXd& covaria
   return block;
 }
 
-JointCovariance covariance_by_tags(const JointSystem& system, const Linear& linear) {
-  const Reduced reduced = reduce_to_tags(system, linear);
+template <int D>
+JointCovariance covariance_by_tags(const JointSystem& system, const Linear<D>& linear) {
+  const Reduced<D> reduced = reduce_to_tags(system, linear);
   const Index unknowns = reduced.starts.back();
   const Eigen::MatrixXd all = reduced.tags.solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   const auto tags = static_cast<Index>(linear.tags.size());
@@ -457,13 +491,15 @@ JointCovariance covariance_by_tags(const JointSystem& system, const Linear& line
   return covariance;
 }
 
-JointCovariance covariance_by_knots(const JointSystem& system, const Linear& linear, int threads) {
+template <int D>
+JointCovariance covariance_by_knots(const JointSystem& system, const Linear<D>& linear,
+                                    int threads) {
   const KnotSystem reduced = reduce_to_knots(system, linear);
   const std::size_t tags = linear.tags.size();
   JointCovariance covariance;
   covariance.of_tag.resize(tags);
   parallel_for(tags, threads, [&](std::size_t j) {
-    const TagPart& part = linear.tags[j];
+    const TagPart<D>& part = linear.tags[j];
     const Index m = part.layout.size;
     const Index begin = system.tags[j].first_knot * system.knots.size;
     // cov = T⁻¹ + W (S⁻¹) Wᵀ with W = T⁻¹ Cᵀ, of the place's rows only.
@@ -486,6 +522,20 @@ JointCovariance covariance_by_knots(const JointSystem& system, const Linear& lin
   const Eigen::MatrixXd factor = reduced.knots.matrixL();
   covariance.log_determinant += 2.0 * factor.diagonal().array().log().sum();
   return covariance;
+}
+
+template <int D>
+JointCovariance whole_covariance(const JointSystem& system, int threads) {
+  const Linear<D> linear = linearize<D>(system, threads);
+  return knots_first(system, linear) ? covariance_by_tags(system, linear)
+                                     : covariance_by_knots(system, linear, threads);
+}
+
+template <int D>
+Move damped_move(const JointSystem& system, double damping, int threads) {
+  Linear<D> linear = linearize<D>(system, threads);
+  damp(linear, damping);
+  return solve(system, linear);
 }
 
 }  // namespace
@@ -550,12 +600,12 @@ double cost_of(JointSystem& system) {
 
 double minimize(JointSystem& system, int rounds, int threads) {
   constexpr double kTolerance = 2e-6;  // [m]
+  constexpr double kLeastGain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
   double damping = 1e-6;
   double cost = cost_of(system);
   for (int round = 0; round < rounds; ++round) {
-    Linear linear = linearize(system, threads);
-    damp(linear, damping);
-    const Move move = solve(system, linear);
+    const Move move = system.knots.size == 3 ? damped_move<3>(system, damping, threads)
+                                             : damped_move<2>(system, damping, threads);
     if (!is_finite(move)) {
       damping = std::max(10.0 * damping, 1e-3);
       continue;
@@ -569,7 +619,7 @@ double minimize(JointSystem& system, int rounds, int threads) {
       const double gain = cost - there;
       cost = there;
       damping = std::max(0.1 * damping, 1e-9);
-      if (length < kTolerance || gain < 1e-7 * cost) break;
+      if (length < kTolerance || gain < kLeastGain) break;
     } else {
       if (length < kTolerance) break;
       damping = std::max(10.0 * damping, 1e-3);
@@ -579,9 +629,8 @@ double minimize(JointSystem& system, int rounds, int threads) {
 }
 
 JointCovariance covariance_of(const JointSystem& system, int threads) {
-  const Linear linear = linearize(system, threads);
-  return knots_first(system, linear) ? covariance_by_tags(system, linear)
-                                     : covariance_by_knots(system, linear, threads);
+  return system.knots.size == 3 ? whole_covariance<3>(system, threads)
+                                : whole_covariance<2>(system, threads);
 }
 
 double evidence(const JointSystem& system, double cost, double log_determinant) {

@@ -52,6 +52,8 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   PlaceSearch search = begin_search(samples, height, [](const std::vector<PhaseSample>& of) {
     return follow(of, phase_noise(of));
   });
+  result.reads_followed = static_cast<std::size_t>(search.data.distance.size());
+  result.stretches = search.segments.size();
   result.why_not = why_too_few(search);
   if (!result.why_not.empty()) return result;
   search_places(search, height, kStride, kMostHyperbolae);

@@ -20,6 +20,8 @@ struct UnwrappedFit {
   HeightModel height;
   std::vector<TagFit> fits;           ///< Local minima, best first; not empty where there is a fit.
   std::vector<std::string> antennas;  ///< Those that moved.
+  std::size_t reads_followed = 0;     ///< Reads in stretches of two or more,
+  std::size_t stretches = 0;          ///< and how many of these there are.
 };
 
 /// Follows the phase (phase_following.h), finds the places that may be (place_search.h) and fits

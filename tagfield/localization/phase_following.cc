@@ -10,10 +10,11 @@ namespace {
 
 /// Uncertainty of the expected phase [rad] beyond which whole turns are not sure.
 constexpr double kUnsure = kTwoPi / 6.5;
-/// How fast the direction to the tag changes with the antenna's way: variance [1/m]. A tag 1 m
-/// beside the way turns by 0.3 rad over 0.3 m.
-constexpr double kTurning = 0.3;
-constexpr double kLeastNoise = 0.02;  // [rad]
+/// How fast the direction to the tag changes with the antenna's way. A tag 1.7 m beside it turns by
+/// 0.6 rad over a metre; the rest is for nearer ones, which turn for long to the same side.
+constexpr double kTurning = 0.6;       // [1/m]
+constexpr double kMoreTurning = 0.05;  // Variance [1/m].
+constexpr double kLeastNoise = 0.02;   // [rad]
 
 /// The direction to the tag and how far the last phase is off, with their covariance. The last
 /// phase' own error is a part of the state as the next difference contains it.
@@ -38,7 +39,9 @@ struct Expected {
 
 Expected expect(Follower& follower, const Eigen::Vector3d& step, double wavenumber,
                 double noise_rad) {
-  follower.covariance.diagonal().head<3>().array() += kTurning * step.norm();
+  const double way = step.norm();
+  follower.covariance.diagonal().head<3>().array() +=
+      kTurning * kTurning * way * way + kMoreTurning * way;
   Expected expected;
   expected.H << -wavenumber * step.transpose(), -1.0;
   expected.change = expected.H.dot(follower.state);

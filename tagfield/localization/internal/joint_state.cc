@@ -20,8 +20,8 @@ using Index = Eigen::Index;
 constexpr int kRounds = 25;
 /// Where nothing is known of the pose error it is looked for from here.
 constexpr PoseErrorModel kFirstGuess{0.02, 0.02, 5.0};
-/// Knots a time constant: straight lines between them miss 1 % of the variance.
-constexpr double kKnotsPerTimeConstant = 75.0;
+/// Knots a time constant: straight lines between them miss 2 % of the variance.
+constexpr double kKnotsPerTimeConstant = 40.0;
 /// With many tags, where the knots' own system is solved whole.
 constexpr double kCoarseKnots = 20.0;
 constexpr double kMostUnknowns = 3000.0;  ///< Of the knots in that case.

@@ -37,9 +37,9 @@ TEST(PhaseFollowing, GivesTheChangeOfDistance) {
   }
 }
 
-TEST(PhaseFollowing, HoldsAtNoiseOfHalfARadian) {
+TEST(PhaseFollowing, HoldsWhereDifferencesAreAmbiguous) {
   made::Noise noise;
-  noise.phase_rad = 0.5;
+  noise.phase_rad = 0.7;
   noise.range_sigma = 0.0;
   int slips_followed = 0;
   int slips_unwrapped = 0;
@@ -48,15 +48,15 @@ TEST(PhaseFollowing, HoldsAtNoiseOfHalfARadian) {
     const made::Path path = made::aisles(0.02);
     const Eigen::Vector3d p_WT = made::beside(path, 2.0, 0.4, rng);
     const auto samples = made::read_along(path, p_WT, noise, rng);
-    for (const PhaseSegment& segment : follow(samples, 0.5)) {
+    for (const PhaseSegment& segment : follow(samples, 0.7)) {
       if (greatest_slip(segment, p_WT) > 0.8) ++slips_followed;
     }
     for (const PhaseSegment& segment : unwrap(samples, 0.8)) {
       if (greatest_slip(segment, p_WT) > 0.8) ++slips_unwrapped;
     }
   }
-  EXPECT_LE(slips_followed, 2);
-  EXPECT_GT(slips_unwrapped, 4 * slips_followed);
+  EXPECT_GT(slips_unwrapped, 20);
+  EXPECT_LT(4 * slips_followed, slips_unwrapped);
 }
 
 TEST(PhaseFollowing, BeginsAnewWhereTheTurnsAreNotSure) {

@@ -34,6 +34,26 @@ TEST(PosesToCsv, WritesADocumentedRow) {
   EXPECT_EQ(poses_to_csv({}), kHeader);
 }
 
+TEST(PosesCsv, KeepsCovariancesWhereTheyAreTold) {
+  AntennaPose told = {Time(Duration(1)), "a", from_translation({1.0, 2.0, 3.0})};
+  told.covariance << 4.0, 0.1, 0.2, 0.1, 5.0, 0.3, 0.2, 0.3, 6.0;
+  AntennaPose untold = told;
+  untold.covariance.reset();
+  const auto poses = poses_of(poses_to_csv({told, untold}));
+  ASSERT_TRUE(poses[0].covariance.has_value());
+  EXPECT_TRUE(*poses[0].covariance == *told.covariance);
+  EXPECT_FALSE(poses[1].covariance.has_value());
+}
+
+TEST(PosesCsv, RefusesNegativeVariances) {
+  const std::string header =
+      "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw,cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw\n";
+  EXPECT_NE(error_of([&] {
+              poses_of(header + "0,a,0,0,0,0,0,0,1,-1,0,0,1,0,1\n");
+            }).find(":2: cov_xx, cov_yy and cov_yawyaw are variances"),
+            std::string::npos);
+}
+
 RC_GTEST_PROP(PosesCsv, ReadsBackWhatItWrote, ()) {
   const AntennaPose pose = any_pose();
   const auto who = *rc::gen::elementOf(std::vector<std::string>{"antenna", "robot"});

@@ -1,0 +1,145 @@
+#include "tagfield/localization/automatic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/least_squares.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
+constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
+constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
+
+double median(std::vector<double> values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+/// What one tag tells.
+struct Look {
+  double reads = 0.0;
+  double stretches = 0.0;
+  double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
+};
+
+/// Root mean square misfit over that of neighbours' differences, which slow errors leave alone.
+double misfit_of(const UnwrappedFit& fit) {
+  const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
+  double differences = 0.0;
+  double count = 0.0;
+  for (const TagPhases::Span& span : fit.phases.spans) {
+    for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
+      differences += (errors[i] - errors[i - 1]) * (errors[i] - errors[i - 1]);
+      count += 1.0;
+    }
+  }
+  const double noise = std::sqrt(0.5 * differences / std::max(count, 1.0));
+  return std::sqrt(errors.square().mean()) / std::max(noise, 1e-6);
+}
+
+Look look_at(const LocalizationProblem& problem, const std::string& tag,
+             const SamplesOfTag& samples) {
+  const UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
+  Look look;
+  look.reads = static_cast<double>(fit.reads_followed);
+  look.stretches = static_cast<double>(fit.stretches);
+  if (fit.why_not.empty()) look.misfit = misfit_of(fit);
+  return look;
+}
+
+/// Up to kLooks of the tags, evenly spread.
+std::vector<const SamplesByTag::value_type*> some_tags(const LocalizationProblem& problem) {
+  std::vector<const SamplesByTag::value_type*> all;
+  for (const auto& entry : problem.samples) all.push_back(&entry);
+  std::vector<const SamplesByTag::value_type*> some;
+  const std::size_t count = std::min(kLooks, all.size());
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
+  std::set<double> carriers;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    traits.has_phase = traits.has_phase || count_reads(of_tag) >= kFewestReads;
+    for (const auto& [antenna, series] : of_tag) {
+      traits.antennas_move = traits.antennas_move || extent_of(series) >= kStillExtent;
+      for (const PhaseSample& sample : series) carriers.insert(sample.frequency_hz);
+    }
+  }
+  traits.channels = carriers.size();
+}
+
+}  // namespace
+
+DataTraits traits_of(const LocalizationProblem& problem, int threads) {
+  DataTraits traits;
+  look_at_all(problem, traits);
+  traits.pose_is_exact = problem.pose_error && problem.pose_error->sigma_m <= 0.0 &&
+                         problem.pose_error->yaw_sigma_rad <= 0.0;
+  if (!traits.antennas_move) return traits;
+  const auto tags = some_tags(problem);
+  std::vector<Look> looks(tags.size());
+  parallel_for(tags.size(), threads, [&](std::size_t i) {
+    looks[i] = look_at(problem, tags[i]->first, tags[i]->second);
+  });
+  double reads = 0.0;
+  double stretches = 0.0;
+  std::vector<double> misfits;
+  for (const Look& look : looks) {
+    reads += look.reads;
+    stretches += look.stretches;
+    if (look.misfit >= 0.0) misfits.push_back(look.misfit);
+  }
+  traits.reads_a_stretch = stretches > 0.0 ? reads / stretches : 0.0;
+  traits.misfit = misfits.empty() ? 0.0 : median(std::move(misfits));
+  return traits;
+}
+
+Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
+  if (!traits.has_phase) return {"ml", "too few reads of any tag for a choice"};
+  if (!traits.antennas_move && reference_tags >= 3) {
+    return {"landmarc", "the antennas stand still, and there are reference tags to compare with"};
+  }
+  if (!traits.antennas_move) {
+    return {"trilateration", "the antennas stand still: only signal strength tells distances"};
+  }
+  if (traits.reads_a_stretch < kShortStretch) {
+    return {"sar", fmt::format("the phase can be followed over {:.0f} reads in the mean only, with "
+                               "{} channels: waves are added up without unwrapping",
+                               traits.reads_a_stretch, traits.channels)};
+  }
+  if (!traits.pose_is_exact) {
+    return {"joint", "the pose is not exact: its error is estimated with the tags"};
+  }
+  if (traits.misfit > kReflected) {
+    return {"sar", fmt::format("with an exact pose the misfit is {:.1f} times the noise, as "
+                               "reflections make it",
+                               traits.misfit)};
+  }
+  return {"ml", "the pose is exact and the phase fits"};
+}
+
+Method automatic_method(std::vector<Method> methods) {
+  const auto locate = [methods = std::move(methods)](const LocalizationProblem& problem,
+                                                     int threads, Diagnostics& diagnostics) {
+    const Choice choice = choose_method(traits_of(problem, threads), problem.reference_tags.size());
+    const auto chosen = std::find_if(methods.begin(), methods.end(), [&](const Method& method) {
+      return method.name == choice.method;
+    });
+    if (chosen == methods.end()) throw Error("there is no method '" + choice.method + "'");
+    LocalizationResult result = chosen->locate(problem, threads, diagnostics);
+    result.why = choice.why;
+    return result;
+  };
+  return {"auto", "one of the others, chosen by the data, which is told with the reason", locate};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,36 @@
+/// @file
+/// The method that the data ask for.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/localization/method.h"
+
+namespace tagfield {
+
+/// What of the data decides.
+struct DataTraits {
+  bool antennas_move = false;    ///< Any.
+  bool has_phase = false;        ///< Some tag has as many phases as a fit needs.
+  bool pose_is_exact = false;    ///< The pose error is known to be 0.
+  std::size_t channels = 0;      ///< Carriers.
+  double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
+  /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median
+  /// over tags; 1 where reads are but noisy. Reflections and pose errors make it greater.
+  double misfit = 0.0;
+};
+
+/// Looks at up to 20 tags.
+DataTraits traits_of(const LocalizationProblem& problem, int threads);
+
+/// What to use for such data, and why, in one line.
+struct Choice {
+  std::string method;
+  std::string why;
+};
+Choice choose_method(const DataTraits& traits, std::size_t reference_tags);
+
+/// "auto": chooses among `methods` and runs the chosen one.
+Method automatic_method(std::vector<Method> methods);
+
+}  // namespace tagfield

@@ -1,0 +1,193 @@
+#include "tagfield/localization/joint.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numeric>
+
+#include "tagfield/localization/bound.h"
+#include "tagfield/localization/maximum_likelihood.h"
+#include "tagfield/localization/test/problem_of.h"
+
+namespace tagfield {
+namespace {
+
+struct Errors {
+  std::vector<double> all;
+  double nees = 0.0;  ///< Sum over all.
+  std::size_t not_located = 0;
+
+  [[nodiscard]] double mean() const {
+    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  }
+};
+
+void add(const made::Hall& hall, const LocalizationResult& result, Errors& errors) {
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) {
+      ++errors.not_located;
+      continue;
+    }
+    const Candidate& best = estimate.candidates.front();
+    const Eigen::Vector2d error = (best.p_WT - hall.truth.at(estimate.tag)).head<2>();
+    errors.all.push_back(error.norm());
+    const Eigen::Matrix2d covariance = best.covariance->topLeftCorner<2, 2>();
+    errors.nees += error.dot(covariance.inverse() * error);
+  }
+}
+
+LocalizationResult run(const Method& method, const LocalizationProblem& problem) {
+  Diagnostics diagnostics;
+  return method.locate(problem, 2, diagnostics);
+}
+
+/// Mean error that the bound leaves, over all tags.
+double bound_of(const made::Hall& hall, const made::Path& path, double phase_noise) {
+  BoundInput input;
+  input.truth = hall.problem;
+  input.truth.tracks["a"] = made::track_along(path);
+  for (auto& [tag, samples] : input.truth.samples) {
+    for (PhaseSample& sample : samples["a"]) {
+      sample.p_WA = held_pose_at(input.truth.tracks["a"].X_WA, sample.stamp).translation;
+    }
+  }
+  input.places = hall.truth;
+  input.phase_noise_rad["a"] = phase_noise;
+  const Bounds bounds = joint_bounds(input);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bounds.tags.size(); ++i) {
+    sum += mean_horizontal_error(covariance_of(bounds, i));
+  }
+  return sum / static_cast<double>(bounds.tags.size());
+}
+
+struct Case {
+  made::Noise noise;
+  unsigned seeds = 12;
+};
+
+struct Outcome {
+  Errors joint;
+  Errors single;
+  double bound = 0.0;
+};
+
+Outcome outcome_of(const Case& of) {
+  Outcome outcome;
+  for (unsigned seed = 1; seed <= of.seeds; ++seed) {
+    made::Rng rng(seed);
+    const made::Path path = made::aisles(0.02);
+    const made::Hall hall = made::hall(path, 8, of.noise, rng);
+    add(hall, run(joint_method(), hall.problem), outcome.joint);
+    add(hall, run(maximum_likelihood_method(), hall.problem), outcome.single);
+    outcome.bound += bound_of(hall, path, of.noise.phase_rad) / of.seeds;
+  }
+  return outcome;
+}
+
+TEST(Joint, IsNearTheBoundWithPoseErrors) {
+  Case of;
+  of.noise.pose_m = 0.02;
+  const Outcome outcome = outcome_of(of);
+  EXPECT_EQ(outcome.joint.not_located, 0U);
+  // Errors of a run are correlated: the mean of 12 runs strays by a tenth or so.
+  EXPECT_LT(outcome.joint.mean(), 1.25 * outcome.bound);
+  EXPECT_GT(outcome.joint.mean(), 0.75 * outcome.bound);
+  EXPECT_GT(outcome.single.mean(), 2.0 * outcome.joint.mean());
+}
+
+TEST(Joint, IsTheSingleEstimateWhereThePoseIsTrue) {
+  Case of;
+  of.seeds = 4;
+  const Outcome outcome = outcome_of(of);
+  EXPECT_NEAR(outcome.joint.mean(), outcome.single.mean(), 0.05 * outcome.bound);
+}
+
+TEST(Joint, LearnsTheStrengthOfThePoseError) {
+  made::Noise noise;
+  noise.pose_m = 0.02;
+  Errors told;
+  Errors learnt;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    made::Rng rng(seed);
+    made::Hall hall = made::hall(made::aisles(0.02), 8, noise, rng);
+    add(hall, run(joint_method(), hall.problem), told);
+    hall.problem.pose_error.reset();
+    add(hall, run(joint_method(), hall.problem), learnt);
+  }
+  EXPECT_LT(learnt.mean(), 1.25 * told.mean());
+}
+
+TEST(Joint, ReferenceTagsFixTheWorld) {
+  made::Noise noise;
+  noise.pose_m = 0.03;
+  noise.pose_time = 1000.0;  // As good as a constant shift of the map.
+  Errors without;
+  Errors with;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    made::Rng rng(seed);
+    made::Hall hall = made::hall(made::aisles(0.02), 8, noise, rng);
+    add(hall, run(joint_method(), hall.problem), without);
+    for (const char* tag : {"t0", "t1", "t2"}) {
+      hall.problem.reference_tags[tag] = hall.truth.at(tag);
+    }
+    const LocalizationResult result = run(joint_method(), hall.problem);
+    EXPECT_TRUE(result.estimates[0].candidates[0].p_WT == hall.truth.at("t0"));
+    LocalizationResult others = result;
+    others.estimates.erase(others.estimates.begin(), others.estimates.begin() + 3);
+    add(hall, others, with);
+  }
+  EXPECT_LT(with.mean(), 0.3 * without.mean());
+}
+
+TEST(Joint, SaysThatAStraightWayIsAmbiguous) {
+  for (const double pose_m : {0.0, 0.01}) {
+    made::Noise noise;
+    noise.pose_m = pose_m;
+    made::Rng rng(3);
+    const made::Hall hall = made::hall(made::straight(12.0, 0.02), 4, noise, rng);
+    for (const TagEstimate& estimate : run(joint_method(), hall.problem).estimates) {
+      ASSERT_EQ(estimate.verdict, Verdict::kAmbiguous) << estimate.tag << estimate.reason;
+      const Eigen::Vector3d truth = hall.truth.at(estimate.tag);
+      double nearest = 1e9;
+      for (const Candidate& candidate : estimate.candidates) {
+        nearest = std::min(nearest, (candidate.p_WT - truth).head<2>().norm());
+      }
+      EXPECT_LT(nearest, pose_m > 0.0 ? 0.15 : 0.03);
+    }
+  }
+}
+
+TEST(Joint, GivesCorrectedPoses) {
+  made::Noise noise;
+  noise.pose_m = 0.03;
+  made::Rng rng(5);
+  const made::Path path = made::aisles(0.02);
+  const made::Path beliefs = made::believed(path, noise, made::kPathRate, rng);
+  const made::Hall hall = made::hall(path, beliefs, 8, noise, rng);
+  const LocalizationResult result = run(joint_method(), hall.problem);
+  ASSERT_EQ(result.corrected_poses.size(), path.size());
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    before += (beliefs[i] - path[i]).squaredNorm();
+    after += (result.corrected_poses[i].X_WA.translation - path[i]).squaredNorm();
+  }
+  EXPECT_LT(after, 0.5 * before);
+}
+
+TEST(Joint, TakesTagsThatTellNothing) {
+  made::Noise noise;
+  made::Rng rng(6);
+  made::Hall hall = made::hall(made::aisles(0.02), 3, noise, rng);
+  hall.problem.samples["t1"]["a"].resize(1);
+  hall.problem.samples["t2"].clear();
+  const LocalizationResult result = run(joint_method(), hall.problem);
+  ASSERT_EQ(result.estimates.size(), 3U);
+  EXPECT_EQ(result.estimates[0].verdict, Verdict::kLocated);
+  EXPECT_NE(result.estimates[1].reason.find("only 1 reads"), std::string::npos);
+  EXPECT_NE(result.estimates[2].reason.find("no reads"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tagfield
