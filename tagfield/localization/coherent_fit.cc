@@ -196,6 +196,12 @@ std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& hei
   return distinct(phases, height, tops);
 }
 
+Candidate scaled(Candidate candidate, double factor) {
+  candidate.expected_error_m *= factor;
+  if (candidate.covariance) *candidate.covariance *= factor * factor;
+  return candidate;
+}
+
 }  // namespace
 
 double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
@@ -265,7 +271,8 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   for (const Maximum& maximum : maxima) {
     const bool first = estimate.candidates.empty();
     if (first || !is_worse(phases, layout, best, residuals_at(maximum))) {
-      estimate.candidates.push_back(candidate_at(phases, height, maximum.place));
+      estimate.candidates.push_back(
+          scaled(candidate_at(phases, height, maximum.place), judgement.error_factor));
     }
   }
   judge(limits, estimate);

@@ -31,6 +31,8 @@ struct CoherentJudgement {
   /// A greater rms of the wrapped residuals [rad] is no tag at rest; phases that say nothing have
   /// π/√3 = 1.81.
   double max_rms_rad = 1.2;
+  /// Expected errors are so many times those of the best use of the phases; at least 1.
+  double error_factor = 1.0;
   bool climb = true;  ///< Go from each place to the maximum of coherence() near it.
 };
 

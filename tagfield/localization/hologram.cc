@@ -38,47 +38,6 @@ void require_positive(double value, const char* name) {
   throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
 }
 
-/// Every n-th read, so that at most `count` or so are left.
-TagPhases thinned(const TagPhases& phases, std::size_t count) {
-  const auto all = static_cast<std::size_t>(phases.size());
-  const auto stride = static_cast<Eigen::Index>((all + count - 1) / count);
-  if (stride <= 1) return phases;
-  std::vector<Eigen::Index> kept;
-  TagPhases thin;
-  for (const TagPhases::Span& span : phases.spans) {
-    TagPhases::Span of_kept = span;
-    of_kept.begin = static_cast<Eigen::Index>(kept.size());
-    for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
-    of_kept.count = static_cast<Eigen::Index>(kept.size()) - of_kept.begin;
-    thin.spans.push_back(of_kept);
-  }
-  thin.x = phases.x(kept);
-  thin.y = phases.y(kept);
-  thin.z = phases.z(kept);
-  thin.value = phases.value(kept);
-  thin.cycle = phases.cycle(kept);
-  thin.wavenumber = phases.wavenumber(kept);
-  thin.time_s = phases.time_s(kept);
-  return thin;
-}
-
-Eigen::Vector2d middle_of(const TagPhases& phases) {
-  return {0.5 * (phases.x.minCoeff() + phases.x.maxCoeff()),
-          0.5 * (phases.y.minCoeff() + phases.y.maxCoeff())};
-}
-
-/// Whether a tag at `p`, about `middle`, is in range of some of the reads spread over all.
-bool in_reach(const TagPhases& phases, double height, const Eigen::Vector2d& p, double max_range) {
-  const Eigen::Index step = std::max<Eigen::Index>(1, phases.x.size() / kReachReads);
-  for (Eigen::Index i = 0; i < phases.x.size(); i += step) {
-    const double dx = p.x() - phases.x[i];
-    const double dy = p.y() - phases.y[i];
-    const double dz = height - phases.z[i];
-    if (dx * dx + dy * dy + dz * dz > max_range * max_range) return false;
-  }
-  return true;
-}
-
 Cells all_cells(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
                 const SearchOptions& options) {
   Cells cells;
@@ -87,7 +46,8 @@ Cells all_cells(const TagPhases& phases, double height, const Eigen::Vector2d& m
     for (std::int64_t j = -reach; j <= reach; ++j) {
       const Eigen::Vector2d p =
           middle + options.cell_m * Eigen::Vector2d(static_cast<double>(i), static_cast<double>(j));
-      if (in_reach(phases, height, p, options.max_range_m)) cells.push_back({i, j, 0.0f});
+      if (in_reach(phases, {p.x(), p.y(), height}, options.max_range_m))
+        cells.push_back({i, j, 0.0f});
     }
   }
   return cells;
@@ -193,6 +153,43 @@ void check(const SearchOptions& options) {
   if (options.reads < 1) throw Error("reads must be at least 1");
 }
 
+Eigen::Vector2d middle_of(const TagPhases& phases) {
+  return {0.5 * (phases.x.minCoeff() + phases.x.maxCoeff()),
+          0.5 * (phases.y.minCoeff() + phases.y.maxCoeff())};
+}
+
+bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range) {
+  const Eigen::Index step = std::max<Eigen::Index>(1, phases.size() / kReachReads);
+  for (Eigen::Index i = 0; i < phases.size(); i += step) {
+    const Eigen::Vector3d p_WA(phases.x[i], phases.y[i], phases.z[i]);
+    if ((p - p_WA).squaredNorm() > max_range * max_range) return false;
+  }
+  return true;
+}
+
+TagPhases thinned(const TagPhases& phases, std::size_t count) {
+  const auto all = static_cast<std::size_t>(phases.size());
+  const auto stride = static_cast<Eigen::Index>((all + count - 1) / count);
+  if (stride <= 1) return phases;
+  std::vector<Eigen::Index> kept;
+  TagPhases thin;
+  for (const TagPhases::Span& span : phases.spans) {
+    TagPhases::Span of_kept = span;
+    of_kept.begin = static_cast<Eigen::Index>(kept.size());
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
+    of_kept.count = static_cast<Eigen::Index>(kept.size()) - of_kept.begin;
+    thin.spans.push_back(of_kept);
+  }
+  thin.x = phases.x(kept);
+  thin.y = phases.y(kept);
+  thin.z = phases.z(kept);
+  thin.value = phases.value(kept);
+  thin.cycle = phases.cycle(kept);
+  thin.wavenumber = phases.wavenumber(kept);
+  thin.time_s = phases.time_s(kept);
+  return thin;
+}
+
 SearchReads search_reads(const TagPhases& phases, double length, double height,
                          const Eigen::Vector2d& middle) {
   SearchReads result;
@@ -204,6 +201,7 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
     SearchRead read;
     read.x = static_cast<float>(phases.x[i] - middle.x());
     read.y = static_cast<float>(phases.y[i] - middle.y());
+    read.z = static_cast<float>(-up);
     read.height_squared = static_cast<float>(up * up);
     read.turns = static_cast<float>(turns - std::round(turns));
     read.turns_per_metre = static_cast<float>(1.0 / phases.cycle[i]);

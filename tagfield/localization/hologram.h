@@ -22,7 +22,8 @@ using Tile = Eigen::Array<float, kTile, 1>;
 /// A read in single precision, relative to `SearchReads::middle`.
 struct SearchRead {
   float x = 0.0f, y = 0.0f;      ///< Antenna [m].
-  float height_squared = 0.0f;   ///< (z_tag − z_antenna)² [m²].
+  float z = 0.0f;                ///< Antenna above the plane that is searched [m].
+  float height_squared = 0.0f;   ///< z² [m²].
   float turns = 0.0f;            ///< Phase, in turns, within [−½, ½].
   float turns_per_metre = 0.0f;  ///< 2/λ.
 };
@@ -86,6 +87,16 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
 /// apertures, as lobes are narrower than planes are apart.
 std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightModel& height,
                                        const SearchOptions& options, const Brightness& brightness);
+
+/// Middle of the box around the antennas, seen from above [m]; phases must not be empty.
+Eigen::Vector2d middle_of(const TagPhases& phases);
+
+/// Whether a tag at `p` would be within `max_range` [m] of the antennas at all reads, of which
+/// about sixty are looked at.
+bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range);
+
+/// Every n-th read, so that about `count` are left at most.
+TagPhases thinned(const TagPhases& phases, std::size_t count);
 
 /// Reads in single precision about `middle`, for a tag at `height`, with the apertures of `length`
 /// [m].

@@ -12,8 +12,15 @@
 namespace tagfield {
 
 std::vector<Method> built_in_methods(const MethodSettings& settings) {
-  return {hyperbola_method(settings.hyperbola), least_squares_method(), maximum_likelihood_method(),
-          joint_method(), sar_method(settings.sar)};
+  return {hyperbola_method(settings.hyperbola),
+          least_squares_method(),
+          maximum_likelihood_method(),
+          joint_method(),
+          sar_method(settings.sar),
+          dah_method(settings.dah),
+          particle_method(settings.particle),
+          trilateration_method(settings.trilateration),
+          landmarc_method(settings.landmarc)};
 }
 
 Method find_method(const std::vector<Method>& methods, const std::string& name) {

@@ -18,9 +18,9 @@ const Method& sar() {
 
 TEST(Sar, MeetsTheBoundOnACurvedPath) {
   Study study;
-  study.seeds = 10;
+  study.seeds = 5;
   const Tally tally = run(sar(), study, make_aisles);
-  EXPECT_EQ(tally.errors.size(), 100u);
+  EXPECT_EQ(tally.errors.size(), 50u);
   EXPECT_LT(tally.mean(), 0.002);
   EXPECT_LT(tally.errors.back(), 0.03);
   EXPECT_NEAR(tally.calibration(), 1.0, 0.2);
@@ -28,15 +28,15 @@ TEST(Sar, MeetsTheBoundOnACurvedPath) {
 
 TEST(Sar, FindsTheRightLobeInNoise) {
   Study study;
-  study.seeds = 10;
+  study.seeds = 5;
   study.noise.phase_rad = 0.5;
   const Tally tally = run(sar(), study, make_aisles);
-  EXPECT_EQ(tally.errors.size(), 100u);
+  EXPECT_EQ(tally.errors.size(), 50u);
   EXPECT_LT(tally.mean(), 0.010);
   EXPECT_LT(tally.errors.back(), 0.1);
   study.farthest = 6.5;
   const Tally any = run(sar(), study, make_any_shape);
-  EXPECT_GE(any.errors.size(), 95u);
+  EXPECT_GE(any.errors.size(), 47u);
   EXPECT_EQ(any.worse_than(0.3), 0u);
   EXPECT_EQ(any.ambiguous_with_truth, any.ambiguous);
 }

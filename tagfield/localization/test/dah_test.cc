@@ -1,0 +1,87 @@
+#include "tagfield/localization/dah.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "method_study.h"
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+namespace {
+
+using namespace made;
+
+const Method& dah() {
+  static const Method method = dah_method({});
+  return method;
+}
+
+TEST(Dah, LocatesToCentimetresOnACurvedPath) {
+  Study study;
+  study.seeds = 4;
+  const Tally tally = run(dah(), study, make_aisles);
+  EXPECT_GE(tally.errors.size(), 38u);
+  EXPECT_LT(tally.mean(), 0.010);
+  EXPECT_LT(tally.errors.back(), 0.1);
+  EXPECT_LT(tally.calibration(), 1.5);
+  study.noise.phase_rad = 0.5;
+  const Tally noisy = run(dah(), study, make_aisles);
+  EXPECT_GE(noisy.errors.size(), 34u);
+  EXPECT_LT(noisy.mean(), 0.06);
+}
+
+TEST(Dah, ChannelsAndAnUnknownHeight) {
+  Study study;
+  study.seeds = 2;
+  study.channels = 4;
+  EXPECT_LT(run(dah(), study, make_aisles).part(0.9), 0.03);
+  study.channels = 1;
+  study.lowest = 0.75;
+  study.highest = 0.95;
+  study.height_known = false;
+  const Tally tally = run(dah(), study, make_aisles);
+  EXPECT_GE(tally.errors.size(), 18u);
+  EXPECT_LT(tally.part(0.9), 0.06);
+}
+
+TEST(Dah, AStraightPathLeavesTheMirrorImage) {
+  Study study;
+  study.seeds = 2;
+  const Tally tally = run(dah(), study, make_straight);
+  EXPECT_EQ(tally.ambiguous, 20);
+  EXPECT_EQ(tally.ambiguous_with_truth, 20);
+}
+
+/// The definition, in double precision with the C library's functions, for one reference.
+RC_GTEST_PROP(Dah, BrightnessIsThatOfTheDefinition, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  Path path = s_curve(0.9, 0.03);
+  const auto samples = read_along(path, {2.0, 2.0, 0.4}, Noise{}, rng);
+  const TagPhases phases = coherent_reads({}, {{"a", samples}});
+  const double noise = uniform(rng, 0.1, 0.6);
+  Tile x = Tile::Zero();
+  Tile y = Tile::Zero();
+  x[9] = static_cast<float>(uniform(rng, -4.0, 4.0));
+  y[9] = static_cast<float>(uniform(rng, -4.0, 4.0));
+  const SearchReads reads = search_reads(phases, kWholeAperture, 0.4, {0.0, 0.0});
+  const double light = static_cast<double>(differential_brightness(reads, noise, x, y)[9]);
+  const Eigen::Vector3d p(static_cast<double>(x[9]), static_cast<double>(y[9]), 0.4);
+  const PhaseSample& reference = samples[samples.size() / 2];
+  std::complex<double> sum = 0.0;
+  for (const PhaseSample& s : samples) {
+    const double farther = (p - s.p_WA).norm() - (p - reference.p_WA).norm();
+    const double turn = wrap_to_pi(s.phase_rad - reference.phase_rad -
+                                   4.0 * kPi / wavelength(s.frequency_hz) * farther);
+    sum += std::polar(std::erfc(std::abs(turn) / (2.0 * noise)), turn);
+  }
+  RC_ASSERT(std::abs(light - std::abs(sum)) < 2e-3 * static_cast<double>(samples.size()));
+}
+
+TEST(Dah, BadOptionsAreErrors) {
+  DahOptions options;
+  options.least_noise_rad = 0.0;
+  EXPECT_THROW(dah_method(options), Error);
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,133 @@
+/// What holds for every method that comes with Tagfield.
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "method_study.h"
+#include "tagfield/localization/locate.h"
+
+namespace tagfield {
+namespace {
+
+using namespace made;
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = built_in_methods({});
+  return all;
+}
+
+bool is_finite(const TagEstimate& estimate) {
+  return std::all_of(
+      estimate.candidates.begin(), estimate.candidates.end(), [](const Candidate& c) {
+        return c.p_WT.allFinite() && std::isfinite(c.rms_m) && std::isfinite(c.expected_error_m) &&
+               (!c.covariance || c.covariance->allFinite());
+      });
+}
+
+/// RSSI as of an isotropic tag, in whole dB.
+void give_rssi(const Eigen::Vector3d& p_WT, std::vector<PhaseSample>& samples) {
+  for (PhaseSample& s : samples) {
+    s.rssi_dbm = std::round(-30.0 - 40.0 * std::log10((p_WT - s.p_WA).norm()));
+  }
+}
+
+/// Several tags, some of them odd, and one reference tag.
+LocalizationProblem mixed_problem() {
+  Rng rng(77);
+  const Path path = aisles(0.04);
+  LocalizationProblem problem;
+  problem.heights.of_all = 0.4;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector3d p_WT = beside(path, 2.0, 0.4, rng);
+    const std::string tag = "tag" + std::to_string(k);
+    auto samples = read_along(path, p_WT, Noise{}, rng);
+    give_rssi(p_WT, samples);
+    problem.samples[tag]["a"] = std::move(samples);
+    if (k == 0) problem.reference_tags[tag] = p_WT;
+  }
+  problem.samples["empty"] = {};
+  problem.samples["no reads"]["a"] = {};
+  problem.samples["one"]["a"] = {problem.samples["tag1"]["a"].front()};
+  problem.samples["still"]["s"] = read_along(Path(50, {1, 1, 0.4}), {3, 2, 0.4}, Noise{}, rng);
+  problem.samples["collinear"]["a"] =
+      read_along(straight(8.0, 0.04), {3.0, 2.0, 0.4}, Noise{}, rng);
+  problem.samples["on the path"]["a"] =
+      read_along(straight(8.0, 0.04), {3.0, 0.0, 0.4}, Noise{}, rng);
+  const Path far = straight(90.0, 0.5);
+  problem.samples["far path"]["a"] =
+      read_along(far, far, {45.0, 1.0, 0.4}, Noise{}, rng, {865.7e6, 15.0, 1000.0, 1.7e9});
+  return problem;
+}
+
+TEST(EveryMethod, AnswersForEachTagInOrderWithoutInfinities) {
+  const LocalizationProblem problem = mixed_problem();
+  for (const Method& method : methods()) {
+    Diagnostics diagnostics;
+    const LocalizationResult result = method.locate(problem, 1, diagnostics);
+    EXPECT_EQ(result.estimates.size(), problem.samples.size()) << method.name;
+    auto tag = problem.samples.begin();
+    for (const TagEstimate& estimate : result.estimates) {
+      EXPECT_EQ(estimate.tag, tag->first) << method.name;
+      EXPECT_TRUE(is_finite(estimate)) << method.name << ": " << estimate.tag;
+      EXPECT_EQ(estimate.candidates.empty(), estimate.verdict == Verdict::kNotLocated);
+      EXPECT_EQ(estimate.reason.empty(), estimate.verdict == Verdict::kLocated &&
+                                             problem.reference_tags.count(estimate.tag) == 0)
+          << method.name << ": " << estimate.tag;
+      ++tag;
+    }
+  }
+}
+
+TEST(EveryMethod, ReferenceTagsAreWhereTheyAre) {
+  const LocalizationProblem problem = mixed_problem();
+  for (const Method& method : methods()) {
+    Diagnostics diagnostics;
+    const LocalizationResult result = method.locate(problem, 1, diagnostics);
+    for (const TagEstimate& estimate : result.estimates) {
+      if (estimate.tag != "tag0") continue;
+      ASSERT_EQ(estimate.candidates.size(), 1u) << method.name << ": " << estimate.reason;
+      EXPECT_EQ(estimate.candidates.at(0).p_WT, problem.reference_tags.at("tag0")) << method.name;
+    }
+  }
+}
+
+TEST(EveryMethod, SaysTheSameOnAnyNumberOfThreads) {
+  const LocalizationProblem problem = mixed_problem();
+  for (const Method& method : methods()) {
+    Diagnostics diagnostics;
+    const auto one = method.locate(problem, 1, diagnostics).estimates;
+    const auto four = method.locate(problem, 4, diagnostics).estimates;
+    ASSERT_EQ(one.size(), four.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].verdict, four[i].verdict) << method.name;
+      EXPECT_EQ(one[i].reason, four[i].reason) << method.name;
+      ASSERT_EQ(one[i].candidates.size(), four[i].candidates.size()) << method.name;
+      for (std::size_t k = 0; k < one[i].candidates.size(); ++k) {
+        EXPECT_EQ(one[i].candidates[k].p_WT, four[i].candidates[k].p_WT) << method.name;
+      }
+    }
+  }
+}
+
+/// Whatever the reads: places at random, phases of nothing.
+RC_GTEST_PROP(EveryMethod, NothingMakesAMethodThrowOrGiveWhatIsNotANumber, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const int count = *rc::gen::inRange(0, 60);
+  const double size = *rc::gen::element(0.0, 0.3, 3.0, 60.0);
+  LocalizationProblem problem;
+  problem.heights.of_all = 0.5;
+  std::vector<PhaseSample>& samples = problem.samples["t"]["a"];
+  for (int i = 0; i < count; ++i) {
+    PhaseSample sample;
+    sample.stamp = time_from_seconds(1.7e9 + 0.05 * i);
+    sample.phase_rad = uniform(rng, 0.0, kTwoPi);
+    sample.frequency_hz = i % 3 == 0 ? 866.3e6 : 865.7e6;
+    sample.p_WA = {uniform(rng, -size, size), uniform(rng, -size, size), 0.5};
+    sample.rssi_dbm = i % 5 == 0 ? kNoRssi : std::round(uniform(rng, -75.0, -35.0));
+    samples.push_back(sample);
+  }
+  for (const Method& method : methods()) RC_ASSERT(is_finite(locate_one(method, problem)));
+}
+
+}  // namespace
+}  // namespace tagfield
