@@ -61,6 +61,7 @@ std::vector<Place> curve_of(const Axes& axes, const std::vector<double>& errors_
 
 std::vector<std::string> names_of(const std::vector<const BenchEntry*>& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const BenchEntry* entry : entries) names.push_back(entry->name);
   return names;
 }

@@ -73,9 +73,11 @@ std::string length_cell(const std::optional<ErrorStatistics>& errors,
 
 std::string nees_cell(const std::optional<NeesSummary>& nees) {
   if (!nees) return cell("–");
-  const std::string word =
-      nees->consistency == Consistency::kConsistent ? "" : "<br>" + to_string(nees->consistency);
-  return cell(fmt::format("{:.2f}{}", nees->mean / nees->expected, word));
+  constexpr const char* kMarks[] = {"", " ▼", " ▲"};
+  return fmt::format("<td title=\"{}, 95 % band {:.2f} to {:.2f}\">{:.2f}{}</td>",
+                     to_string(nees->consistency), nees->band.low / nees->expected,
+                     nees->band.high / nees->expected, nees->mean / nees->expected,
+                     kMarks[static_cast<int>(nees->consistency)]);
 }
 
 /// Which columns there are.
@@ -103,21 +105,20 @@ Columns columns_of(const Bench& bench, Timing timing) {
 std::string head_of(const Columns& columns) {
   std::string html =
       "<thead><tr><th scope=\"col\">Method</th><th scope=\"col\">Located</th>"
-      "<th scope=\"col\">Ambiguous</th><th scope=\"col\">Not<br>located</th>"
+      "<th scope=\"col\">Ambi-<br>guous</th><th scope=\"col\">Not<br>located</th>"
       "<th scope=\"col\">Wrong</th><th scope=\"col\">Mean<br>[mm]</th>"
       "<th scope=\"col\">Median<br>[mm]</th><th scope=\"col\">95 %<br>[mm]</th>"
       "<th scope=\"col\">Max<br>[mm]</th>";
   if (columns.height) html += "<th scope=\"col\">Mean 3-D<br>[mm]</th>";
   if (columns.aligned) html += "<th scope=\"col\">Aligned<br>[mm]</th>";
   html += "<th scope=\"col\">Times<br>bound</th><th scope=\"col\">NEES<br>/dof</th>";
-  if (columns.times) html += "<th scope=\"col\">Time/tag<br>[ms]</th>";
+  if (columns.times) html += "<th scope=\"col\">Time per<br>tag [ms]</th>";
   return html + "</tr></thead>\n";
 }
 
 std::string ambiguous_cell(const EntryStatistics& all) {
   if (all.ambiguous == 0) return cell("0");
-  return fmt::format("<td title=\"{} with a candidate within {:g} m\">{}</td>", all.candidate_hits,
-                     kCandidateHits_m, all.ambiguous);
+  return cell(fmt::format("{} ({})", all.ambiguous, all.candidate_hits));
 }
 
 std::string row_of(const BenchEntry& entry, const Columns& columns) {
@@ -183,9 +184,11 @@ std::string bound_notes(const Bench& bench) {
 std::string legend(const Columns& columns) {
   std::string html =
       "<p class=\"muted\">Errors are horizontal, of the tags that were located; wrong are those "
-      "over "
-      "0.3 m off. Times bound: the mean error over that of an efficient estimator (the Cramér-Rao "
-      "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right.";
+      "over 0.3 m off. In brackets: ambiguous tags with a candidate within 0.1 m. Times bound: the "
+      "mean error over that of an efficient estimator (the "
+      "Cramér-Rao "
+      "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right, ▲ "
+      "beyond chance too bold, ▼ too cautious.";
   if (columns.aligned) {
     html +=
         " Aligned: mean error after the shift and turn that brings a run’s tags closest to their "

@@ -34,6 +34,13 @@ double nearest_error(const std::vector<Candidate>& candidates, const Eigen::Vect
   return nearest;
 }
 
+/// None where the place can't be told at all, or is told from the beginning.
+std::optional<TagBound> bound_of(const Eigen::Matrix3d& covariance) {
+  const double variance_m2 = covariance.topLeftCorner<2, 2>().trace();
+  if (!(covariance.allFinite() && variance_m2 > 0.0)) return std::nullopt;
+  return TagBound{mean_horizontal_error(covariance), variance_m2};
+}
+
 /// Fills in what the estimate says.
 void add_estimate(const TagEstimate& estimate, TagRecord& record) {
   record.verdict = estimate.verdict;
@@ -78,9 +85,7 @@ void judge_by(const Bounds& bounds, MethodRun& run) {
     if (tag.nees) items.push_back({tag.tag, tag.nees->dof});
     const auto place = places.find(tag.tag);
     if (place == places.end()) continue;
-    const Eigen::Matrix3d covariance = covariance_of(bounds, place->second);
-    tag.bound =
-        TagBound{mean_horizontal_error(covariance), covariance.topLeftCorner<2, 2>().trace()};
+    tag.bound = bound_of(covariance_of(bounds, place->second));
   }
   run.nees_correlation = correlation_of(items, bounds);
 }

@@ -91,6 +91,7 @@ Series series_of(const Bench& bench, const std::string& name) {
 std::vector<LegendEntry> legend_of(const Bench& bench, const std::vector<std::string>& names,
                                    Symbol symbol) {
   std::vector<LegendEntry> legend;
+  legend.reserve(names.size());
   for (const std::string& name : names) {
     const Series series = series_of(bench, name);
     legend.push_back(

@@ -128,7 +128,7 @@ struct Common {
   std::optional<double> phase_noise_rad;
 };
 
-void append(std::vector<Override>& overrides, std::vector<Override> more) {
+void append(std::vector<Override>& overrides, const std::vector<Override>& more) {
   overrides.insert(overrides.end(), more.begin(), more.end());
 }
 
@@ -157,6 +157,7 @@ Condition condition_of(YamlMap map, const Common& common) {
 template <typename Named>
 std::vector<std::string> names_of(const std::vector<Named>& things) {
   std::vector<std::string> names;
+  names.reserve(things.size());
   for (const Named& thing : things) names.push_back(thing.name);
   return names;
 }

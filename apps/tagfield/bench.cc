@@ -100,10 +100,12 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}));
   command.add_option("--methods", arguments.methods, "Only these methods of the suite: A,B")
       ->delimiter(',')
+      ->take_all()
       ->allow_extra_args(false);
   command
       .add_option("--conditions", arguments.conditions, "Only these conditions of the suite: A,B")
       ->delimiter(',')
+      ->take_all()
       ->allow_extra_args(false);
   command.add_option("--out", arguments.out, "Folder for the results (default runs/bench_NAME)");
   command.add_option("--threads", arguments.threads, "Threads; only times depend on it")

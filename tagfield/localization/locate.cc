@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tagfield/base/spelling.h"
+#include "tagfield/localization/automatic.h"
 #include "tagfield/localization/joint.h"
 #include "tagfield/localization/least_squares.h"
 #include "tagfield/localization/maximum_likelihood.h"
@@ -12,15 +13,17 @@
 namespace tagfield {
 
 std::vector<Method> built_in_methods(const MethodSettings& settings) {
-  return {hyperbola_method(settings.hyperbola),
-          least_squares_method(),
-          maximum_likelihood_method(),
-          joint_method(),
-          sar_method(settings.sar),
-          dah_method(settings.dah),
-          particle_method(settings.particle),
-          trilateration_method(settings.trilateration),
-          landmarc_method(settings.landmarc)};
+  std::vector<Method> methods = {hyperbola_method(settings.hyperbola),
+                                 least_squares_method(),
+                                 maximum_likelihood_method(),
+                                 joint_method(),
+                                 sar_method(settings.sar),
+                                 dah_method(settings.dah),
+                                 particle_method(settings.particle),
+                                 trilateration_method(settings.trilateration),
+                                 landmarc_method(settings.landmarc)};
+  methods.insert(methods.begin(), automatic_method(methods));
+  return methods;
 }
 
 Method find_method(const std::vector<Method>& methods, const std::string& name) {
