@@ -36,6 +36,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   LocalizationOptions options;
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
+  if (!arguments.method.empty()) options.method = arguments.method;
   if (arguments.stride_m) options.settings.hyperbola.stride_m = *arguments.stride_m;
   TagHeights& heights = options.known.heights;
   if (arguments.tag_height_m || !arguments.heights_file.empty()) heights = {};
@@ -73,12 +74,12 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
 }
 
 Summary summary_of(const LocalizeArguments& arguments, const RecordingToLocalize& recording,
-                   const std::optional<ScenarioWithWorld>& loaded,
+                   const std::optional<ScenarioWithWorld>& loaded, const std::string& method,
                    const std::vector<TagEstimate>& estimates) {
   Summary summary;
   summary.scenario = loaded ? loaded->scenario.name : arguments.recording;
   if (loaded) summary.description = loaded->scenario.description;
-  summary.method = arguments.method;
+  summary.method = method;
   summary.pose = recording.poses.name;
   summary.path_length_m = recording.path_length_m;
   summary.reads = recording.reads.size();
@@ -131,11 +132,18 @@ void refuse_options_of_bags(const LocalizeArguments& arguments) {
   if (arguments.frequency_hz) throw Error("localize: --frequency goes with a bag only");
 }
 
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : built_in_methods({})) names.push_back(method.name);
+  return names;
+}
+
 }  // namespace
 
 int localize(const LocalizeArguments& arguments) {
   const bool bag = is_bag(arguments.recording);
   if (!bag) refuse_options_of_bags(arguments);
+  if (bag && !arguments.format.empty()) throw Error("localize: --format goes with CSV only");
   Diagnostics diagnostics;
   const auto loaded = scenario_of(arguments, diagnostics);
   const RecordingToLocalize recording =
@@ -147,10 +155,11 @@ int localize(const LocalizeArguments& arguments) {
   const std::string out = folder_of(arguments);
   StagedFolder folder(out);
   const std::vector<std::string> order = order_of(loaded);
-  const std::vector<TagEstimate> estimates = with_all_tags(
-      locate_tags(recording.reads, recording.poses.poses, options, diagnostics).estimates,
-      recording.truth, order);
-  Summary summary = summary_of(arguments, recording, loaded, estimates);
+  const LocalizationResult located =
+      locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+  const std::vector<TagEstimate> estimates =
+      with_all_tags(located.estimates, recording.truth, order);
+  Summary summary = summary_of(arguments, recording, loaded, located.method, estimates);
   summary.compared_pose = compared(recording, options, order);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
@@ -175,6 +184,9 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "With CSV, the poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw). With a "
                       "bag: true, tf, odometry (tf without a map), or auto (default): the true "
                       "ones and tf beside them, else tf");
+  command->add_option("--format", arguments->format,
+                      "Form of other people's CSV (YAML, as profiles/datasets/llrp_log.yaml); "
+                      "docs/datasets.md");
   command->add_option("--frame", arguments->frame,
                       "With a bag: fixed frame of tf (default: the first of map, world, odom that "
                       "can express the antennas)");
@@ -186,7 +198,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "Scenario (YAML): its name, order and known heights of the tags, settings of "
                       "localization, and its world for the page");
   command->add_option("--method", arguments->method, "How (default hyperbola, the paper's)")
-      ->check(CLI::IsMember({"hyperbola"}));
+      ->check(CLI::IsMember(method_names()));
   command
       ->add_option("--tag-height", arguments->tag_height_m,
                    "Height of the tags [m, world]; without it, that of the antenna in the mean")

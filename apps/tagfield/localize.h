@@ -13,10 +13,11 @@ namespace tagfield {
 struct LocalizeArguments {
   std::string recording;  ///< Reads as CSV, or a bag.
   std::string poses;      ///< Of CSV reads a file; of a bag one of the words in kPoseWords, or "".
-  std::string method = "hyperbola";
-  std::string out;       ///< "" for the default.
-  std::string scenario;  ///< File, or "".
-  std::string frame;     ///< Of a bag's transforms, or "".
+  std::string format;     ///< How other people's tables are to be read (YAML), or "".
+  std::string method;     ///< "" for the scenario's, else the paper's.
+  std::string out;        ///< "" for the default.
+  std::string scenario;   ///< File, or "".
+  std::string frame;      ///< Of a bag's transforms, or "".
   std::optional<double> frequency_hz;
   std::string heights_file;  ///< CSV, or "".
   std::optional<double> tag_height_m;

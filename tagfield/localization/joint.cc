@@ -46,7 +46,13 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
   for (std::size_t i = 0; i < state.system.tags.size(); ++i) {
     by_tag[state.system.tags[i].id] = estimate_of(state, covariance, i);
   }
-  for (auto& [tag, estimate] : by_tag) result.estimates.push_back(std::move(estimate));
+  for (auto& [tag, estimate] : by_tag) {
+    // Also those whose phases could not be followed.
+    const auto known = problem.reference_tags.find(tag);
+    result.estimates.push_back(known == problem.reference_tags.end()
+                                   ? std::move(estimate)
+                                   : reference_estimate(tag, known->second));
+  }
   result.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
   return result;
 }

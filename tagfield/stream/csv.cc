@@ -15,6 +15,7 @@ namespace {
 /// What libcsv's callbacks fill.
 struct Filling {
   CsvTable* table = nullptr;
+  bool header = true;  ///< Whether the table has one.
   int line = 1;
   std::vector<std::string> fields;
   std::string problem;
@@ -22,11 +23,17 @@ struct Filling {
 
 void finish_header(Filling& filling) { filling.table->header = std::move(filling.fields); }
 
+void number_columns(Filling& filling) {
+  for (std::size_t i = 1; i <= filling.fields.size(); ++i) {
+    filling.table->header.push_back(std::to_string(i));
+  }
+}
+
 void finish_row(Filling& filling) {
   CsvTable& table = *filling.table;
   if (filling.fields.size() != table.header.size()) {
-    filling.problem = fmt::format("{} fields where the header has {}", filling.fields.size(),
-                                  table.header.size());
+    filling.problem = fmt::format("{} fields where the {} has {}", filling.fields.size(),
+                                  filling.header ? "header" : "first line", table.header.size());
     return;
   }
   table.rows.push_back({filling.line, std::move(filling.fields)});
@@ -41,9 +48,11 @@ void on_row(int /*terminator*/, void* user) {
   auto& filling = *static_cast<Filling*>(user);
   if (!filling.problem.empty()) return;
   if (!filling.fields.empty()) {
-    if (filling.table->header.empty()) {
+    const bool first = filling.table->header.empty();
+    if (first && filling.header) {
       finish_header(filling);
     } else {
+      if (first) number_columns(filling);
       finish_row(filling);
     }
   }
@@ -118,7 +127,7 @@ const std::string& CsvTable::text(const CsvRow& row, std::size_t column) const {
   return row.fields[column];
 }
 
-CsvTable read_csv(const std::string& path) {
+CsvTable read_csv(const std::string& path, const CsvForm& form) {
   std::string text = read_text_file(path);
   // A byte order mark is a spreadsheet's way to say UTF-8.
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
@@ -130,10 +139,13 @@ CsvTable read_csv(const std::string& path) {
     throw Error("can't start the CSV reader");
   }
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
-  Filling filling{&table, 1, {}, ""};
+  csv_set_delim(&parser, static_cast<unsigned char>(form.delimiter));
+  Filling filling{&table, form.header, 1, {}, ""};
   parse_lines(text, parser, filling);
   if (!filling.problem.empty()) fail({path, filling.line}, filling.problem);
-  if (table.header.empty()) fail({path, 0}, "is empty, expected a table with a header line");
+  if (table.header.empty()) {
+    fail({path, 0}, form.header ? "is empty, expected a table with a header line" : "is empty");
+  }
   return table;
 }
 

@@ -1,5 +1,6 @@
 /// @file
-/// Tables as CSV files (RFC 4180, with a header line). Every complaint names file and line.
+/// Tables as CSV files (RFC 4180, with a header line or without). Every complaint names file and
+/// line.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,10 +42,16 @@ struct CsvTable {
   [[nodiscard]] const std::string& text(const CsvRow& row, std::size_t column) const;
 };
 
+/// What a table looks like.
+struct CsvForm {
+  char delimiter = ',';
+  bool header = true;  ///< Else the columns are called "1", "2", …
+};
+
 /// Reads a table. Columns may stand in any order and there may be more of them than one asks for;
 /// blank lines are skipped. Throws Error if the file can't be read, is empty, is not text, or has a
-/// line with more or fewer fields than the header.
-CsvTable read_csv(const std::string& path);
+/// line with more or fewer fields than the header (or, without one, than the first line).
+CsvTable read_csv(const std::string& path, const CsvForm& form = {});
 
 /// `text` as one field: quoted where it must be.
 std::string csv_field(std::string_view text);

@@ -31,6 +31,22 @@ void give_rssi(const Eigen::Vector3d& p_WT, std::vector<PhaseSample>& samples) {
   }
 }
 
+/// Each antenna was believed to be where its samples say; one that is not in several places at
+/// once.
+void give_tracks(LocalizationProblem& problem) {
+  std::map<std::string, std::map<Time, Eigen::Vector3d>> places;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    for (const auto& [antenna, samples] : of_tag) {
+      for (const PhaseSample& s : samples) places[antenna].emplace(s.stamp, s.p_WA);
+    }
+  }
+  for (const auto& [antenna, of_antenna] : places) {
+    for (const auto& [stamp, p_WA] : of_antenna) {
+      problem.tracks[antenna].X_WA.push_back({stamp, from_translation(p_WA)});
+    }
+  }
+}
+
 /// Several tags, some of them odd, and one reference tag.
 LocalizationProblem mixed_problem() {
   Rng rng(77);
@@ -49,13 +65,14 @@ LocalizationProblem mixed_problem() {
   problem.samples["no reads"]["a"] = {};
   problem.samples["one"]["a"] = {problem.samples["tag1"]["a"].front()};
   problem.samples["still"]["s"] = read_along(Path(50, {1, 1, 0.4}), {3, 2, 0.4}, Noise{}, rng);
-  problem.samples["collinear"]["a"] =
+  problem.samples["collinear"]["b"] =
       read_along(straight(8.0, 0.04), {3.0, 2.0, 0.4}, Noise{}, rng);
-  problem.samples["on the path"]["a"] =
+  problem.samples["on the path"]["c"] =
       read_along(straight(8.0, 0.04), {3.0, 0.0, 0.4}, Noise{}, rng);
   const Path far = straight(90.0, 0.5);
-  problem.samples["far path"]["a"] =
+  problem.samples["far path"]["d"] =
       read_along(far, far, {45.0, 1.0, 0.4}, Noise{}, rng, {865.7e6, 15.0, 1000.0, 1.7e9});
+  give_tracks(problem);
   return problem;
 }
 
@@ -126,6 +143,7 @@ RC_GTEST_PROP(EveryMethod, NothingMakesAMethodThrowOrGiveWhatIsNotANumber, ()) {
     sample.rssi_dbm = i % 5 == 0 ? kNoRssi : std::round(uniform(rng, -75.0, -35.0));
     samples.push_back(sample);
   }
+  give_tracks(problem);
   for (const Method& method : methods()) RC_ASSERT(is_finite(locate_one(method, problem)));
 }
 
