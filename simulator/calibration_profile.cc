@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "simulator/internal/yaml_map.h"
-#include "simulator/internal/yaml_values.h"
+#include "simulator/yaml_map.h"
+#include "simulator/yaml_values.h"
 #include "tagfield/base/units.h"
 #include "tagfield/stream/csv.h"
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "simulator/internal/radio_yaml.h"
-#include "simulator/internal/yaml_map.h"
-#include "simulator/internal/yaml_values.h"
+#include "simulator/yaml_map.h"
+#include "simulator/yaml_values.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/reader/radio_settings.h"
 

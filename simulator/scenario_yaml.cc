@@ -8,11 +8,11 @@
 
 #include "simulator/internal/navigation_yaml.h"
 #include "simulator/internal/radio_yaml.h"
-#include "simulator/internal/yaml_map.h"
-#include "simulator/internal/yaml_values.h"
 #include "simulator/placements.h"
 #include "simulator/recorded_motion.h"
 #include "simulator/tag_table.h"
+#include "simulator/yaml_map.h"
+#include "simulator/yaml_values.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/sdf/load_world.h"

@@ -28,6 +28,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_check_command(app, chosen);
   tagfield::add_explain_command(app, chosen);
   tagfield::add_coverage_command(app, chosen);
+  tagfield::add_bench_command(app, chosen);
   tagfield::add_gazebo_command(app, chosen);
   try {
     app.parse(argc, argv);
@@ -38,9 +39,10 @@ int parse_and_run(int argc, char** argv) {
     return tagfield::kExitBadInput;
   }
   if (!chosen) {
-    fmt::print(stderr,
-               "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-               " coverage or gazebo (see tagfield --help)\n");
+    fmt::print(
+        stderr,
+        "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
+        " coverage, bench or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

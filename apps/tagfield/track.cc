@@ -7,6 +7,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "simulator/calibration_profile.h"
 #include "simulator/known_beforehand.h"
 #include "simulator/scenario_yaml.h"
 #include "simulator/tracking_run.h"
@@ -35,6 +36,7 @@ struct TrackArguments {
   std::optional<double> acceleration_noise;
   std::optional<double> tag_height_m;
   std::string heights_file;
+  std::string calibration;
   std::optional<std::uint64_t> seed;
   std::size_t seeds = 1;
   std::string out;
@@ -156,6 +158,10 @@ Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
   runs[0].reads = read_reads_csv(arguments.input);
   runs[0].believed_poses = read_poses_csv(arguments.poses);
   runs[0].truth = truth_beside(arguments.input);
+  if (!arguments.calibration.empty()) {
+    apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
+                      runs[0].believed_poses, known);
+  }
   if (runs[0].reads.empty()) {
     diagnostics.warn({arguments.input, 0}, "no reads: cannot track anything");
   }
@@ -261,6 +267,8 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
       ->check(CLI::Number);
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; goes before --tag-height");
+  command.add_option("--calibration", arguments.calibration,
+                     "With reads, a profile by 'tagfield calibrate'");
 }
 
 }  // namespace

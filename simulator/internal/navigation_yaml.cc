@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "simulator/internal/yaml_values.h"
+#include "simulator/yaml_values.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {

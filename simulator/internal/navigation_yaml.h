@@ -2,11 +2,11 @@
 /// The parts of a scenario that say how robots find their way.
 #pragma once
 
-#include "simulator/internal/yaml_map.h"
 #include "simulator/navigation_spec.h"
 #include "simulator/obstacle.h"
 #include "simulator/pose_error.h"
 #include "simulator/robot.h"
+#include "simulator/yaml_map.h"
 
 namespace tagfield {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "simulator/internal/yaml_values.h"
 #include "simulator/profile.h"
+#include "simulator/yaml_values.h"
 
 namespace tagfield {
 namespace {

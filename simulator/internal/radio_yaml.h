@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "simulator/internal/yaml_map.h"
 #include "simulator/scenario.h"
+#include "simulator/yaml_map.h"
 #include "tagfield/base/raw_parameter.h"
 #include "tagfield/reader/radio_settings.h"
 

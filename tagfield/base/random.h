@@ -25,7 +25,8 @@ enum class Purpose : std::uint64_t {
   kDiffuse = 12,       ///< Waves that come from everywhere.
   kGen2 = 13,          ///< Slots that tags draw and replies made out, in one inventory round.
   kMeasuring = 14,     ///< Noise of what a reader measures of one reply.
-  kTracking = 15,      ///< Particles of a filter that tracks a tag.
+  kReadLoss = 15,      ///< Reads that are lost on the way, in a comparison of methods.
+  kTracking = 16,      ///< Particles of a filter that tracks a tag.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

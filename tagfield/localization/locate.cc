@@ -5,11 +5,15 @@
 #include <algorithm>
 
 #include "tagfield/base/spelling.h"
+#include "tagfield/localization/joint.h"
+#include "tagfield/localization/least_squares.h"
+#include "tagfield/localization/maximum_likelihood.h"
 
 namespace tagfield {
 
 std::vector<Method> built_in_methods(const MethodSettings& settings) {
-  return {hyperbola_method(settings.hyperbola)};
+  return {hyperbola_method(settings.hyperbola), least_squares_method(), maximum_likelihood_method(),
+          joint_method(), sar_method(settings.sar)};
 }
 
 Method find_method(const std::vector<Method>& methods, const std::string& name) {

@@ -10,6 +10,7 @@
 #include "tagfield/localization/hyperbola.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
+#include "tagfield/localization/sar.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 
@@ -18,6 +19,7 @@ namespace tagfield {
 /// Settings of the methods that have any.
 struct MethodSettings {
   HyperbolaOptions hyperbola;
+  SarOptions sar;
 };
 
 /// All methods that come with Tagfield, in the order in which people are told of them.

@@ -3,9 +3,7 @@
 #include "tagfield/base/parallel.h"
 
 namespace tagfield {
-namespace {
-
-TagEstimate reference(const std::string& tag, const Eigen::Vector3d& p_WT) {
+TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT) {
   Candidate there;
   there.p_WT = p_WT;
   there.covariance = Eigen::Matrix3d::Zero();
@@ -16,8 +14,6 @@ TagEstimate reference(const std::string& tag, const Eigen::Vector3d& p_WT) {
   estimate.candidates = {there};
   return estimate;
 }
-
-}  // namespace
 
 std::vector<TagEstimate> locate_each(
     const LocalizationProblem& problem, int threads,
@@ -30,7 +26,7 @@ std::vector<TagEstimate> locate_each(
     const auto& [tag, samples] = *tags[i];
     const auto known = problem.reference_tags.find(tag);
     estimates[i] = known == problem.reference_tags.end() ? locate(tag, samples)
-                                                         : reference(tag, known->second);
+                                                         : reference_estimate(tag, known->second);
   });
   return estimates;
 }

@@ -34,6 +34,9 @@ struct Method {
   LocateFunction locate;
 };
 
+/// Estimate of a reference tag: the place that was given.
+TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT);
+
 /// Runs `locate` on each tag that is not a reference tag, in parallel; reference tags get their
 /// known place. For methods that take one tag at a time.
 std::vector<TagEstimate> locate_each(

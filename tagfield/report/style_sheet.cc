@@ -22,6 +22,21 @@ std::string properties(const Palette& palette) {
       palette.map_occupied, palette.map_unknown);
 }
 
+constexpr const char* kSeries[kSeriesColors] = {"#2f7de1", "#e0662f", "#2f9e5b", "#c2419e",
+                                                "#8a63d2", "#b3860a", "#159aae", "#dc4150",
+                                                "#7c8894", "#6f9a22"};
+
+std::string series_style() {
+  std::string rules;
+  for (std::size_t i = 0; i < kSeriesColors; ++i) {
+    rules += fmt::format(
+        "svg .line{0}{{fill:none;stroke:{1};stroke-width:2.2;stroke-linejoin:round}}\n"
+        "svg .dot{0}{{fill:{1}}}\n",
+        i, kSeries[i]);
+  }
+  return rules;
+}
+
 constexpr const char* kLayout = R"(*{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
 body{margin:0;background:var(--paper);color:var(--ink);
@@ -66,6 +81,8 @@ tbody th,thead tr:first-child th:first-child{text-align:left;position:sticky;lef
 background:var(--paper)}
 tbody th{font-weight:600}
 th[colspan]{text-align:center}
+tbody th.group{text-align:left;background:var(--panel);max-width:none;overflow:visible}
+th.group span{position:sticky;left:.75rem}
 th.words,td.words{text-align:left}
 td.words:last-child{white-space:normal;min-width:15rem}
 .told td.words:last-child{min-width:9rem;width:99%}
@@ -133,7 +150,8 @@ std::string figure_style(const Palette& c) {
       "svg .cover-wrong{{fill:#c2419e}}\n"
       "svg .cover-never{{fill:none;stroke:#e0452f;stroke-width:2.6}}\n",
       c.ink, c.paper, c.ink, c.ink, c.paper);
-  return rules;
+  rules += fmt::format("svg .band{{fill:{};fill-opacity:0.28}}\n", c.muted);
+  return rules + series_style();
 }
 
 std::string page_style() {

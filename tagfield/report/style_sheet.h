@@ -3,6 +3,7 @@
 /// and by the single files in light.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace tagfield {
@@ -26,6 +27,10 @@ struct Palette {
 
 Palette light_palette();
 Palette dark_palette();
+
+/// How many colours there are for things of one kind: classes line0, dot0, line1, …, which stand
+/// out from light and dark paper.
+inline constexpr std::size_t kSeriesColors = 10;
 
 /// Rules for the classes that figures use.
 std::string figure_style(const Palette& palette);

@@ -23,13 +23,15 @@ SCENARIOS = ("paper_warehouse", "z_axis", "two_antennas", "moving_tags", "spawn"
 @case
 def help_says_what_there_is(context):
     said = {
-        "": ["run", "localize", "report", "check", "--version", "scenarios/paper_warehouse.yaml"],
+        "": ["run", "localize", "report", "check", "bench", "--version", "scenarios/paper_warehouse.yaml"],
         "run": ["SCENARIO", "--seed ", "--seeds", "--out", "--set", "--threads", "--no-page",
                 "pose.sigma_m=0.01", "reads.csv", "report.html"],
         "localize": ["READS", "--poses", "--method", "hyperbola", "--tag-height ", "--tag-heights",
                      "--out", "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm",
                      "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw"],
         "report": ["DIR", "report.html"],
+        "bench": ["SUITE", "--seeds", "--methods", "--conditions", "--no-timing", "--list-methods",
+                  "bench.html", "bench.csv", "tags.csv", "docs/bench.md"],
         "check": ["FILE", "--json", "--set", "--model-path"]}
     for command, words in said.items():
         result = context.run_well(*command.split(), "--help")
@@ -220,6 +222,25 @@ def many_interrupted_seeds_keep_the_finished_ones(context):
     summary, _ = check_incomplete_folder(context.folder / "out")
     check_between(len(summary["seeds"]), 100, 19999, "number of finished seeds")
     check_equal(len(summary["tags"]), len(summary["seeds"]), "tags of the finished seeds")
+
+
+@case
+def an_interrupted_bench_keeps_the_finished_runs(context):
+    suite = context.write("suite.yaml", f"scenario: {context.shipped('z_axis')}\nseeds: 20000\n"
+                                        "methods: [hyperbola]\nconditions: [{name: plain}]\n")
+    session = OnTerminal(context, "bench", suite, "--out", "out")
+    check(session.wait_for(r"\b1 %"), f"no progress: {session.seen!r}")
+    check(not (context.folder / "out/bench.json").exists(), "bench.json is there before the end")
+    session.process.send_signal(signal.SIGINT)
+    code, said = session.finish()
+    check_equal(code, 130, "exit code")
+    check_in("INCOMPLETE", said, "stdout")
+    told = read_json(context.folder / "out/bench.json")
+    check_equal(told["complete"], False, "complete")
+    entry = told["entries"][0]
+    check_between(entry["runs"], 100, 19999, "number of finished runs")
+    check_equal(len(read_csv(context.folder / "out/tags.csv")), entry["tags"], "rows of tags.csv")
+    check_in("Incomplete", (context.folder / "out/bench.html").read_text(encoding="utf-8"), "page")
 
 
 @case

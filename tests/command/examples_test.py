@@ -12,7 +12,7 @@ from common import (Skip, case, check, check_between, check_equal, check_in, che
                     position, read_csv, read_json, run)
 
 ROOMS = ("base", "poses", "world", "sdf", "link", "channel", "reader", "stream", "localization",
-         "report", "simulator")
+         "report", "simulator", "bench")
 
 
 def documented_commands(path):
@@ -104,24 +104,43 @@ def install(context):
     return prefix
 
 
-def check_own_program(context, prefix):
-    example = context.source / "examples/04_own_program"
-    build = context.folder / "own"
+def build_and_run(context, prefix, name, *arguments):
+    """What an example prints that was built against the package; "" where it could not be."""
+    example = context.source / "examples" / name
+    build = context.folder / name
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     for command in (["cmake", *generator, "-S", example, "-B", build,
                      f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"],
                     ["cmake", "--build", build]):
         result = run(command, timeout=600)
         if not check(result.code == 0, f"{command[1]}: {(result.out + result.err)[-1500:]}"):
-            return
-    result = run([build / "own_program"], cwd=context.folder)
-    check_equal((result.code, result.err), (0, ""), "exit code and stderr of own_program")
+            return ""
+    program = name.split("_", 1)[1]
+    result = run([build / program, *arguments], cwd=context.folder)
+    check_equal((result.code, result.err), (0, ""), f"exit code and stderr of {program}")
+    return result.out
+
+
+def check_own_program(context, prefix):
+    out = build_and_run(context, prefix, "04_own_program")
     found = {name: (float(x), float(y)) for name, x, y in
-             re.findall(r"^(\w+): (-?[\d.]+) (-?[\d.]+) m$", result.out, re.MULTILINE)}
+             re.findall(r"^(\w+): (-?[\d.]+) (-?[\d.]+) m$", out, re.MULTILINE)}
     # Where own_program.cc puts them.
     for name, place in {"first": (2.0, 2.5), "second": (1.0, -2.0)}.items():
         check(name in found and math.dist(found[name], place) < 0.05,
-              f"{name} is at {found.get(name)}, expected {place}: {result.out!r}")
+              f"{name} is at {found.get(name)}, expected {place}: {out!r}")
+
+
+def check_own_method(context, prefix):
+    out = build_and_run(context, prefix, "05_own_method",
+                        context.shipped("paper_warehouse"))
+    rows = re.findall(r"^  (\w+) +(\d+)/30 +\d+ +\d+ +([\d.]+)", out, re.MULTILINE)
+    check_equal([row[0] for row in rows], 2 * ["hyperbola", "centroid"], f"methods in {out!r}")
+    mean_mm = [float(row[2]) for row in rows]
+    check_equal([row[1] for row in rows[:2]], ["30", "30"], "tags located with the true pose")
+    check_between(mean_mm[0], 0.0, 10.0, "mean error of the hyperbolae [mm]")
+    # The path is 3 to 6 m from the racks.
+    check_between(mean_mm[1], 1000.0, 7000.0, "mean error of the centroid [mm]")
 
 
 def check_installed_command(context, prefix):
@@ -137,6 +156,7 @@ def the_installed_package(context):
     prefix = install(context)
     check_installed_command(context, prefix)
     check_own_program(context, prefix)
+    check_own_method(context, prefix)
     for path in prefix.rglob("*"):
         name = str(path.relative_to(prefix))
         check("/test/" not in name and "/internal/" not in name, f"{name} is installed")

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/internal/yaml_map.h"
+#include "simulator/yaml_map.h"
 #include "tagfield/poses/rigid_transform.h"
 #include "tagfield/poses/trajectory.h"
 

@@ -1,4 +1,4 @@
-#include "simulator/internal/yaml_values.h"
+#include "simulator/yaml_values.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "simulator/internal/yaml_map.h"
+#include "simulator/yaml_map.h"
 
 #include <fmt/format.h>
 

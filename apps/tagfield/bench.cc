@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "bench/bench_figures.h"
+#include "bench/bench_files.h"
+#include "bench/bench_page.h"
+#include "bench/bench_text.h"
+#include "bench/run_bench.h"
+#include "bench/suite_yaml.h"
+#include "tagfield/localization/locate.h"
+#include "tagfield/stream/files.h"
+
+namespace tagfield {
+namespace {
+
+struct BenchArguments {
+  std::string suite;
+  std::string out;
+  std::optional<std::uint64_t> seeds;
+  std::vector<std::string> methods;
+  std::vector<std::string> conditions;
+  int threads = default_threads();
+  bool no_page = false;
+  bool no_timing = false;
+  bool list_methods = false;
+};
+
+int list_methods() {
+  for (const Method& method : built_in_methods({})) {
+    fmt::print("{:<16} {}\n", method.name, method.summary);
+  }
+  return kExitOk;
+}
+
+Suite suite_of(const BenchArguments& arguments) {
+  if (arguments.suite.empty()) throw Error("bench: SUITE is missing (see tagfield bench --help)");
+  Suite suite = only(load_suite(arguments.suite), arguments.methods, arguments.conditions);
+  if (!arguments.seeds) return suite;
+  suite.count = *arguments.seeds;
+  for (Condition& condition : suite.conditions) condition.count.reset();
+  return suite;
+}
+
+Bench run_with_progress(const PreparedSuite& prepared, int threads) {
+  ProgressBar bar("bench");
+  RunControl control;
+  control.threads = threads;
+  control.stop = &interrupted();
+  control.on_progress = [&bar](double share) { bar.show(share); };
+  catch_interrupts();
+  return run_bench(prepared, control);
+}
+
+void write(const Bench& bench, const BenchArguments& arguments, Timing timing,
+           StagedFolder& folder) {
+  folder.add("bench.json", bench_to_json(bench, timing));
+  folder.add("bench.csv", bench_to_csv(bench, timing));
+  folder.add("tags.csv", bench_tags_to_csv(bench));
+  if (!arguments.no_page) {
+    const std::vector<Figure> figures = bench_figures(bench, timing);
+    for (const Figure& figure : figures) {
+      if (!figure.missing.empty()) continue;
+      folder.add("figures/" + figure.name + ".svg",
+                 standalone_svg(figure.svg, figure.title, figure.caption));
+    }
+    folder.add("bench.html", bench_page(bench, figures, timing));
+  }
+  folder.commit({"bench.html", "figures"});
+}
+
+int bench(const BenchArguments& arguments) {
+  if (arguments.list_methods) return list_methods();
+  const Suite suite = suite_of(arguments);
+  Diagnostics diagnostics;
+  const PreparedSuite prepared = prepare(suite, built_in_methods, diagnostics);
+  const std::string out =
+      arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
+  StagedFolder folder(out);
+  Bench result = run_with_progress(prepared, arguments.threads);
+  for (const std::string& warning : result.warnings) diagnostics.warn(warning);
+  result.warnings = diagnostics.warnings();
+  const Timing timing = arguments.no_timing ? Timing::kWithoutTimes : Timing::kWithTimes;
+  print_warnings(diagnostics);
+  write(result, arguments, timing, folder);
+  fmt::print("{}", bench_to_text(result, timing));
+  if (!result.complete) fmt::print("INCOMPLETE: the bench was interrupted\n");
+  fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
+             arguments.no_page ? out : out + "/bench.html");
+  return result.complete ? kExitOk : kExitInterrupted;
+}
+
+void add_options(CLI::App& command, BenchArguments& arguments) {
+  command.add_option("SUITE", arguments.suite, "Suite file (YAML)");
+  command.add_option("--seeds", arguments.seeds, "So many seeds in each condition")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}));
+  command.add_option("--methods", arguments.methods, "Only these methods of the suite: A,B")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      .add_option("--conditions", arguments.conditions, "Only these conditions of the suite: A,B")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--out", arguments.out, "Folder for the results (default runs/bench_NAME)");
+  command.add_option("--threads", arguments.threads, "Threads; only times depend on it")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--no-page", arguments.no_page, "Write the data only, no bench.html");
+  command.add_flag("--no-timing", arguments.no_timing,
+                   "Leave times out, so that the same suite gives the same bytes");
+  command.add_flag("--list-methods", arguments.list_methods, "Say which methods there are");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command = app.add_subcommand(
+      "bench", "Compare localization methods in many conditions with many seeds");
+  add_options(*command, *arguments);
+  command->footer(
+      "A suite names methods and conditions. Each condition is simulated once with each seed, and\n"
+      "all its methods locate the same reads:\n\n"
+      "  scenario: ../paper_warehouse.yaml      # relative to the suite\n"
+      "  seeds: 100\n"
+      "  methods: [hyperbola, {name: coarse, method: hyperbola, localization: {stride_m: 1}}]\n"
+      "  conditions:\n"
+      "    - {name: true pose}\n"
+      "    - {name: noisy, set: {antennas.mobile.phase_noise_rad: 0.5}}\n"
+      "    - {name: lossy, lose: {share: 0.3, burst_s: 1, every_s: 10}}\n\n"
+      "The folder then holds bench.html, bench.json, bench.csv with a row for each condition and\n"
+      "method, and tags.csv with a row for each tag of each run. For example\n"
+      "  tagfield bench scenarios/bench/paper_warehouse.yaml --seeds 5\n"
+      "Ctrl-C ends it early and keeps the runs that are done. docs/bench.md lists all keys and\n"
+      "columns, and says how errors are judged.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return bench(*arguments); }; });
+}
+
+}  // namespace tagfield

@@ -1,0 +1,91 @@
+// A localization method of one's own: a tag is where its reads are strongest. It is compared with
+// the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
+#include <cmath>
+#include <cstdio>
+
+#include "bench/bench_text.h"
+#include "bench/run_bench.h"
+#include "tagfield/localization/locate.h"
+
+namespace {
+
+// The mean of the antenna places that read the tag, weighted by the power that arrived: near the
+// point of the path that is closest to the tag. No phase, so its error is of the order of the
+// path's distance.
+tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, const std::string& tag,
+                               const tagfield::SamplesOfTag& samples) {
+  tagfield::TagEstimate estimate;
+  estimate.tag = tag;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (const auto& [antenna, series] : samples) {
+    for (const tagfield::PhaseSample& sample : series) {
+      const double milliwatts = std::pow(10.0, sample.rssi_dbm / 10.0);
+      sum += milliwatts * sample.p_WA;
+      weights += milliwatts;
+      ++estimate.reads;
+    }
+  }
+  if (estimate.reads == 0) {
+    estimate.reason = "cannot localize: no reads";
+    return estimate;
+  }
+  tagfield::Candidate place;
+  place.p_WT = sum / weights;
+  place.p_WT.z() = tagfield::plane_height(problem, tag);
+  estimate.candidates = {place};
+  estimate.verdict = tagfield::Verdict::kLocated;
+  return estimate;
+}
+
+tagfield::Method centroid_method() {
+  return {"centroid", "mean of the antenna's places, weighted by RSSI",
+          [](const tagfield::LocalizationProblem& problem, int threads, tagfield::Diagnostics&) {
+            tagfield::LocalizationResult result;
+            result.method = "centroid";
+            result.estimates = tagfield::locate_each(
+                problem, threads,
+                [&](const std::string& tag, const tagfield::SamplesOfTag& samples) {
+                  return centroid(problem, tag, samples);
+                });
+            return result;
+          }};
+}
+
+std::vector<tagfield::Method> all_methods(const tagfield::MethodSettings& settings) {
+  std::vector<tagfield::Method> methods = tagfield::built_in_methods(settings);
+  methods.push_back(centroid_method());
+  return methods;
+}
+
+// What a suite's file would say; load_suite() of bench/suite_yaml.h reads one.
+tagfield::Suite comparison(const std::string& scenario) {
+  tagfield::Condition exact;
+  exact.name = "true pose";
+  exact.scenario = scenario;
+  tagfield::Condition noisy = exact;
+  noisy.name = "pose 2 cm";
+  noisy.settings = {{"pose.source", "noisy"}, {"pose.sigma_m", "0.02"}};
+  tagfield::Suite suite;
+  suite.name = "own_method";
+  suite.count = 3;
+  suite.methods = {{"hyperbola", "hyperbola", {}, {}}, {"centroid", "centroid", {}, {}}};
+  suite.conditions = {exact, noisy};
+  return suite;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: own_method SCENARIO.yaml\n");
+    return 2;
+  }
+  try {
+    const tagfield::Bench bench = tagfield::run_bench(comparison(argv[1]), all_methods, {});
+    std::printf("%s", tagfield::bench_to_text(bench, tagfield::Timing::kWithoutTimes).c_str());
+  } catch (const tagfield::Error& error) {
+    std::fprintf(stderr, "own_method: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,34 @@
+/// @file
+/// From fits of one tag to candidates: how uncertain each is, and which can't be told apart.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tagfield/localization/tag_estimate.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+
+/// Covariance of the unknowns of a fit [m², q in m⁴]: σ² τ N⁻¹, with the residuals' variance σ² and
+/// their correlation factor τ (residuals.h). Rows of a known height are 0. Singular geometry gives
+/// variances of 1e12.
+Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height,
+                              const TagFit& fit);
+
+/// A candidate of that place, with this covariance of the unknowns.
+Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
+                         const Eigen::Matrix3d& covariance);
+
+/// The best fit and those that the data can't tell from it (tells_apart()), best first. `fits` must
+/// not be empty.
+std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightModel& height,
+                                       std::vector<TagFit> fits);
+
+/// Places along the direction in which `fit` is least certain, three deviations far and so close
+/// together that ranges change by at most an eighth of a wavelength between them: the minima of a
+/// misfit known but for whole cycles lie among them. The fit's own place comes first; at most 81.
+std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightModel& height,
+                                       const TagFit& fit, const Eigen::Matrix3d& covariance);
+
+}  // namespace tagfield

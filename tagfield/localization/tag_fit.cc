@@ -1,0 +1,161 @@
+#include "tagfield/localization/tag_fit.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Span = TagPhases::Span;
+
+double nearest_to_zero(double error, double cycle) {
+  return cycle > 0.0 ? error - cycle * std::round(error / cycle) : error;
+}
+
+double span_offset(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
+                   const Span& span) {
+  if (span.offset_known) return 0.0;
+  double sum = 0.0;
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+    const double r = range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
+    const double error = phases.value[i] - r;
+    if (phases.cycle[i] > 0.0) {
+      sine += std::sin(error * phases.wavenumber[i]);
+      cosine += std::cos(error * phases.wavenumber[i]);
+    } else {
+      sum += error;
+    }
+  }
+  if (phases.cycle[span.begin] > 0.0) {
+    return std::atan2(sine, cosine) / phases.wavenumber[span.begin];
+  }
+  return sum / static_cast<double>(span.count);
+}
+
+/// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
+/// each offset is off.
+struct Step {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::VectorXd offset_shift;   ///< By span: the mean error there [m],
+  Eigen::MatrixXd mean_gradient;  ///< and the mean gradient, a row a span.
+  double cost = 0.0;
+};
+
+void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& fit, std::size_t s,
+              Step& step) {
+  const Span& span = phases.spans[s];
+  const auto row = static_cast<Eigen::Index>(s);
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gradients = Eigen::Vector3d::Zero();
+  double errors = 0.0;
+  double error_squares = 0.0;
+  for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+    const Range range = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]);
+    const double error =
+        nearest_to_zero(phases.value[i] - range.r - fit.offsets[row], phases.cycle[i]);
+    squares.noalias() += range.gradient * range.gradient.transpose();
+    products += range.gradient * error;
+    gradients += range.gradient;
+    errors += error;
+    error_squares += error * error;
+  }
+  const auto count = static_cast<double>(span.count);
+  // One wave number a span, as it has one carrier.
+  const double weight = phases.wavenumber[span.begin] * phases.wavenumber[span.begin];
+  if (!span.offset_known) {
+    squares -= gradients * gradients.transpose() / count;
+    products -= gradients * (errors / count);
+    error_squares -= errors * errors / count;
+    step.offset_shift[row] = errors / count;
+    step.mean_gradient.row(row) = gradients.transpose() / count;
+  }
+  step.normal += weight * squares;
+  step.gradient += weight * products;
+  step.cost += weight * std::max(error_squares, 0.0);
+}
+
+Step step_at(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  Step step;
+  const auto spans = static_cast<Eigen::Index>(phases.spans.size());
+  step.offset_shift = Eigen::VectorXd::Zero(spans);
+  step.mean_gradient = Eigen::MatrixXd::Zero(spans, 3);
+  for (std::size_t s = 0; s < phases.spans.size(); ++s) add_span(phases, height, fit, s, step);
+  if (height.unknowns() == 2) step.normal(2, 2) = 1.0;
+  return step;
+}
+
+TagFit moved(const TagFit& fit, const Step& step, const PlaceVector& move) {
+  TagFit next;
+  next.unknowns = fit.unknowns + move;
+  next.offsets = fit.offsets + step.offset_shift - step.mean_gradient * move;
+  return next;
+}
+
+}  // namespace
+
+Eigen::VectorXd offsets_at(const TagPhases& phases, const HeightModel& height,
+                           const PlaceVector& unknowns) {
+  Eigen::VectorXd offsets(static_cast<Eigen::Index>(phases.spans.size()));
+  for (std::size_t s = 0; s < phases.spans.size(); ++s) {
+    offsets[static_cast<Eigen::Index>(s)] = span_offset(phases, height, unknowns, phases.spans[s]);
+  }
+  return offsets;
+}
+
+Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  Eigen::ArrayXd errors(phases.size());
+  for (std::size_t s = 0; s < phases.spans.size(); ++s) {
+    const Span& span = phases.spans[s];
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      const double r = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
+      errors[i] = nearest_to_zero(phases.value[i] - r - fit.offsets[static_cast<Eigen::Index>(s)],
+                                  phases.cycle[i]);
+    }
+  }
+  return errors;
+}
+
+TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVector& start) {
+  constexpr int kRounds = 30;
+  constexpr double kTolerance = 1e-6;  // [m]
+  TagFit fit;
+  fit.unknowns = start;
+  fit.offsets = offsets_at(phases, height, start);
+  Step here = step_at(phases, height, fit);
+  double damping = 1e-6;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d damped = here.normal;
+    // The small constant keeps a singular matrix (nothing to learn) solvable.
+    damped.diagonal().array() += damping * here.normal.diagonal().array() + 1e-9;
+    const PlaceVector move = damped.ldlt().solve(here.gradient);
+    if (!move.allFinite() || move.norm() < kTolerance) break;
+    TagFit next = moved(fit, here, move);
+    const Step there = step_at(phases, height, next);
+    if (there.cost < here.cost) {
+      fit = std::move(next);
+      here = there;
+      damping = std::max(damping * 0.1, 1e-9);
+    } else {
+      damping = std::max(damping * 10.0, 1e-3);
+    }
+  }
+  fit.offsets += here.offset_shift;
+  fit.cost = here.cost;
+  return fit;
+}
+
+Eigen::Matrix3d normal_of(const TagPhases& phases, const HeightModel& height,
+                          const PlaceVector& unknowns) {
+  TagFit fit;
+  fit.unknowns = unknowns;
+  fit.offsets = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(phases.spans.size()));
+  return step_at(phases, height, fit).normal;
+}
+
+}  // namespace tagfield

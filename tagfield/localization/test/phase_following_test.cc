@@ -1,0 +1,88 @@
+#include "tagfield/localization/phase_following.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/localization/test/made_reads.h"
+
+namespace tagfield {
+namespace {
+
+double range_at(const PhaseSample& sample, const Eigen::Vector3d& p_WT) {
+  return (p_WT - sample.p_WA).norm();
+}
+
+/// Greatest jump between neighbours of followed less true distance, in half wavelengths.
+double greatest_slip(const PhaseSegment& segment, const Eigen::Vector3d& p_WT) {
+  double greatest = 0.0;
+  for (std::size_t i = 1; i < segment.samples.size(); ++i) {
+    const double followed = segment.distance_m[i] - segment.distance_m[i - 1];
+    const double real = range_at(segment.samples[i], p_WT) - range_at(segment.samples[i - 1], p_WT);
+    greatest = std::max(greatest, std::abs(followed - real));
+  }
+  return greatest / (0.5 * wavelength(865.7e6));
+}
+
+TEST(PhaseFollowing, GivesTheChangeOfDistance) {
+  made::Rng rng(1);
+  made::Noise none;
+  none.phase_rad = 0.0;
+  none.range_sigma = 0.0;
+  const Eigen::Vector3d p_WT(3.0, 2.0, 0.4);
+  const auto samples = made::read_along(made::s_curve(10.0, 0.02), p_WT, none, rng);
+  const auto segments = follow(samples, 0.05);
+  ASSERT_EQ(segments.size(), 1U);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double change = range_at(samples[i], p_WT) - range_at(samples[0], p_WT);
+    EXPECT_NEAR(segments[0].distance_m[i], change, 1e-9);
+  }
+}
+
+TEST(PhaseFollowing, HoldsAtNoiseOfHalfARadian) {
+  made::Noise noise;
+  noise.phase_rad = 0.5;
+  noise.range_sigma = 0.0;
+  int slips_followed = 0;
+  int slips_unwrapped = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    made::Rng rng(seed);
+    const made::Path path = made::aisles(0.02);
+    const Eigen::Vector3d p_WT = made::beside(path, 2.0, 0.4, rng);
+    const auto samples = made::read_along(path, p_WT, noise, rng);
+    for (const PhaseSegment& segment : follow(samples, 0.5)) {
+      if (greatest_slip(segment, p_WT) > 0.8) ++slips_followed;
+    }
+    for (const PhaseSegment& segment : unwrap(samples, 0.8)) {
+      if (greatest_slip(segment, p_WT) > 0.8) ++slips_unwrapped;
+    }
+  }
+  EXPECT_LE(slips_followed, 2);
+  EXPECT_GT(slips_unwrapped, 4 * slips_followed);
+}
+
+TEST(PhaseFollowing, BeginsAnewWhereTheTurnsAreNotSure) {
+  made::Rng rng(3);
+  made::Noise noise;
+  noise.range_sigma = 0.0;
+  auto samples =
+      made::read_along(made::straight(4.0, 0.02), Eigen::Vector3d(2.0, 1.5, 0.4), noise, rng);
+  samples.erase(samples.begin() + 60, samples.begin() + 140);  // 1.6 m without a read.
+  EXPECT_EQ(follow(samples, 0.1).size(), 2U);
+  for (std::size_t i = 30; i < samples.size(); ++i) samples[i].frequency_hz = 866.3e6;
+  EXPECT_EQ(follow(samples, 0.1).size(), 3U);
+}
+
+TEST(PhaseFollowing, BridgesAFewLostReads) {
+  made::Rng rng(4);
+  made::Noise noise;
+  noise.range_sigma = 0.0;
+  auto samples =
+      made::read_along(made::straight(4.0, 0.02), Eigen::Vector3d(2.0, 1.5, 0.4), noise, rng);
+  // 14 cm, over the 8.66 cm that unwrapping by itself can pass.
+  samples.erase(samples.begin() + 60, samples.begin() + 66);
+  const auto segments = follow(samples, 0.1);
+  ASSERT_EQ(segments.size(), 1U);
+  EXPECT_LT(greatest_slip(segments[0], {2.0, 1.5, 0.4}), 0.3);
+}
+
+}  // namespace
+}  // namespace tagfield

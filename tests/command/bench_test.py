@@ -1,0 +1,206 @@
+#!/usr/bin/python3
+"""`tagfield bench`: suites in, tables and a page out; the same bytes whatever the threads."""
+
+import statistics
+
+from common import (case, check, check_equal, check_in, check_near, files_in, main, percentile,
+                    read_csv, read_json)
+
+NUMBERS = ("runs", "tags", "located", "ambiguous", "not_located", "wrong")
+
+
+def suite_of(context, conditions, name="suite.yaml", methods="[hyperbola]", more=""):
+    return context.write(name, f"scenario: {context.shipped('paper_warehouse')}\nseeds: 2\n{more}"
+                               f"methods: {methods}\nconditions:\n{conditions}")
+
+
+SMALL = """\
+  - {name: true pose}
+  - {name: lossy, lose: {share: 0.3, burst_s: 1, every_s: 10}}
+  - name: pose 2 cm
+    set: {pose.source: noisy, pose.sigma_m: 0.02}
+    methods: [hyperbola]
+"""
+METHODS = "[hyperbola, {name: coarse, method: hyperbola, localization: {stride_m: 1}}]"
+
+
+def bench(context, suite, *arguments, name="out"):
+    """Runs a suite and gives back its folder."""
+    folder = context.folder / name
+    context.run_well("bench", suite, "--out", folder, *arguments)
+    return folder
+
+
+# --- What comes out -------------------------------------------------------------------------------
+
+@case
+def writes_tables_and_a_page(context):
+    folder = bench(context, suite_of(context, SMALL, methods=METHODS))
+    told = read_json(folder / "bench.json")
+    check_equal((told["suite"], told["complete"]), ("suite", True), "suite, complete")
+    check_equal([entry["condition"] + "/" + entry["name"] for entry in told["entries"]],
+                ["true pose/hyperbola", "true pose/coarse", "lossy/hyperbola", "lossy/coarse",
+                 "pose 2 cm/hyperbola"], "entries")
+    for entry in told["entries"]:
+        check_equal((entry["runs"], entry["tags"]), (2, 20), "runs and tags")
+        check(entry["time_per_tag_ms"] > 0.0, "no time")
+        check_equal(entry["located"] + entry["ambiguous"] + entry["not_located"], 20, "verdicts")
+    rows = read_csv(folder / "bench.csv")
+    for row, entry in zip(rows, told["entries"]):
+        for key in NUMBERS:
+            check_equal(int(row[key]), entry[key], f"{key} in bench.csv")
+        check_equal(float(row["mean_m"]), entry["error_m"]["mean"], "mean_m")
+    page = (folder / "bench.html").read_text(encoding="utf-8")
+    for word in ("true pose", "lossy", "pose 2 cm", "coarse", "Errors by condition", "<svg"):
+        check_in(word, page, "bench.html")
+    for word in ("<script", "http://", "https://"):
+        check(word not in page, f"bench.html holds {word}")
+
+
+@case
+def statistics_are_those_of_the_tags(context):
+    folder = bench(context, suite_of(context, SMALL, methods=METHODS))
+    tags = read_csv(folder / "tags.csv")
+    check_equal(len(tags), 5 * 2 * 10, "rows of tags.csv")
+    for row in tags:
+        if row["verdict"] != "located":
+            check_equal(row["error_m"], "", "error of a tag that is not located")
+            continue
+        far = ((float(row["x_m"]) - float(row["truth_x_m"])) ** 2 +
+               (float(row["y_m"]) - float(row["truth_y_m"])) ** 2) ** 0.5
+        check_near(float(row["error_m"]), far, 1e-9, "error_m")
+    for entry in read_json(folder / "bench.json")["entries"]:
+        own = [float(row["error_m"]) for row in tags if row["error_m"] and
+               (row["condition"], row["name"]) == (entry["condition"], entry["name"])]
+        check_equal(len(own), entry["located"], "errors of the located")
+        check_near(entry["error_m"]["mean"], statistics.fmean(own), 1e-9, "mean")
+        check_near(entry["error_m"]["median"], statistics.median(own), 1e-9, "median")
+        check_near(entry["error_m"]["p95"], percentile(own, 0.95), 1e-9, "p95")
+        check_near(entry["error_m"]["max"], max(own), 1e-9, "max")
+
+
+@case
+def a_run_says_the_same(context):
+    """A condition is the run with the same overrides."""
+    folder = bench(context, suite_of(context, SMALL), "--conditions", "pose 2 cm")
+    out = context.simulate("paper_warehouse", "--seeds", "2", "--no-page", "--set",
+                           "pose.source=noisy", "--set", "pose.sigma_m=0.02", name="run")
+    of_run = {(str(tag["seed"]), tag["id"]): tag for tag in read_json(out / "summary.json")["tags"]}
+    rows = read_csv(folder / "tags.csv")
+    check_equal(len(rows), len(of_run), "tags")
+    for row in rows:
+        tag = of_run[row["seed"], row["tag"]]
+        check_equal((row["verdict"], int(row["reads"])), (tag["verdict"], tag["reads"]), row["tag"])
+        if tag["estimate_m"]:
+            check_equal([float(row[key]) for key in ("x_m", "y_m", "z_m")], tag["estimate_m"],
+                        f"estimate of {row['tag']}")
+
+
+@case
+def loses_reads(context):
+    folder = bench(context, suite_of(context, SMALL), "--no-page")
+    reads = {}
+    for row in read_csv(folder / "tags.csv"):
+        reads[row["condition"]] = reads.get(row["condition"], 0) + int(row["reads"])
+    # 0.7 e^-0.1 are left; the bursts of two runs of 80 s scatter widely.
+    check_near(reads["lossy"] / reads["true pose"], 0.633, 0.12, "share of reads left")
+
+
+@case
+def the_same_bytes_whatever_the_threads(context):
+    suite = suite_of(context, SMALL, methods=METHODS)
+    one = files_in(bench(context, suite, "--threads", "1", "--no-timing", name="one"))
+    two = files_in(bench(context, suite, "--threads", "2", "--no-timing", name="two"))
+    check_equal(set(one), set(two), "files")
+    for name, text in one.items():
+        check(text == two[name], f"{name} differs between 1 and 2 threads")
+    for name in ("bench.json", "bench.csv"):
+        check(b"time_per_tag_ms" not in one[name], f"{name} has times with --no-timing")
+
+
+@case
+def estimated_poses_are_aligned(context):
+    folder = bench(context, suite_of(context, SMALL), "--no-page")
+    entries = {entry["condition"]: entry for entry in read_json(folder / "bench.json")["entries"]}
+    check_equal(entries["true pose"]["aligned_error_m"], None, "aligned error with the true pose")
+    noisy = entries["pose 2 cm"]
+    if noisy["aligned_error_m"]:
+        squares = [[float(row[key]) ** 2 for row in read_csv(folder / "tags.csv")
+                    if row["condition"] == "pose 2 cm" and row["aligned_error_m"]]
+                   for key in ("aligned_error_m", "error_m")]
+        check(sum(squares[0]) <= sum(squares[1]), "aligned errors are larger")
+
+
+# --- The command ----------------------------------------------------------------------------------
+
+@case
+def filters_choose(context):
+    suite = suite_of(context, SMALL, methods=METHODS)
+    folder = bench(context, suite, "--methods", "coarse", "--seeds", "1", "--no-page")
+    told = read_json(folder / "bench.json")
+    check_equal([entry["condition"] for entry in told["entries"]], ["true pose", "lossy"],
+                "conditions with coarse")
+    check_equal({entry["runs"] for entry in told["entries"]}, {1}, "runs with --seeds 1")
+    check(not (folder / "bench.html").exists(), "bench.html is there with --no-page")
+    folder = bench(context, suite, "--conditions", "lossy,true pose", "--seeds", "1", name="two")
+    told = read_json(folder / "bench.json")
+    check_equal([condition["name"] for condition in told["conditions"]], ["true pose", "lossy"],
+                "conditions, in the suite's order")
+
+
+@case
+def methods_are_listed(context):
+    result = context.run_well("bench", "--list-methods")
+    check_in("hyperbola", result.out, "--list-methods")
+    told = context.run_well("bench", "--help").out
+    for word in ("SUITE", "--seeds", "--methods", "--conditions", "--no-timing", "conditions:",
+                 "bench.html", "scenarios/bench/paper_warehouse.yaml"):
+        check_in(word, told, "bench --help")
+
+
+BAD = (  # what stands in the suite's conditions, its line, what is said of it
+    ("  - {nam: a}\n", 5, "did you mean 'name'?"),
+    ("  - {name: a, set: {pose.sigm_m: 1}}\n", 5, "did you mean 'sigma_m'?"),
+    ("  - {name: a}\n  - {name: b, lose: {share: 2}}\n", 6, "must be from 0 to 1"),
+    ("  - {name: a, believed: nothing}\n", 5, "known: unknown, exact"),
+    ("  - {name: a, believed: {sigma_m: -1}}\n", 5, "must be 0 or more"),
+    ("  - {name: a, scenario: no.yaml}\n", 5, "there is no such file"),
+    ("  - {name: a, methods: [hyprbola]}\n", 5, "did you mean 'hyperbola'?"),
+    ("  - {name: a, localization: {strid_m: 1}}\n", 5, "did you mean 'stride_m'?"),
+    ("  - {name: a, set: {tags.tag77.position: [1, 2, 3]}}\n", 5, "has no element 'tag77'"),
+    ("  - {name: a}\n  - {name: a}\n", 6, "is there twice"),
+    ("  - {name: a, seeds: -1}\n", 5, "expected a whole number"),
+    ("  - {name: a, set: [1, 2]}\n", 5, "must be a mapping"),
+)
+
+
+def check_refused(context, suite, begins, says, *arguments):
+    result = context.run("bench", suite, "--out", "refused", *arguments)
+    check_equal(result.code, 2, f"exit code for {says!r}")
+    check_equal(result.out, "", f"stdout for {says!r}")
+    lines = result.err.splitlines()
+    check(len(lines) == 1 and lines[0].startswith(f"tagfield: {begins}") and says in lines[0],
+          f"said {result.err!r}, expected {begins!r} … {says!r}")
+    check(not (context.folder / "refused").exists(), f"a folder is left behind by {says!r}")
+
+
+@case
+def bad_suites_are_refused(context):
+    for conditions, line, says in BAD:
+        suite = suite_of(context, conditions)
+        check_refused(context, suite, f"{suite}:{line}: ", says)
+    suite = suite_of(context, "  - {name: a}\n", methods="[hyperbole]")
+    check_refused(context, suite, f"{suite}:3: ", "did you mean 'hyperbola'?")
+    suite = suite_of(context, "  - {name: a}\n", more="seeds: 3\n")
+    check_refused(context, suite, f"{suite}:3: ", "has 'seeds' twice")
+    good = suite_of(context, SMALL)
+    check_refused(context, good, "--methods: ", "did you mean 'hyperbola'?", "--methods", "hyperbol")
+    check_refused(context, good, "--conditions: ", "did you mean 'lossy'?", "--conditions", "losy")
+    check_refused(context, "no_suite.yaml", "no_suite.yaml", "")
+    result = context.run("bench")
+    check_equal(result.code, 2, "exit code without a suite")
+    check_in("SUITE", result.err, "stderr without a suite")
+
+
+if __name__ == "__main__":
+    main()
