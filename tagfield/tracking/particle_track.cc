@@ -12,7 +12,7 @@ namespace tagfield {
 namespace {
 
 /// How much of a particle stays its own when it is spread; 1 − the square of it is drawn anew.
-constexpr double kOwnPart = 0.98;
+constexpr double kOwnPart = 0.95;
 /// Part of the reads that may be anything at all.
 constexpr double kAnythingShare = 0.01;
 

@@ -48,8 +48,10 @@ std::optional<Passing> nearest_of(const Track& track, const Eigen::Vector3d& pla
   const TrackPoint& point = track.points[zero->first];
   const double square = point.v_WT.squaredNorm();
   if (square <= 0.0) return std::nullopt;
+  const TrackPoint& before = track.points[zero->first - 1];
+  const Eigen::Vector3d p_WT = before.p_WT + zero->second * (point.p_WT - before.p_WT);
   Vector6d slope;
-  slope << point.v_WT, point.p_WT - place;
+  slope << point.v_WT, p_WT - place;
   slope /= square;
   return Passing{"", stamp_between(track.points[zero->first - 1], point, zero->second),
                  std::sqrt(std::max(0.0, slope.dot(point.covariance * slope)))};

@@ -340,18 +340,17 @@ Matrix6d process_noise(const TrackingOptions& options, double time_s) {
 }
 
 SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
-                         const LineHypothesis& hypothesis) {
-  constexpr double kWider = 100.0;
+                         const LineHypothesis& hypothesis, double wider) {
   const MotionPrior prior = motion_prior(pass, options);
   const Matrix6d known = prior.rows.transpose() * prior.rows;
   const Vector6d known_right = prior.rows.transpose() * prior.values;
   const Matrix6d fitted = hypothesis.fit.covariance.ldlt().solve(Matrix6d(Matrix6d::Identity()));
   Vector6d motion;
   motion << hypothesis.fit.motion.p_WT, hypothesis.fit.motion.v_WT;
-  const auto information = (known + (fitted - known) / kWider).eval().ldlt();
+  const auto information = (known + (fitted - known) / (wider * wider)).eval().ldlt();
   const Matrix6d covariance = information.solve(Matrix6d(Matrix6d::Identity()));
   const Vector6d mean =
-      information.solve(Vector6d(known_right + (fitted * motion - known_right) / kWider));
+      information.solve(Vector6d(known_right + (fitted * motion - known_right) / (wider * wider)));
   const double time = pass.reads.front().t_s;
   Matrix6d back = Matrix6d::Identity();
   back.topRightCorner<3, 3>() = time * Eigen::Matrix3d::Identity();

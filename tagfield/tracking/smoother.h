@@ -37,11 +37,11 @@ struct SmootherStart {
 Track smooth(const Pass& pass, const TrackingOptions& options, Linearization linearization,
              const SmootherStart& start, bool keep_noise = false);
 
-/// A start from a straight motion: what is known beforehand, with what the reads tell of it at ten
-/// times its spread (so that they count twice but for 1 %), and what process noise may add over the
-/// pass.
+/// A start from a straight motion: what is known beforehand, with what the reads tell of it at
+/// `wider` times its spread (so that they count twice but for 1/wider²), and what process noise may
+/// add over the pass.
 SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
-                         const LineHypothesis& hypothesis);
+                         const LineHypothesis& hypothesis, double wider = 10.0);
 
 /// Root of the horizontal covariance's trace where the track is nearest to an antenna of the pass
 /// [m].

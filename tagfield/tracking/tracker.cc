@@ -20,6 +20,8 @@ constexpr std::size_t kMostHypotheses = 6;
 constexpr double kHopeless = 60.0;
 /// Tracks this much less likely than the best can't be told from it.
 constexpr double kUntold = 8.0;
+/// A tag that went less than this part of what the least speed asks for was at rest.
+constexpr double kAtRest = 0.8;
 constexpr double kSamePlace = 0.1;  ///< Tracks within this of each other are one [m].
 
 TagTrack not_tracked(TagTrack track, const std::string& why) {
@@ -30,8 +32,11 @@ TagTrack not_tracked(TagTrack track, const std::string& why) {
 }
 
 Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypothesis& hypothesis) {
+  if (options.method == TrackMethod::kParticle) {
+    // Particles over a hundred times as much room in each direction would be few where it matters.
+    return particle_track(pass, options, start_from(pass, options, hypothesis, 4.0));
+  }
   const SmootherStart start = start_from(pass, options, hypothesis);
-  if (options.method == TrackMethod::kParticle) return particle_track(pass, options, start);
   return smooth(
       pass, options,
       options.method == TrackMethod::kUkf ? Linearization::kSigmaPoints : Linearization::kTaylor,
@@ -83,7 +88,7 @@ std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
 
 std::string remark(const Pass& pass) {
   if (pass.cut_off == 0) return "";
-  return fmt::format("{} reads beyond a gap in time are left out", pass.cut_off);
+  return fmt::format("left out beyond a gap in time: {} reads", pass.cut_off);
 }
 
 TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack result) {
@@ -99,6 +104,13 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
         result, fmt::format("the expected error is {:.2f} m, over {} m: more antennas, or a lane, "
                             "would tell more",
                             best.expected_error_m, options.max_expected_error_m));
+  }
+  const double way = (best.points.back().p_WT - best.points.front().p_WT).head<2>().norm();
+  if (way < kAtRest * options.min_speed_m_s * duration_of(pass)) {
+    return not_tracked(result,
+                       fmt::format("it went {:.2f} m in {:.1f} s, less than the least speed "
+                                   "of {} m/s: tags at rest are localized",
+                                   way, duration_of(pass), options.min_speed_m_s));
   }
   result.reason = remark(pass);
   result.verdict = TrackVerdict::kTracked;

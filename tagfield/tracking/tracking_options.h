@@ -43,7 +43,7 @@ struct TrackingOptions {
   double max_gap_s = 3.0;    ///< Over longer gaps a tag is not followed.
   double max_expected_error_m = 0.15;  ///< Tracks less sure than this are not given.
   double min_coherence = 0.5;          ///< Nor those that explain less.
-  std::size_t particles = 2000;
+  std::size_t particles = 4000;
   std::uint64_t seed = 1;  ///< Of the particles.
 };
 

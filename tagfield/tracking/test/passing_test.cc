@@ -51,8 +51,8 @@ TEST(Passing, NearestIsAtTheFootOfThePerpendicular) {
   const auto passing = nearest_of(belt_track(), {0.41, 2.0, 1.2});
   ASSERT_TRUE(passing);
   EXPECT_NEAR(to_seconds(passing->stamp), 10.705, 1e-9);
-  // There p − a has no part along v, but for the step between two points.
-  EXPECT_NEAR(passing->sigma_s, 0.005, 5e-4);
+  // There p − a has no part along v.
+  EXPECT_NEAR(passing->sigma_s, 0.005, 1e-9);
 }
 
 TEST(Passing, ProbabilityOfAnOrder) {

@@ -157,11 +157,15 @@ TEST(Smoother, FollowsATagThatChangesItsSpeed) {
   made::Rng rng(9);
   std::vector<TagRead> reads;
   made::read_motion(gate, kTag, made.truth, -10.0, 10.0, rng, reads);
-  made.options.acceleration_noise = 0.1;
+  made.options.acceleration_noise = 0.3;
   made.pass = make_pass(made::problem_of(gate, reads, kBeltHeight), kTag, made.options);
   const Track track = smooth(made.pass, made.options, Linearization::kTaylor,
                              start_from(made.pass, made.options, best_line(made)));
-  EXPECT_LT(mean_error(made, track), 0.05);
+  double sum = 0.0;
+  for (const TrackPoint& point : track.points) {
+    sum += std::abs(point.p_WT.x() - made.truth(made::seconds_of(point.stamp)).x());
+  }
+  EXPECT_LT(sum / static_cast<double>(track.points.size()), 0.05);
   EXPECT_NEAR(track.points.front().v_WT.x(), 0.8, 0.08);
   EXPECT_NEAR(track.points.back().v_WT.x(), 1.2, 0.08);
 }

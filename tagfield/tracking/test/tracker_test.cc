@@ -144,7 +144,7 @@ TEST(Tracker, CovariancesAreHonest) {
   constexpr int kTracks = 50;
   TrackingOptions options = belt_options();
   options.acceleration_noise = kNoise;
-  options.lane->lateral_sigma_m = 1.0;
+  options.lane->lateral_sigma_m = 0.5;
   options.lane->heading_sigma_rad = 0.5;
   made::Gate gate;
   gate.rate_hz = 30.0;
@@ -272,7 +272,7 @@ TEST(Tracker, OfTwoPassesTheLongerIsFollowed) {
   belt.reads.push_back(late);
   const auto tracks = tracks_of(gate, belt.reads, belt_options());
   EXPECT_EQ(tracks.front().verdict, TrackVerdict::kTracked);
-  EXPECT_EQ(tracks.front().reason, "1 reads beyond a gap in time are left out");
+  EXPECT_EQ(tracks.front().reason, "left out beyond a gap in time: 1 reads");
 }
 
 TEST(Tracker, ThreadsAndTheOrderOfReadsChangeNothing) {
