@@ -19,6 +19,8 @@
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
+#include "tagfield/tracking/passing.h"
+#include "tagfield/tracking/tracking_options.h"
 
 namespace tagfield {
 
@@ -77,6 +79,12 @@ struct LocalizationSpec {
   std::optional<PoseErrorModel> pose_error;  ///< Where not told, that of the pose's source.
 };
 
+/// How moving tags are tracked; see docs/tracking.md.
+struct TrackingSpec {
+  TrackingOptions options;
+  std::optional<PassingLine> line;  ///< At which the tags' order is told.
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -95,6 +103,7 @@ struct Scenario {
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;
   LocalizationSpec localization;
+  TrackingSpec tracking;
 };
 
 }  // namespace tagfield

@@ -11,6 +11,7 @@
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "simulator/calibration_profile.h"
 #include "simulator/experiment.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
@@ -146,9 +147,13 @@ int localize(const LocalizeArguments& arguments) {
   if (bag && !arguments.format.empty()) throw Error("localize: --format goes with CSV only");
   Diagnostics diagnostics;
   const auto loaded = scenario_of(arguments, diagnostics);
-  const RecordingToLocalize recording =
+  RecordingToLocalize recording =
       bag ? bag_recording(arguments, diagnostics) : csv_recording(arguments);
-  const LocalizationOptions options = options_of(arguments, loaded);
+  LocalizationOptions options = options_of(arguments, loaded);
+  if (!arguments.calibration.empty()) {
+    apply_calibration(read_calibration(arguments.calibration), recording.reads,
+                      recording.poses.poses, options.known);
+  }
   if (recording.reads.empty()) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
@@ -205,6 +210,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Number);
   command->add_option("--tag-heights", arguments->heights_file,
                       "CSV: tag,height_m; goes before --tag-height");
+  command->add_option("--calibration", arguments->calibration,
+                      "Profile by 'tagfield calibrate': corrects antenna places, stamps, phases");
   command->add_option("--stride", arguments->stride_m, "Travel between hyperbolae [m]")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", arguments->out,

@@ -20,6 +20,7 @@ struct LocalizeArguments {
   std::string frame;      ///< Of a bag's transforms, or "".
   std::optional<double> frequency_hz;
   std::string heights_file;  ///< CSV, or "".
+  std::string calibration;   ///< Profile, or "".
   std::optional<double> tag_height_m;
   std::optional<double> stride_m;
   int threads = default_threads();
