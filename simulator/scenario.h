@@ -69,6 +69,7 @@ enum class KnownHeight {
 
 struct LocalizationSpec {
   std::string method = "hyperbola";
+  std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
   MethodSettings settings;
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;

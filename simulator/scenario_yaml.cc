@@ -194,6 +194,7 @@ LocalizationSpec localization_of(YamlMap map) {
   LocalizationSpec spec;
   HyperbolaOptions& options = spec.settings.hyperbola;
   if (map.has("method")) spec.method = method_of(map.at("method"));
+  for (const YamlValue& method : map.list("compare")) spec.compare.push_back(method_of(method));
   options.stride_m = map.number("stride_m", options.stride_m, kPositive);
   options.refine = map.boolean("refine", options.refine);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
