@@ -1,0 +1,85 @@
+#include "tagfield/localization/automatic.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/localization/locate.h"
+#include "tagfield/localization/test/problem_of.h"
+
+namespace tagfield {
+namespace {
+
+made::Hall moving_hall(const made::Noise& noise) {
+  made::Rng rng(1);
+  return made::hall(made::aisles(0.02), 4, noise, rng);
+}
+
+Choice choice_for(const LocalizationProblem& problem) {
+  return choose_method(traits_of(problem, 1), problem.reference_tags.size());
+}
+
+TEST(Automatic, TakesLikelihoodWithAnExactPose) {
+  EXPECT_EQ(choice_for(moving_hall({}).problem).method, "ml");
+}
+
+TEST(Automatic, TakesTheJointEstimateWithAnyOtherPose) {
+  made::Noise noise;
+  noise.pose_m = 0.01;
+  made::Hall hall = moving_hall(noise);
+  EXPECT_EQ(choice_for(hall.problem).method, "joint");
+  hall.problem.pose_error.reset();
+  EXPECT_EQ(choice_for(hall.problem).method, "joint");
+}
+
+TEST(Automatic, SeesReflectionsWhereAnExactPoseDoesNotFit) {
+  made::Noise noise;
+  noise.pose_m = 0.03;
+  noise.pose_time = 0.7;
+  made::Hall hall = moving_hall(noise);
+  hall.problem.pose_error = PoseErrorModel{};  // What is off must be the phase.
+  const Choice choice = choice_for(hall.problem);
+  EXPECT_EQ(choice.method, "sar");
+  EXPECT_NE(choice.why.find("reflections"), std::string::npos);
+}
+
+TEST(Automatic, AddsUpWavesWhereTheCarrierHops) {
+  made::Hall hall = moving_hall({});
+  for (auto& [tag, samples] : hall.problem.samples) {
+    auto& series = samples["a"];
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      series[i].frequency_hz += 6e5 * static_cast<double>(i / 5 % 4);
+    }
+  }
+  const DataTraits traits = traits_of(hall.problem, 1);
+  EXPECT_EQ(traits.channels, 4U);
+  EXPECT_LT(traits.reads_a_stretch, 6.0);
+  EXPECT_EQ(choose_method(traits, 0).method, "sar");
+}
+
+TEST(Automatic, GoesBySignalStrengthWhereAntennasStand) {
+  made::Hall hall = moving_hall({});
+  for (auto& [tag, samples] : hall.problem.samples) {
+    for (PhaseSample& sample : samples["a"]) sample.p_WA = {0.0, 0.0, 1.0};
+  }
+  EXPECT_EQ(choice_for(hall.problem).method, "trilateration");
+  hall.problem.reference_tags = {{"t0", {0, 0, 0}}, {"t1", {1, 0, 0}}, {"t2", {0, 1, 0}}};
+  EXPECT_EQ(choice_for(hall.problem).method, "landmarc");
+}
+
+TEST(Automatic, RunsWhatItChoseAndSaysWhy) {
+  const made::Hall hall = moving_hall({});
+  Diagnostics diagnostics;
+  const Method method = find_method(built_in_methods({}), "auto");
+  const LocalizationResult result = method.locate(hall.problem, 1, diagnostics);
+  EXPECT_EQ(result.method, "ml");
+  EXPECT_EQ(result.why, "the pose is exact and the phase fits");
+  EXPECT_EQ(result.estimates.size(), 4U);
+}
+
+TEST(Automatic, TakesNothingAtAll) {
+  Diagnostics diagnostics;
+  const Method method = find_method(built_in_methods({}), "auto");
+  EXPECT_TRUE(method.locate({}, 1, diagnostics).estimates.empty());
+}
+
+}  // namespace
+}  // namespace tagfield
