@@ -140,7 +140,7 @@ TEST(Tracker, OfManyNoisyTagsTheOrderIsRight) {
 
 TEST(Tracker, CovariancesAreHonest) {
   // Tags that truly do what the model says: white acceleration of this density.
-  constexpr double kNoise = 0.05;
+  constexpr double kNoise = 0.02;
   constexpr int kTracks = 50;
   TrackingOptions options = belt_options();
   options.acceleration_noise = kNoise;
