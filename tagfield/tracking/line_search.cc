@@ -18,8 +18,8 @@ constexpr double kSpeedStep = 0.15;  ///< [m/s]
 constexpr double kHeadingStep = radians(10.0);
 constexpr double kPlaceStep = 0.25;  ///< [m]
 constexpr double kLaneStep = 0.12;   ///< Along a lane [m].
-/// Coherence over longer sub-apertures may fall to this part of what it was over the shorter.
-constexpr double kStaysCoherent = 0.75;
+/// Coherence over longer sub-apertures may fall to this part of what it was over the shortest.
+constexpr double kStaysCoherent = 0.85;
 constexpr double kFlat = 0.03;  ///< Antennas within this of a plane are in it [m].
 
 /// How well each range rate explains one sub-aperture.
@@ -261,12 +261,12 @@ std::vector<LineHypothesis> refined(const Pass& pass, const TrackingOptions& opt
   const double duration = duration_of(pass);
   std::size_t most = kCoarseHypotheses;
   double aperture_s = kShortest;
+  const double before = hypotheses.empty() ? 0.0 : hypotheses.front().fit.coherence;
   while (!hypotheses.empty() && aperture_s < duration) {
     const double longer = 2.0 * aperture_s;
     aperture_s = longer >= duration ? duration + 1.0 : longer;
     most = std::max<std::size_t>(8, most * 2 / 3);
     const double noise = hypotheses.front().fit.noise_rad;
-    const double before = hypotheses.front().fit.coherence;
     auto next = fit_all(pass, options, aperture_s, noise, motions_of(hypotheses));
     keep_best(next, most);
     if (next.empty() || next.front().fit.coherence < kStaysCoherent * before) break;

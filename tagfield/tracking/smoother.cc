@@ -14,11 +14,13 @@ namespace {
 constexpr std::size_t kMostOffsets = 12;  ///< More, and those of an antenna take turns.
 constexpr double kAnyOffset = 100.0;      ///< Variance of an offset that nothing is known of.
 constexpr double kKnownOffset = 1e-6;     ///< Of one that is known.
-constexpr int kPasses = 4;
-constexpr double kNearest = 1e-3;     ///< [m]
-constexpr double kLeastNoise = 0.02;  ///< [rad]
-constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after that tell a jump.
-constexpr double kLeastJump = 0.8;    ///< [rad]
+constexpr int kPasses = 4;                ///< After the last jump was found.
+constexpr int kPassesBefore = 3;          ///< Any is looked for, so that the track has settled.
+constexpr int kMostJumps = 4;             ///< Times that they are looked for.
+constexpr double kNearest = 1e-3;         ///< [m]
+constexpr double kLeastNoise = 0.02;      ///< [rad]
+constexpr std::size_t kJumpSpan = 6;      ///< Reads before and after that tell a jump.
+constexpr double kLeastJump = 0.8;        ///< [rad]
 
 /// Which entry of the state holds a read's offset, and whether it begins anew there.
 struct Slots {
@@ -389,12 +391,13 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
   Smoothed smoothed;
   std::vector<double> residuals;
   int splits = 0;
-  for (int iteration = 0; iteration < kPasses + splits; ++iteration) {
+  for (int iteration = 0; iteration < kPassesBefore + kPasses + splits; ++iteration) {
     forward = filter(input, slots, noise, smoothed);
     smoothed = smooth_backward(forward.steps);
     residuals = residuals_of(pass, slots, smoothed);
     if (!keep_noise) noise = noise_of(residuals, 4 + count_fresh(slots));
-    if (splits < 4 && split_at_jumps(pass, residuals, noise, slots)) {
+    if (iteration >= kPassesBefore && splits < kMostJumps &&
+        split_at_jumps(pass, residuals, noise, slots)) {
       ++splits;
       smoothed = {};  // Its offsets know nothing of the jump.
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/tracking/line_search.h"
@@ -22,6 +23,8 @@ constexpr double kHopeless = 60.0;
 constexpr double kUntold = 8.0;
 /// A tag that went less than this part of what the least speed asks for was at rest.
 constexpr double kAtRest = 0.8;
+constexpr double kOffLane = 5.0;    ///< A track more sigmas beside the lane is none of its tags.
+constexpr double kAsStill = 0.05;   ///< Rest explains the phases as well, within this coherence.
 constexpr double kSamePlace = 0.1;  ///< Tracks within this of each other are one [m].
 
 TagTrack not_tracked(TagTrack track, const std::string& why) {
@@ -33,8 +36,12 @@ TagTrack not_tracked(TagTrack track, const std::string& why) {
 
 Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypothesis& hypothesis) {
   if (options.method == TrackMethod::kParticle) {
-    // Particles over a hundred times as much room in each direction would be few where it matters.
-    return particle_track(pass, options, start_from(pass, options, hypothesis, 4.0));
+    // Spread over all that noise may do in the whole pass, too few particles would be where it
+    // matters.
+    SmootherStart start = start_from(pass, options, hypothesis, 4.0);
+    start.covariance += process_noise(options, 0.25 * duration_of(pass)) -
+                        process_noise(options, duration_of(pass));
+    return particle_track(pass, options, start);
   }
   const SmootherStart start = start_from(pass, options, hypothesis);
   return smooth(
@@ -73,17 +80,37 @@ std::vector<Track> rivals(std::vector<Track> tracks) {
   return kept;
 }
 
-/// Prior knowledge weighs here too: smoothing forgets that of the lane by and by.
+/// How many sigmas a track is beside the lane, halfway; 0 without a lane.
+double beside_lane(const TrackingOptions& options, const Track& track) {
+  if (!options.lane || track.points.empty()) return 0.0;
+  const Lane& lane = *options.lane;
+  const Eigen::Vector2d side(-std::sin(lane.heading_rad), std::cos(lane.heading_rad));
+  const TrackPoint& middle = track.points[track.points.size() / 2];
+  return std::abs(side.dot(middle.p_WT.head<2>() - lane.point)) / lane.lateral_sigma_m;
+}
+
+/// The lane weighs here too, as it tells mirror images apart: smoothing forgets it by and by.
 std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
   const std::vector<LineHypothesis> hypotheses = search_lines(pass, options, kMostHypotheses);
   std::vector<Track> tracks;
   for (const LineHypothesis& one : hypotheses) {
     if (one.log_likelihood < hypotheses.front().log_likelihood - kHopeless) break;
     Track track = smoothed(pass, options, one);
-    track.log_likelihood -= one.fit.prior_cost;
+    const double beside = beside_lane(options, track);
+    track.log_likelihood -= 0.5 * beside * beside;
     if (is_finite(track)) tracks.push_back(std::move(track));
   }
   return rivals(std::move(tracks));
+}
+
+/// Mean length of the sums of e^(jφ) by antenna and channel: near 1 where neither tag nor antennas
+/// moved, which at an even rate looks like motion by λ/2 from read to read.
+double stillness(const Pass& pass) {
+  std::vector<std::complex<double>> sums(pass.groups);
+  for (const PassRead& read : pass.reads) sums[read.group] += std::polar(1.0, read.phase_rad);
+  double length = 0.0;
+  for (const std::complex<double>& sum : sums) length += std::abs(sum);
+  return length / static_cast<double>(pass.reads.size());
 }
 
 std::string remark(const Pass& pass) {
@@ -104,6 +131,15 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
         result, fmt::format("the expected error is {:.2f} m, over {} m: more antennas, or a lane, "
                             "would tell more",
                             best.expected_error_m, options.max_expected_error_m));
+  }
+  if (stillness(pass) > best.coherence - kAsStill) {
+    return not_tracked(result, "its phases stand still: tags at rest are localized");
+  }
+  const double beside = beside_lane(options, best);
+  if (beside > kOffLane) {
+    return not_tracked(result, fmt::format("the best track is {:.1f} sigmas beside the lane, over "
+                                           "{}",
+                                           beside, kOffLane));
   }
   const double way = (best.points.back().p_WT - best.points.front().p_WT).head<2>().norm();
   if (way < kAtRest * options.min_speed_m_s * duration_of(pass)) {

@@ -55,10 +55,13 @@ def reads_of_a_run_give_the_same_tracks(context):
     first = track(context, scenario, name="first")
     again = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv",
                   "--scenario", scenario, name="again")
-    check_equal((again / "order.csv").read_bytes(), (first / "order.csv").read_bytes(), "order.csv")
+    # Phases in a file have six decimals.
+    for a, b in zip(read_csv(first / "order.csv"), read_csv(again / "order.csv")):
+        check_equal((a["passed"], a["tag"]), (b["passed"], b["tag"]), "order")
+        check_near(float(a["stamp_s"]), float(b["stamp_s"]), 1e-5, f"stamp of {a['tag']}")
     told = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv", "--lane",
                  0, 0, 0, 0.1, "--line", 0, 0, 90, "--tag-height", 0.8, name="told")
-    check_equal((told / "tracks.csv").read_bytes(), (first / "tracks.csv").read_bytes(),
+    check_equal((told / "tracks.csv").read_bytes(), (again / "tracks.csv").read_bytes(),
                 "tracks.csv by options")
     judged = read_json(told / "tracks.json")
     check(judged["along_m"]["mean"] < 0.02, "the truth beside the reads was not used to judge")
