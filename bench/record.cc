@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "bench/alignment.h"
 #include "bench/consistency.h"
+#include "tagfield/report/alignment.h"
 #include "tagfield/report/summary.h"
 
 namespace tagfield {

@@ -87,6 +87,8 @@ std::vector<EffectCost> break_down(const Scenario& scenario, std::uint64_t first
   std::vector<EffectCost> costs;
   if (effects_in(scenario).empty()) return costs;
   const std::vector<Variant> variants = variants_of(scenario);
+  Scenario alone = scenario;  // The costs are those of the one method.
+  alone.localization.compare.clear();
   RunControl of_one = control;
   for (const Variant& variant : variants) {
     if (control.stop != nullptr && *control.stop) break;
@@ -95,8 +97,8 @@ std::vector<EffectCost> break_down(const Scenario& scenario, std::uint64_t first
     if (control.on_progress) {
       of_one.on_progress = [&](double share) { control.on_progress((done + share) / all); };
     }
-    const auto runs = run_seeds(with_effects(scenario, variant.effects), first, seeds, of_one,
-                                diagnostics, world);
+    const auto runs =
+        run_seeds(with_effects(alone, variant.effects), first, seeds, of_one, diagnostics, world);
     costs.push_back(cost_of(runs));
     costs.back().effect = variant.effect;
     costs.back().set = variant.set;

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 
 #include "simulator/known_beforehand.h"
 #include "simulator/navigation_summary.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/report/method_summary.h"
 
 namespace tagfield {
 namespace {
@@ -48,6 +50,8 @@ std::vector<TagOutcome> outcomes_of(const Scenario& scenario, const SeedRun& run
     outcome.reads = counts[tag.id];
     outcome.estimate = estimates[i];
     outcome.moved = moves(tag);
+    const auto& references = scenario.localization.reference_tags;
+    outcome.reference = std::count(references.begin(), references.end(), tag.id) > 0;
     if (!outcome.moved) outcome.truth_m = tag.motion.front().X_WB.translation;
     outcomes.push_back(std::move(outcome));
   }
@@ -86,6 +90,11 @@ PoseErrorSummary pose_error_of(const Scenario& scenario, const std::vector<SeedR
                   run.errors_with_true_pose_m.end());
   }
   summary.error_with_true_pose_m = statistics(errors);
+  const SeedRun& first = runs.front();
+  if (!first.corrected_poses.empty()) {
+    summary.corrected_rms_m =
+        position_rms(first.corrected_poses, first.recording.truth.antenna_poses);
+  }
   return summary;
 }
 
@@ -105,6 +114,63 @@ SeedRun navigated(const Scenario& scenario, std::uint64_t seed, const RunControl
   run.path_length_m = made.path_length_m;
   run.navigation = std::move(made.navigation);
   return run;
+}
+
+std::vector<TagEstimate> located(const Scenario& scenario, const Recording& recording,
+                                 const std::vector<AntennaPose>& poses,
+                                 const LocalizationOptions& options, Diagnostics& diagnostics,
+                                 LocalizationResult& result) {
+  result = locate_tags(recording.reads, poses, options, diagnostics);
+  return in_scenario_order(scenario, std::move(result.estimates));
+}
+
+/// By the scenario's other methods, each once.
+std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& run,
+                                     LocalizationOptions options) {
+  std::vector<ComparedMethod> others;
+  std::set<std::string> done = {run.method};
+  for (const std::string& name : scenario.localization.compare) {
+    Diagnostics unheard;  // What there is to warn of, the run's own method has said.
+    LocalizationResult result;
+    options.method = name;
+    const auto estimates =
+        located(scenario, run.recording, run.recording.believed_poses, options, unheard, result);
+    if (!done.insert(result.method).second) continue;
+    others.push_back({result.method, outcomes_of(scenario, run, estimates)});
+  }
+  return others;
+}
+
+/// Of all seeds: the run's own method, then the others.
+std::vector<MethodSummary> compared_methods(const std::string& method, bool believed,
+                                            const std::vector<SeedRun>& runs,
+                                            const std::vector<TagOutcome>& own) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<TagOutcome>> by_method;
+  for (const SeedRun& run : runs) {
+    for (const ComparedMethod& other : run.compared) {
+      std::vector<TagOutcome>& outcomes = by_method[other.method];
+      if (outcomes.empty()) order.push_back(other.method);
+      outcomes.insert(outcomes.end(), other.outcomes.begin(), other.outcomes.end());
+    }
+  }
+  if (order.empty()) return {};
+  std::vector<MethodSummary> methods = {summary_of_method(method, own, believed)};
+  for (const std::string& name : order) {
+    methods.push_back(summary_of_method(name, by_method[name], believed));
+  }
+  return methods;
+}
+
+/// What was used, over all seeds, in the order in which it first was.
+std::string methods_of(const std::vector<SeedRun>& runs) {
+  std::string names;
+  std::set<std::string> done;
+  for (const SeedRun& run : runs) {
+    if (!done.insert(run.method).second) continue;
+    names += (names.empty() ? "" : ", ") + run.method;
+  }
+  return names;
 }
 
 /// Simulated time that went into the map.
@@ -145,16 +211,19 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
   const LocalizationOptions options = localization_options(scenario, threads);
   const Recording& recording = run.recording;
-  run.estimates = in_scenario_order(
-      scenario,
-      locate_tags(recording.reads, recording.believed_poses, options, diagnostics).estimates);
+  LocalizationResult result;
+  run.estimates =
+      located(scenario, recording, recording.believed_poses, options, diagnostics, result);
+  run.method = result.method;
+  run.method_why = result.why;
+  run.corrected_poses = std::move(result.corrected_poses);
   run.outcomes = outcomes_of(scenario, run, run.estimates);
+  run.compared = compared(scenario, run, options);
   if (scenario.pose.source == PoseSource::kTrue) return;
   LocalizationOptions exact = options;
   exact.known.pose_error = PoseErrorModel{};
-  const std::vector<TagEstimate> with_truth = in_scenario_order(
-      scenario,
-      locate_tags(recording.reads, recording.truth.antenna_poses, exact, diagnostics).estimates);
+  const std::vector<TagEstimate> with_truth =
+      located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics, result);
   run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run, with_truth));
 }
 
@@ -178,7 +247,10 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
     begun[i] = 1;
     runs[i] = simulate(scenario, first + i, of_one, world);
     localize(scenario, runs[i], threads_inside, warnings[i]);
-    if (i > 0) runs[i].recording = {};
+    if (i > 0) {
+      runs[i].recording = {};
+      runs[i].corrected_poses = {};
+    }
     const std::lock_guard lock(progress_mutex);
     finished += 1.0;
     if (control.on_progress) control.on_progress(finished / static_cast<double>(count));
@@ -198,7 +270,9 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   Summary summary;
   summary.scenario = scenario.name;
   summary.description = scenario.description;
-  summary.method = "hyperbola";
+  summary.method = methods_of(runs);
+  summary.method_asked = scenario.localization.method;
+  summary.method_why = first.method_why;
   summary.pose = to_string(scenario.pose.source);
   summary.path_length_m = first.path_length_m;
   summary.reads = first.recording.reads.size();
@@ -211,8 +285,10 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
     simulated_s += run.simulated_s + mapping_s(run);
     summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
   }
+  const bool believed = scenario.pose.source != PoseSource::kTrue;
+  summary.compared_methods = compared_methods(summary.method, believed, runs, summary.tags);
   summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
-  if (scenario.pose.source != PoseSource::kTrue) {
+  if (believed) {
     summary.pose_error = pose_error_of(scenario, runs);
   }
   if (world != nullptr && first.navigation) summary.navigation = navigation_summary(runs, *world);

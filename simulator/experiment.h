@@ -16,6 +16,12 @@
 
 namespace tagfield {
 
+/// What another method makes of a run's reads.
+struct ComparedMethod {
+  std::string method;
+  std::vector<TagOutcome> outcomes;  ///< In the scenario's order of tags.
+};
+
 /// One seed's run.
 struct SeedRun {
   std::uint64_t seed = 0;
@@ -24,10 +30,14 @@ struct SeedRun {
   double path_length_m = 0.0;  ///< Driven by all robots.
   Recording recording;
   std::optional<NavigationRun> navigation;  ///< Where robots find their way by themselves.
+  std::string method;                       ///< That located the tags.
+  std::string method_why;                   ///< Why "auto" chose it; "" where it was asked for.
   std::vector<TagEstimate> estimates;       ///< In the scenario's order of tags.
   std::vector<TagOutcome> outcomes;         ///< Likewise.
   /// Errors of the same reads located with the true poses; empty where those are believed anyway.
   std::vector<double> errors_with_true_pose_m;
+  std::vector<AntennaPose> corrected_poses;  ///< Of methods that estimate the poses' error.
+  std::vector<ComparedMethod> compared;      ///< None of them the same as `method`.
 };
 
 /// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots
@@ -36,7 +46,7 @@ struct SeedRun {
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world = nullptr);
 
-/// Locates the tags from the run's reads and believed poses, and fills in estimates and outcomes.
+/// Locates the tags from the run's reads and believed poses, and fills in all that comes of it.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
 
 /// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of

@@ -19,6 +19,8 @@
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
+#include "tagfield/tracking/passing.h"
+#include "tagfield/tracking/tracking_options.h"
 
 namespace tagfield {
 
@@ -67,6 +69,7 @@ enum class KnownHeight {
 
 struct LocalizationSpec {
   std::string method = "hyperbola";
+  std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
   MethodSettings settings;
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
@@ -75,6 +78,12 @@ struct LocalizationSpec {
   bool offset_known = false;  ///< Whether the antennas' phase offsets are known, as calibrated.
   std::vector<std::string> reference_tags;   ///< IDs of those whose places are known.
   std::optional<PoseErrorModel> pose_error;  ///< Where not told, that of the pose's source.
+};
+
+/// How moving tags are tracked; see docs/tracking.md.
+struct TrackingSpec {
+  TrackingOptions options;
+  std::optional<PassingLine> line;  ///< At which the tags' order is told.
 };
 
 struct Scenario {
@@ -95,6 +104,7 @@ struct Scenario {
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;
   LocalizationSpec localization;
+  TrackingSpec tracking;
 };
 
 }  // namespace tagfield

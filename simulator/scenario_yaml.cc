@@ -194,6 +194,7 @@ LocalizationSpec localization_of(YamlMap map) {
   LocalizationSpec spec;
   HyperbolaOptions& options = spec.settings.hyperbola;
   if (map.has("method")) spec.method = method_of(map.at("method"));
+  for (const YamlValue& method : map.list("compare")) spec.compare.push_back(method_of(method));
   options.stride_m = map.number("stride_m", options.stride_m, kPositive);
   options.refine = map.boolean("refine", options.refine);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
@@ -214,6 +215,60 @@ LocalizationSpec localization_of(YamlMap map) {
         kKinds[choice(map.at("tag_heights"), {"known", "unknown", "above", "below"})];
   }
   map.finish();
+  return spec;
+}
+
+Eigen::Vector2d level_point(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(2, 2);
+  return {n[0], n[1]};
+}
+
+Lane lane_of(YamlMap map) {
+  Lane lane;
+  lane.point = level_point(map.at("point"));
+  lane.heading_rad = radians(map.number("heading_deg", 0.0));
+  lane.lateral_sigma_m = map.number("lateral_sigma_m", lane.lateral_sigma_m, kPositive);
+  lane.heading_sigma_rad =
+      radians(map.number("heading_sigma_deg", lane.heading_sigma_rad / radians(1.0), kPositive));
+  lane.both_ways = map.boolean("both_ways", lane.both_ways);
+  map.finish();
+  return lane;
+}
+
+PassingLine passing_line_of(YamlMap map) {
+  PassingLine line;
+  line.point = level_point(map.at("point"));
+  line.heading_rad = radians(map.number("heading_deg", 90.0));
+  map.finish();
+  return line;
+}
+
+TrackingSpec tracking_of(YamlMap map) {
+  TrackingSpec spec;
+  TrackingOptions& options = spec.options;
+  if (map.has("method")) {
+    const std::vector<std::string> methods = {"ekf", "ukf", "particle"};
+    options.method = track_method(methods[choice(map.at("method"), methods)]);
+  }
+  if (map.has("lane")) options.lane = lane_of(YamlMap(map.at("lane")));
+  if (map.has("line")) spec.line = passing_line_of(YamlMap(map.at("line")));
+  const auto positive = [&](const char* key, double& value) {
+    value = map.number(key, value, kPositive);
+  };
+  positive("min_speed_m_s", options.min_speed_m_s);
+  positive("max_speed_m_s", options.max_speed_m_s);
+  positive("height_sigma_m", options.height_sigma_m);
+  positive("reach_m", options.reach_m);
+  positive("max_gap_s", options.max_gap_s);
+  positive("max_expected_error_m", options.max_expected_error_m);
+  options.acceleration_noise =
+      map.number("acceleration_noise", options.acceleration_noise, kNotNegative);
+  map.finish();
+  try {
+    check(options);
+  } catch (const Error& error) {
+    map.self().fail(error.what());
+  }
   return spec;
 }
 
@@ -287,6 +342,7 @@ Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
   for (const YamlValue& obstacle : map.list("obstacles")) {
     scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle)));
   }
+  if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
   if (map.has("localization")) {
     scenario.localization = localization_of(YamlMap(map.at("localization")));
   }

@@ -65,7 +65,8 @@ std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const
 }
 
 std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
-                               const std::vector<TagRead>& reads, const Truth& truth) {
+                               const std::vector<TagRead>& reads, const Truth& truth,
+                               const std::map<std::string, Eigen::Vector3d>& references) {
   std::map<std::string, std::size_t> counts = count_by_tag(reads);
   const std::map<std::string, Places> places = places_of(truth);
   std::vector<TagOutcome> outcomes;
@@ -73,6 +74,7 @@ std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
     TagOutcome outcome;
     outcome.estimate = estimate;
     outcome.reads = counts[estimate.tag];
+    outcome.reference = references.count(estimate.tag) > 0;
     const auto known = places.find(estimate.tag);
     if (known != places.end()) {
       outcome.moved = known->second.box.sizes().norm() > kSettling;

@@ -2,6 +2,7 @@
 /// Estimates of a recording beside what is known of the truth.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const
                                        const std::vector<std::string>& order);
 
 /// An outcome for each estimate. A tag that moved by over 5 mm has no one true place; of others
-/// the last counts, as physics lets them settle.
+/// the last counts, as physics lets them settle. `references` are those whose places were told.
 std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
-                               const std::vector<TagRead>& reads, const Truth& truth);
+                               const std::vector<TagRead>& reads, const Truth& truth,
+                               const std::map<std::string, Eigen::Vector3d>& references);
 
 }  // namespace tagfield

@@ -2,22 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/judge.h"
+#include "apps/tagfield/localize_known.h"
+#include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "simulator/calibration_profile.h"
 #include "simulator/experiment.h"
 #include "simulator/scenario_yaml.h"
 #include "tagfield/localization/estimates_csv.h"
+#include "tagfield/report/method_summary.h"
 #include "tagfield/report/page.h"
 #include "tagfield/stream/poses_csv.h"
 #include "tagfield/stream/reads_csv.h"
 #include "tagfield/stream/tag_heights_csv.h"
+#include "tagfield/stream/tag_places_csv.h"
 
 namespace tagfield {
 namespace {
@@ -30,20 +36,22 @@ std::optional<ScenarioWithWorld> scenario_of(const LocalizeArguments& arguments,
   return load_scenario_with_world(arguments.scenario, {}, diagnostics);
 }
 
-/// Those of the scenario, with what the command line says instead.
+const Scenario* scenario_in(const std::optional<ScenarioWithWorld>& loaded) {
+  return loaded ? &loaded->scenario : nullptr;
+}
+
+/// Those of the scenario, with what the command line says instead; for poses of that name.
 LocalizationOptions options_of(const LocalizeArguments& arguments,
-                               const std::optional<ScenarioWithWorld>& loaded) {
+                               const std::optional<ScenarioWithWorld>& loaded,
+                               const std::vector<TagRead>& reads, const std::string& poses) {
   LocalizationOptions options;
+  options.method = "auto";
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
   if (!arguments.method.empty()) options.method = arguments.method;
   if (arguments.stride_m) options.settings.hyperbola.stride_m = *arguments.stride_m;
-  TagHeights& heights = options.known.heights;
-  if (arguments.tag_height_m || !arguments.heights_file.empty()) heights = {};
-  heights.of_all = arguments.tag_height_m ? arguments.tag_height_m : heights.of_all;
-  if (!arguments.heights_file.empty()) {
-    heights.of_tag = read_tag_heights_csv(arguments.heights_file);
-  }
+  take_known(arguments, reads, options.known);
+  options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   return options;
 }
 
@@ -52,6 +60,36 @@ std::vector<std::string> order_of(const std::optional<ScenarioWithWorld>& loaded
   if (!loaded) return order;
   for (const TagSpec& tag : loaded->scenario.tags) order.push_back(tag.id);
   return order;
+}
+
+std::vector<TagOutcome> outcomes_of(const RecordingToLocalize& recording,
+                                    const LocalizationOptions& options,
+                                    const std::vector<TagEstimate>& estimates) {
+  return judged(estimates, recording.reads, recording.truth, options.known.reference_tags);
+}
+
+/// The same reads by the scenario's other methods, after `summary`'s own; none where it names none.
+std::vector<MethodSummary> compared_methods(const RecordingToLocalize& recording,
+                                            const std::optional<ScenarioWithWorld>& loaded,
+                                            LocalizationOptions options, const Summary& summary,
+                                            const std::vector<std::string>& order) {
+  if (!loaded || loaded->scenario.localization.compare.empty()) return {};
+  const bool believed = recording.poses.name != "true";
+  std::vector<MethodSummary> methods = {summary_of_method(summary.method, summary.tags, believed)};
+  for (const std::string& name : loaded->scenario.localization.compare) {
+    options.method = name;
+    Diagnostics unheard;  // What there is to warn of, the first method has said.
+    const LocalizationResult result =
+        locate_tags(recording.reads, recording.poses.poses, options, unheard);
+    const bool is_new = std::none_of(methods.begin(), methods.end(), [&](const MethodSummary& of) {
+      return of.method == result.method;
+    });
+    if (!is_new) continue;
+    const auto estimates = with_all_tags(result.estimates, recording.truth, order);
+    methods.push_back(
+        summary_of_method(result.method, outcomes_of(recording, options, estimates), believed));
+  }
+  return methods;
 }
 
 /// The same reads with the other poses.
@@ -64,7 +102,7 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
       locate_tags(recording.reads, recording.other.poses, options, of_other).estimates,
       recording.truth, order);
   Summary summary;
-  summary.tags = judged(estimates, recording.reads, recording.truth);
+  summary.tags = outcomes_of(recording, options, estimates);
   ComparedPose result;
   result.pose = recording.other.name;
   result.position_rms_m = position_rms(recording.other.poses, recording.poses.poses).value_or(0.0);
@@ -74,17 +112,19 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
 }
 
 Summary summary_of(const LocalizeArguments& arguments, const RecordingToLocalize& recording,
-                   const std::optional<ScenarioWithWorld>& loaded, const std::string& method,
-                   const std::vector<TagEstimate>& estimates) {
+                   const std::optional<ScenarioWithWorld>& loaded,
+                   const LocalizationOptions& options, const LocalizationResult& result) {
   Summary summary;
   summary.scenario = loaded ? loaded->scenario.name : arguments.recording;
   if (loaded) summary.description = loaded->scenario.description;
-  summary.method = method;
+  summary.method = result.method;
+  summary.method_asked = options.method;
+  summary.method_why = result.why;
   summary.pose = recording.poses.name;
   summary.path_length_m = recording.path_length_m;
   summary.reads = recording.reads.size();
   summary.simulated_s = recording.duration_s;
-  summary.tags = judged(estimates, recording.reads, recording.truth);
+  summary.tags = outcomes_of(recording, options, result.estimates);
   return summary;
 }
 
@@ -94,14 +134,20 @@ bool is_empty(const Truth& truth) {
 }
 
 void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWithWorld>& loaded,
-           const LocalizationOptions& options, const std::vector<TagEstimate>& estimates,
+           const LocalizationOptions& options, const LocalizationResult& result,
            StagedFolder& folder) {
   folder.add("reads.csv", reads_to_csv(recording.reads));
   folder.add("antenna_poses.csv", poses_to_csv(recording.poses.poses));
   if (!recording.other.poses.empty()) {
     folder.add("compared_poses.csv", poses_to_csv(recording.other.poses));
   }
-  folder.add("estimates.csv", estimates_to_csv(estimates));
+  folder.add("estimates.csv", estimates_to_csv(result.estimates));
+  if (!result.corrected_poses.empty()) {
+    folder.add("corrected_poses.csv", poses_to_csv(result.corrected_poses));
+  }
+  if (!options.known.reference_tags.empty()) {
+    folder.add("reference_tags.csv", tag_places_to_csv(options.known.reference_tags));
+  }
   if (!is_empty(recording.truth)) stage_truth(recording.truth, folder);
   if (!loaded) return;
   if (!options.known.heights.of_tag.empty()) {
@@ -113,7 +159,8 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
 /// What an earlier run may have left in the folder: its truth and world are not those of other
 /// reads.
 std::vector<fs::path> stale_files(const LocalizeArguments& arguments, const std::string& out) {
-  std::vector<fs::path> stale = {"report.html", "figures", "compared_poses.csv"};
+  std::vector<fs::path> stale = {"report.html", "figures", "compared_poses.csv",
+                                 "corrected_poses.csv", "reference_tags.csv"};
   const fs::path of_reads = fs::weakly_canonical(arguments.recording).parent_path();
   if (of_reads != fs::weakly_canonical(out) || is_bag(arguments.recording)) {
     stale.insert(stale.end(), {"truth", "top_view.json", "tag_heights.csv"});
@@ -132,42 +179,71 @@ void refuse_options_of_bags(const LocalizeArguments& arguments) {
   if (arguments.frequency_hz) throw Error("localize: --frequency goes with a bag only");
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const Method& method : built_in_methods({})) names.push_back(method.name);
-  return names;
+void refuse_unknown_method(const std::string& method) {
+  if (method.empty()) return;
+  try {
+    find_method(built_in_methods({}), method);
+  } catch (const Error& error) {
+    throw Error(fmt::format("localize: --method: {}", error.what()));
+  }
+}
+
+/// Name and summary of each, a line each.
+std::string told_of_methods() {
+  std::string text = "Methods:\n";
+  for (const Method& method : built_in_methods({})) {
+    text += fmt::format("  {:<16} {}\n", method.name, method.summary);
+  }
+  return text;
+}
+
+/// The recording, with warnings of what is odd about it.
+RecordingToLocalize recording_of(const LocalizeArguments& arguments, Diagnostics& diagnostics) {
+  if (is_bag(arguments.recording)) {
+    if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
+    return bag_recording(arguments, diagnostics);
+  }
+  refuse_options_of_bags(arguments);
+  RecordingToLocalize recording = csv_recording(arguments);
+  warn_of_odd_reads(arguments.recording, recording.reads, diagnostics);
+  warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);
+  return recording;
 }
 
 }  // namespace
 
 int localize(const LocalizeArguments& arguments) {
-  const bool bag = is_bag(arguments.recording);
-  if (!bag) refuse_options_of_bags(arguments);
-  if (bag && !arguments.format.empty()) throw Error("localize: --format goes with CSV only");
+  refuse_unknown_method(arguments.method);
   Diagnostics diagnostics;
   const auto loaded = scenario_of(arguments, diagnostics);
-  const RecordingToLocalize recording =
-      bag ? bag_recording(arguments, diagnostics) : csv_recording(arguments);
-  const LocalizationOptions options = options_of(arguments, loaded);
+  RecordingToLocalize recording = recording_of(arguments, diagnostics);
+  LocalizationOptions options =
+      options_of(arguments, loaded, recording.reads, recording.poses.name);
+  if (!arguments.calibration.empty()) {
+    apply_calibration(read_calibration(arguments.calibration), recording.reads,
+                      recording.poses.poses, options.known);
+  }
   if (recording.reads.empty()) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
   const std::string out = folder_of(arguments);
   StagedFolder folder(out);
   const std::vector<std::string> order = order_of(loaded);
-  const LocalizationResult located =
+  LocalizationResult result =
       locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
-  const std::vector<TagEstimate> estimates =
-      with_all_tags(located.estimates, recording.truth, order);
-  Summary summary = summary_of(arguments, recording, loaded, located.method, estimates);
-  summary.compared_pose = compared(recording, options, order);
+  result.estimates = with_all_tags(std::move(result.estimates), recording.truth, order);
+  Summary summary = summary_of(arguments, recording, loaded, options, result);
+  summary.compared_pose = compared(
+      recording, options_of(arguments, loaded, recording.reads, recording.other.name), order);
+  summary.compared_methods = compared_methods(recording, loaded, options, summary, order);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
-  stage(recording, loaded, options, estimates, folder);
+  stage(recording, loaded, options, result, folder);
   folder.add("summary.json", to_json(summary));
   folder.commit(stale_files(arguments, out));
   write_report(out);
-  fmt::print("{}page: {}/report.html\n", table_of(summary), out);
+  fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),
+             out);
   return kExitOk;
 }
 
@@ -197,14 +273,11 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command->add_option("--scenario", arguments->scenario,
                       "Scenario (YAML): its name, order and known heights of the tags, settings of "
                       "localization, and its world for the page");
-  command->add_option("--method", arguments->method, "How (default hyperbola, the paper's)")
-      ->check(CLI::IsMember(method_names()));
-  command
-      ->add_option("--tag-height", arguments->tag_height_m,
-                   "Height of the tags [m, world]; without it, that of the antenna in the mean")
-      ->check(CLI::Number);
-  command->add_option("--tag-heights", arguments->heights_file,
-                      "CSV: tag,height_m; goes before --tag-height");
+  command->add_option("--method", arguments->method,
+                      "How, by one of the names below (default: the scenario's, or else auto)");
+  add_known_options(*command, *arguments);
+  command->add_option("--calibration", arguments->calibration,
+                      "Profile by 'tagfield calibrate': corrects antenna places, stamps, phases");
   command->add_option("--stride", arguments->stride_m, "Travel between hyperbolae [m]")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", arguments->out,
@@ -212,7 +285,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(
-      "Phase must grow with distance (eq. 3 of the paper); turn the sign of readers that do the\n"
+      told_of_methods() +
+      "\nPhase must grow with distance (eq. 3 of the paper); turn the sign of readers that do the\n"
       "opposite. The antenna must have moved along a curve: from a straight path both mirror\n"
       "images are given. A bag's truth judges the estimates and is not used to make them.");
   command->callback(

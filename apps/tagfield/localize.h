@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/tagfield/command_line.h"
 #include "tagfield/localization/locate.h"
@@ -14,12 +15,19 @@ struct LocalizeArguments {
   std::string recording;  ///< Reads as CSV, or a bag.
   std::string poses;      ///< Of CSV reads a file; of a bag one of the words in kPoseWords, or "".
   std::string format;     ///< How other people's tables are to be read (YAML), or "".
-  std::string method;     ///< "" for the scenario's, else the paper's.
+  std::string method;     ///< "" for the scenario's, or else "auto".
   std::string out;        ///< "" for the default.
   std::string scenario;   ///< File, or "".
   std::string frame;      ///< Of a bag's transforms, or "".
   std::optional<double> frequency_hz;
-  std::string heights_file;  ///< CSV, or "".
+  std::string heights_file;          ///< CSV, or "".
+  std::string height_side;           ///< "above", "below", or "".
+  std::string references_file;       ///< CSV, or "".
+  std::vector<std::string> offsets;  ///< "RAD" or "ANTENNA=RAD".
+  std::optional<double> pose_sigma_m;
+  std::optional<double> pose_yaw_sigma_deg;
+  std::optional<double> pose_time_constant_s;
+  std::string calibration;  ///< Profile, or "".
   std::optional<double> tag_height_m;
   std::optional<double> stride_m;
   int threads = default_threads();

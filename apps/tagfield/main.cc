@@ -22,6 +22,8 @@ int parse_and_run(int argc, char** argv) {
   tagfield::Action chosen;
   tagfield::add_run_command(app, chosen);
   tagfield::add_localize_command(app, chosen);
+  tagfield::add_track_command(app, chosen);
+  tagfield::add_calibrate_command(app, chosen);
   tagfield::add_report_command(app, chosen);
   tagfield::add_check_command(app, chosen);
   tagfield::add_explain_command(app, chosen);
@@ -37,9 +39,10 @@ int parse_and_run(int argc, char** argv) {
     return tagfield::kExitBadInput;
   }
   if (!chosen) {
-    fmt::print(stderr,
-               "tagfield: no command: expected run, localize, report, check, explain, coverage,"
-               " bench or gazebo (see tagfield --help)\n");
+    fmt::print(
+        stderr,
+        "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
+        " coverage, bench or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

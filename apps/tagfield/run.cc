@@ -20,6 +20,7 @@
 #include "tagfield/stream/poses_csv.h"
 #include "tagfield/stream/reads_csv.h"
 #include "tagfield/stream/tag_heights_csv.h"
+#include "tagfield/stream/tag_places_csv.h"
 
 namespace tagfield {
 namespace {
@@ -55,8 +56,15 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   folder.add("reads.csv", reads_to_csv(run.recording.reads));
   folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
   folder.add("estimates.csv", estimates_to_csv(run.estimates));
-  const TagHeights heights = known_beforehand(loaded.scenario).heights;
-  if (!heights.of_tag.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights.of_tag));
+  if (!run.corrected_poses.empty()) {
+    folder.add("corrected_poses.csv", poses_to_csv(run.corrected_poses));
+  }
+  const KnownBeforehand known = known_beforehand(loaded.scenario);
+  const std::map<std::string, double>& heights = known.heights.of_tag;
+  if (!heights.empty()) folder.add("tag_heights.csv", tag_heights_to_csv(heights));
+  if (!known.reference_tags.empty()) {
+    folder.add("reference_tags.csv", tag_places_to_csv(known.reference_tags));
+  }
   if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_truth(run.recording.truth, folder);
   stage_top_view(loaded, folder);
@@ -133,8 +141,9 @@ int run(const RunArguments& arguments) {
   print_warnings(diagnostics);
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
-  folder.commit({"tag_heights.csv", "top_view.json", "map.pgm", "map.yaml", "mapping_path.csv",
-                 "truth/mapping_path.csv", "report.html", "figures"});
+  folder.commit({"tag_heights.csv", "reference_tags.csv", "corrected_poses.csv", "top_view.json",
+                 "map.pgm", "map.yaml", "mapping_path.csv", "truth/mapping_path.csv", "report.html",
+                 "figures"});
   if (!arguments.no_page) write_report(out);
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;

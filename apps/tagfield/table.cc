@@ -147,6 +147,36 @@ std::string navigation_lines(const Summary& summary) {
          finding_line("carried away", navigation.carried) + finding_line("lost", navigation.lost);
 }
 
+/// Which method it was, where that was not asked for by name.
+std::string method_line(const Summary& summary) {
+  if (summary.method_why.empty()) return "";
+  return fmt::format("method: {}, chosen by {}: {}\n", summary.method, summary.method_asked,
+                     summary.method_why);
+}
+
+std::string error_columns(const std::optional<ErrorStatistics>& errors) {
+  if (!errors) return fmt::format(" {:>8} {:>8} {:>8} {:>8}", "-", "-", "-", "-");
+  return fmt::format(" {:8.1f} {:8.1f} {:8.1f} {:8.1f}", millimetres(errors->mean),
+                     millimetres(errors->median), millimetres(errors->p95),
+                     millimetres(errors->max));
+}
+
+/// The methods that were compared; where the pose is not the true one, in two lines each.
+std::string method_lines(const Summary& summary) {
+  if (summary.compared_methods.empty()) return "";
+  std::string text = fmt::format("{:<24} {:>12} {:>8} {:>8} {:>8} {:>8}  [mm]\n",
+                                 "methods:", "located", "mean", "median", "p95", "max");
+  for (const MethodSummary& row : summary.compared_methods) {
+    const std::size_t all = row.located + row.ambiguous + row.not_located;
+    text += fmt::format("  {:<22} {:>12}{}\n", row.method,
+                        fmt::format("{} of {}", row.located, all), error_columns(row.error_m));
+    if (!row.aligned_error_m) continue;
+    text += fmt::format("    {:<33}{}\n", "after the best rigid alignment",
+                        error_columns(row.aligned_error_m));
+  }
+  return text;
+}
+
 std::string effect_line(const std::string& name, const EffectCost& cost) {
   const std::string error = cost.error_m
                                 ? fmt::format("{:8.1f} {:8.1f}", millimetres(cost.error_m->mean),
@@ -180,13 +210,13 @@ std::string effect_lines(const Summary& summary) {
 }  // namespace
 
 std::string table_of(const Summary& summary) {
-  std::string text =
-      summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
+  std::string text = method_line(summary);
+  text += summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
   text +=
       fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
                   count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
   return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary) +
-         navigation_lines(summary) + effect_lines(summary);
+         method_lines(summary) + navigation_lines(summary) + effect_lines(summary);
 }
 
 }  // namespace tagfield

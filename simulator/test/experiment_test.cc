@@ -79,6 +79,51 @@ TEST(RunSeeds, ComparesANoisyPoseWithTheTrueOne) {
   EXPECT_LT(summary.pose_error->error_with_true_pose_m->mean, 0.02);
 }
 
+TEST(RunSeeds, ComparesMethodsOverAllSeeds) {
+  Scenario scenario = small_experiment();
+  scenario.localization.method = "auto";
+  scenario.localization.compare = {"ml", "hyperbola", "ml"};
+  Diagnostics diagnostics;
+  const auto runs = run_seeds(scenario, 1, 2, {}, diagnostics);
+  const Summary summary = summarize(scenario, runs, 1.0, diagnostics);
+  EXPECT_EQ(summary.method, "ml");  // With an exact pose and a clean phase.
+  EXPECT_EQ(summary.method_asked, "auto");
+  EXPECT_FALSE(summary.method_why.empty());
+  ASSERT_EQ(summary.compared_methods.size(), 2U);
+  EXPECT_EQ(summary.compared_methods[0].method, "ml");
+  EXPECT_EQ(summary.compared_methods[0].located, count(summary, Verdict::kLocated));
+  EXPECT_EQ(summary.compared_methods[0].error_m->mean, error_statistics(summary)->mean);
+  EXPECT_FALSE(summary.compared_methods[0].aligned_error_m);
+  scenario.localization.method = "hyperbola";
+  const auto alone = run_seeds(scenario, 1, 2, {}, diagnostics);
+  EXPECT_EQ(summary.compared_methods[1].method, "hyperbola");
+  EXPECT_EQ(summary.compared_methods[1].error_m->mean,
+            error_statistics(summarize(scenario, alone, 1.0, diagnostics))->mean);
+}
+
+TEST(RunSeeds, ReferenceTagsHaveNoError) {
+  Scenario scenario = small_experiment();
+  scenario.localization.reference_tags = {"near"};
+  Diagnostics diagnostics;
+  const auto runs = run_seeds(scenario, 1, 1, {}, diagnostics);
+  for (const TagOutcome& outcome : runs[0].outcomes) {
+    EXPECT_EQ(outcome.reference, outcome.estimate.tag == "near");
+    if (outcome.reference) EXPECT_FALSE(error_of(outcome));
+  }
+}
+
+TEST(RunSeeds, CorrectedPosesAreCloserToTheTruth) {
+  Scenario scenario = small_experiment();
+  scenario.pose.source = PoseSource::kNoisy;
+  scenario.pose.sigma_m = 0.02;
+  scenario.localization.method = "joint";
+  Diagnostics diagnostics;
+  const auto runs = run_seeds(scenario, 1, 2, {}, diagnostics);
+  EXPECT_FALSE(runs[0].corrected_poses.empty());
+  EXPECT_TRUE(runs[1].corrected_poses.empty());  // As recordings.
+  EXPECT_TRUE(summarize(scenario, runs, 1.0, diagnostics).pose_error->corrected_rms_m);
+}
+
 TEST(RunSeeds, StopsEarlyAndSaysSo) {
   const std::atomic<bool> stop{true};
   RunControl control;

@@ -26,7 +26,8 @@ enum class Purpose : std::uint64_t {
   kGen2 = 13,          ///< Slots that tags draw and replies made out, in one inventory round.
   kMeasuring = 14,     ///< Noise of what a reader measures of one reply.
   kReadLoss = 15,      ///< Reads that are lost on the way, in a comparison of methods.
-  kTagSearch = 20,     ///< Particles that stand for the places where a tag may be.
+  kTracking = 16,      ///< Particles of a filter that tracks a tag.
+  kTagSearch = 17,     ///< Particles that stand for the places where a tag may be.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

@@ -246,7 +246,7 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
                        const PlaceVector& place) {
   const TagFit fit = fit_at(phases, height, place);
-  return make_candidate(phases, height, fit, covariance_of(phases, height, fit));
+  return make_candidate(phases, height, fit, honest_covariance(phases, height, fit));
 }
 
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,

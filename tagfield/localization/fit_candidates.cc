@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tagfield/localization/residuals.h"
 
@@ -54,7 +55,105 @@ double range_rate_spread(const TagPhases& phases, const HeightModel& height, con
   return any_known ? std::max(std::abs(low), std::abs(high)) : 0.5 * (high - low);
 }
 
+constexpr double kNear = 0.35;  ///< Reads nearer in time than this are neighbours [s].
+
+/// Without the rows of a known height.
+Eigen::Matrix3d of_unknowns(const HeightModel& height, Eigen::Matrix3d covariance) {
+  if (height.unknowns() == 3) return covariance;
+  covariance.row(2).setZero();
+  covariance.col(2).setZero();
+  return covariance;
+}
+
+/// None where the matrix has no inverse, or none that is positive.
+std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& normal) {
+  bool is_regular = false;
+  Eigen::Matrix3d inverse;
+  normal.computeInverseWithCheck(inverse, is_regular, 1e-30);
+  if (!is_regular || !inverse.allFinite() || inverse.diagonal().minCoeff() < 0.0)
+    return std::nullopt;
+  return inverse;
+}
+
+/// What each read contributes to the right side of the normal equations for a metre that the
+/// antenna is off in x, and in y: columns k² g̃ u_x and k² g̃ u_y.
+struct Pull {
+  double time_s = 0.0;
+  Eigen::Matrix<double, 3, 2> by_axis;
+};
+
+std::vector<Pull> pulls_of(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  std::vector<Pull> pulls;
+  pulls.reserve(static_cast<std::size_t>(phases.size()));
+  for (const TagPhases::Span& span : phases.spans) {
+    std::vector<Eigen::Vector3d> gradients;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      gradients.push_back(
+          range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]).gradient);
+      mean += gradients.back() / static_cast<double>(span.count);
+    }
+    if (span.offset_known) mean.setZero();
+    for (Eigen::Index i = 0; i < span.count; ++i) {
+      const Eigen::Vector3d& g = gradients[static_cast<std::size_t>(i)];
+      const double k = phases.wavenumber[span.begin + i];
+      pulls.push_back(
+          {phases.time_s[span.begin + i], k * k * (g - mean) * g.head<2>().transpose()});
+    }
+  }
+  std::stable_sort(pulls.begin(), pulls.end(),
+                   [](const Pull& a, const Pull& b) { return a.time_s < b.time_s; });
+  return pulls;
+}
+
+/// Σ over all pairs of reads of their pulls' products, by the correlation of the errors between
+/// them; in one pass, as the correlation is exponential.
+Eigen::Matrix3d scatter_of(const std::vector<Pull>& pulls, const PoseErrorModel& model) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> before = Eigen::Matrix<double, 3, 2>::Zero();
+  double time_s = pulls.empty() ? 0.0 : pulls.front().time_s;
+  for (const Pull& pull : pulls) {
+    before *= std::exp(-(pull.time_s - time_s) / model.time_constant_s);
+    time_s = pull.time_s;
+    const Eigen::Matrix3d cross = pull.by_axis * before.transpose();
+    scatter += pull.by_axis * pull.by_axis.transpose() + cross + cross.transpose();
+    before += pull.by_axis;
+  }
+  return model.sigma_m * model.sigma_m * scatter;
+}
+
 }  // namespace
+
+std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::ArrayXd& errors) {
+  std::vector<double> differences;
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
+      if (phases.time_s[i] - phases.time_s[i - 1] > kNear) continue;
+      differences.push_back(std::abs(errors[i] - errors[i - 1]) * phases.wavenumber[i]);
+    }
+  }
+  return differences;
+}
+
+double noise_of_differences(std::vector<double> differences) {
+  constexpr double kLeast = 1e-3;
+  const auto half = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), half, differences.end());
+  return std::max(*half / (0.6745 * std::sqrt(2.0)), kLeast);
+}
+
+Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
+                                  const TagFit& fit) {
+  if (!phases.pose_error) return covariance_of(phases, height, fit);
+  const auto differences = neighbour_differences(phases, residuals_of(phases, height, fit));
+  const Eigen::Matrix3d normal = normal_of(phases, height, fit.unknowns);
+  const auto inverse = inverse_of(normal);
+  if (differences.empty() || !inverse) return covariance_of(phases, height, fit);
+  const double noise = noise_of_differences(differences);
+  const Eigen::Matrix3d right =
+      noise * noise * normal + scatter_of(pulls_of(phases, height, fit), *phases.pose_error);
+  return of_unknowns(height, *inverse * right * inverse->transpose());
+}
 
 Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height,
                               const TagFit& fit) {
@@ -63,18 +162,8 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
   const double noise = residual_variance(data, errors) * correlation_factor(data, errors);
   const Eigen::Matrix3d normal =
       normal_of(phases, height, fit.unknowns) / mean_square_wavenumber(phases);
-  bool is_regular = false;
-  Eigen::Matrix3d inverse;
-  normal.computeInverseWithCheck(inverse, is_regular, 1e-30);
-  if (!is_regular || !inverse.allFinite() || inverse.diagonal().minCoeff() < 0.0) {
-    inverse = Eigen::Matrix3d::Identity() * kAnything;
-  }
-  Eigen::Matrix3d covariance = noise * inverse;
-  if (height.unknowns() == 2) {
-    covariance.row(2).setZero();
-    covariance.col(2).setZero();
-  }
-  return covariance;
+  const Eigen::Matrix3d anything = kAnything * Eigen::Matrix3d::Identity();
+  return of_unknowns(height, noise * inverse_of(normal).value_or(anything));
 }
 
 Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
@@ -96,7 +185,8 @@ std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightMode
   for (const TagFit& fit : kept) {
     const bool is_first = candidates.empty();
     if (!is_first && tells_apart(data, best, residuals_of(phases, height, fit))) continue;
-    candidates.push_back(make_candidate(phases, height, fit, covariance_of(phases, height, fit)));
+    candidates.push_back(
+        make_candidate(phases, height, fit, honest_covariance(phases, height, fit)));
   }
   return candidates;
 }

@@ -16,6 +16,20 @@ namespace tagfield {
 Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height,
                               const TagFit& fit);
 
+/// Covariance of the unknowns with the pose error's model, where the phases tell it: N⁻¹ (σφ² N +
+/// S) N⁻¹, with the phase noise σφ from neighbouring residuals and S what the Ornstein-Uhlenbeck
+/// error of the antenna's places adds to the normal equations' right side. Else covariance_of().
+Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
+                                  const TagFit& fit);
+
+/// Magnitudes of the differences [rad] between residuals [m] of neighbouring reads, less than 0.35
+/// s apart, which slow errors leave alone.
+std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::ArrayXd& errors);
+
+/// Phase noise [rad] by the median of such differences, which must not be empty: of normal noise
+/// the median magnitude is 0.6745 √2 σ.
+double noise_of_differences(std::vector<double> differences);
+
 /// A candidate of that place, with this covariance of the unknowns.
 Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
                          const Eigen::Matrix3d& covariance);

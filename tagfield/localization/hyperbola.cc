@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/place_search.h"
 #include "tagfield/localization/residuals.h"
@@ -56,17 +57,20 @@ std::vector<Eigen::Vector2d> unrefined(const FitData& data, const std::vector<Gu
   return places;
 }
 
-Candidate candidate_at(const FitData& data, const Eigen::Vector2d& p, double height) {
-  const auto reads = static_cast<double>(data.distance.size());
-  return {
-      {p.x(), p.y(), height}, std::sqrt(sum_of_squares(data, p) / reads), expected_error(data, p)};
+Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double height) {
+  const HeightModel known{HeightModel::Kind::kKnown, height, 1.0};
+  TagFit fit;
+  fit.unknowns = {p.x(), p.y(), 0.0};
+  fit.offsets = offsets_at(phases, known, fit.unknowns);
+  return make_candidate(phases, known, fit, honest_covariance(phases, known, fit));
 }
 
 }  // namespace
 
 TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
                                  double tag_height, const HyperbolaOptions& options,
-                                 const EstimateLimits& limits) {
+                                 const EstimateLimits& limits,
+                                 const std::optional<PoseErrorModel>& pose_error) {
   check(options, tag_height);
   TagEstimate estimate;
   estimate.tag = tag;
@@ -83,8 +87,11 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   if (search.minima.empty()) return not_located(std::move(estimate), "no two hyperbolae meet");
   std::vector<Eigen::Vector2d> places = indistinct(search.data, search.minima);
   if (!options.refine) places = unrefined(search.data, search.ranked, places);
+  TagPhases phases = unwrapped_phases({}, search.segments, search.antennas);
+  phases.value = search.data.distance;  // Slips were put right there.
+  if (pose_error && pose_error->sigma_m > 0.0) phases.pose_error = pose_error;
   for (const Eigen::Vector2d& p : places) {
-    estimate.candidates.push_back(candidate_at(search.data, p, tag_height));
+    estimate.candidates.push_back(candidate_at(phases, p, tag_height));
   }
   judge(limits, estimate);
   return estimate;
@@ -97,7 +104,7 @@ Method hyperbola_method(const HyperbolaOptions& options) {
     result.estimates =
         locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
           return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), options,
-                                      problem.limits);
+                                      problem.limits, problem.pose_error);
         });
     return result;
   };

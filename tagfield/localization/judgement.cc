@@ -62,7 +62,7 @@ std::size_t count_reads(const SamplesOfTag& samples) {
 std::string why_hopeless(const SamplesOfTag& samples) {
   const std::size_t reads = count_reads(samples);
   const Extent extent = largest_extent(samples);
-  if (reads == 0) return "no reads";
+  if (reads == 0) return "no reads that have an antenna pose and a phase";
   if (reads < kFewestReads) {
     return fmt::format("only {} reads, at least {} are needed", reads, kFewestReads);
   }

@@ -121,7 +121,8 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
                                    "needed",
                                    references.tags.size(), kFewestReferences));
   }
-  if (estimate.reads == 0) return not_located(std::move(estimate), "no reads");
+  if (estimate.reads == 0)
+    return not_located(std::move(estimate), "no reads that have an antenna pose");
   const RssiVector rssi = rssi_over_time(samples, options.bin_s);
   if (rssi.empty()) return not_located(std::move(estimate), "no read has an RSSI");
   const std::vector<Neighbour> neighbours = nearest(references, rssi, options.neighbours);

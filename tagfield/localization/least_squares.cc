@@ -61,7 +61,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
     result.why_not = "no place explains the phase";
     return result;
   }
-  result.phases = unwrapped_phases(search.segments, search.antennas);
+  result.phases = unwrapped_phases(problem, search.segments, search.antennas);
   // Slips were put right in the search's copy.
   result.phases.value = search.data.distance;
   result.height = height_model(problem, tag, result.phases);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/problem.h"
 
@@ -51,10 +52,44 @@ struct ReadCount {
   std::size_t all = 0;
   std::size_t broken = 0;
   std::size_t without_pose = 0;
+  std::size_t repeated = 0;
+  Time first = Time::max();
+  Time last = Time::min();
 };
 
-void warn_of_reads_left_out(const std::map<std::string, ReadCount>& counts,
-                            Diagnostics& diagnostics) {
+using Tracks = std::map<std::string, BelievedTrack>;
+
+std::string range_words(Time first, Time last) {
+  return fmt::format("from {:.3f} to {:.3f} s", to_seconds(first), to_seconds(last));
+}
+
+/// That an antenna of reads has no poses at all, and whose there are.
+std::string no_poses(const std::string& antenna, const Tracks& tracks) {
+  if (tracks.empty()) return "there are no poses";
+  std::vector<std::string> names;
+  for (const auto& [name, track] : tracks) names.push_back(name);
+  return "there are no poses of it" + suggestion(antenna, names);
+}
+
+/// Why reads of that antenna have no pose.
+std::string why_without_pose(const std::string& antenna, const ReadCount& count,
+                             const Tracks& tracks, double max_pose_gap_s) {
+  const auto track = tracks.find(antenna);
+  if (track == tracks.end()) return no_poses(antenna, tracks);
+  const Time begin = track->second.X_WA.front().stamp;
+  const Time end = track->second.X_WA.back().stamp;
+  const std::string ranges = fmt::format(
+      "reads are {}, poses {}", range_words(count.first, count.last), range_words(begin, end));
+  const Duration apart = std::max(begin - count.last, count.first - end);
+  if (apart > Duration::zero()) {
+    return fmt::format("{}, {:.3f} s apart: are they of one clock?", ranges, to_seconds(apart));
+  }
+  if (count.first < begin || count.last > end) return ranges;
+  return fmt::format("its poses there are over {:g} s apart", max_pose_gap_s);
+}
+
+void warn_of_reads_left_out(const std::map<std::string, ReadCount>& counts, const Tracks& tracks,
+                            double max_pose_gap_s, Diagnostics& diagnostics) {
   for (const auto& [antenna, count] : counts) {
     if (count.broken > 0) {
       diagnostics.warn(fmt::format(
@@ -62,19 +97,27 @@ void warn_of_reads_left_out(const std::map<std::string, ReadCount>& counts,
           count.broken, count.all));
     }
     if (count.without_pose > 0) {
+      diagnostics.warn(fmt::format(
+          "antenna '{}': {} of {} reads have no pose at their stamp and are left out: {}", antenna,
+          count.without_pose, count.all, why_without_pose(antenna, count, tracks, max_pose_gap_s)));
+    }
+    if (count.repeated > 0) {
       diagnostics.warn(
-          fmt::format("antenna '{}': {} of {} reads have no pose at their stamp and are left out",
-                      antenna, count.without_pose, count.all));
+          fmt::format("antenna '{}': {} of {} reads repeat tag and stamp of another, "
+                      "of which the first counts",
+                      antenna, count.repeated, count.all));
     }
   }
 }
 
-/// Brings one series into rising order of time, the first of equal stamps kept.
-void put_in_order(std::vector<PhaseSample>& samples) {
+/// Brings one series into rising order of time, the first of equal stamps kept; how many were not.
+std::size_t put_in_order(std::vector<PhaseSample>& samples) {
+  const std::size_t before = samples.size();
   std::stable_sort(samples.begin(), samples.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   const auto same = [](const auto& a, const auto& b) { return a.stamp == b.stamp; };
   samples.erase(std::unique(samples.begin(), samples.end(), same), samples.end());
+  return before - samples.size();
 }
 
 }  // namespace
@@ -116,6 +159,8 @@ SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
     SamplesOfTag& of_tag = joined[read.tag];
     ReadCount& count = counts[read.antenna];
     ++count.all;
+    count.first = std::min(count.first, read.stamp);
+    count.last = std::max(count.last, read.stamp);
     if (!is_usable(read)) {
       ++count.broken;
       continue;
@@ -134,9 +179,9 @@ SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
   }
   for (auto& [tag, of_tag] : joined) {
-    for (auto& [antenna, samples] : of_tag) put_in_order(samples);
+    for (auto& [antenna, samples] : of_tag) counts[antenna].repeated += put_in_order(samples);
   }
-  warn_of_reads_left_out(counts, diagnostics);
+  warn_of_reads_left_out(counts, tracks, max_pose_gap_s, diagnostics);
   return joined;
 }
 

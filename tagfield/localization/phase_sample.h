@@ -42,8 +42,8 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
 /// Joins reads with the antennas' poses, interpolated at each read's stamp. A read whose antenna
 /// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
 /// the stamp before the first or after the last) is left out and counted in one warning for each
-/// antenna. An antenna with one pose stands still. Two reads of a tag by an antenna at the same
-/// stamp: the first counts.
+/// antenna, which says why. An antenna with one pose stands still. Two reads of a tag by an antenna
+/// at the same stamp: the first counts, and a warning counts the others.
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics);

@@ -32,6 +32,11 @@ void put(TagPhases& phases, Eigen::Index at, const PhaseSample& sample) {
   phases.cycle[at] = kTwoPi / phases.wavenumber[at];
 }
 
+std::optional<PoseErrorModel> pose_error_of(const LocalizationProblem& problem) {
+  const bool any = problem.pose_error && problem.pose_error->sigma_m > 0.0;
+  return any ? problem.pose_error : std::nullopt;
+}
+
 /// The reads of one antenna on one channel.
 struct Channel {
   std::string antenna;
@@ -55,9 +60,11 @@ std::vector<Channel> channels_of(const SamplesOfTag& samples, const std::vector<
 
 }  // namespace
 
-TagPhases unwrapped_phases(const std::vector<PhaseSegment>& segments,
+TagPhases unwrapped_phases(const LocalizationProblem& problem,
+                           const std::vector<PhaseSegment>& segments,
                            const std::vector<std::string>& antennas) {
   TagPhases phases;
+  phases.pose_error = pose_error_of(problem);
   Eigen::Index total = 0;
   for (const PhaseSegment& segment : segments) {
     if (segment.samples.size() >= 2) total += static_cast<Eigen::Index>(segment.samples.size());
@@ -82,6 +89,7 @@ TagPhases wrapped_phases(const LocalizationProblem& problem, const SamplesOfTag&
                          const std::vector<std::string>& use) {
   const std::vector<Channel> channels = channels_of(samples, use);
   TagPhases phases;
+  phases.pose_error = pose_error_of(problem);
   Eigen::Index total = 0;
   for (const Channel& channel : channels) {
     total += static_cast<Eigen::Index>(channel.samples.size());

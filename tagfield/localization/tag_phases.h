@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,15 @@ struct TagPhases {
   Eigen::ArrayXd wavenumber;  ///< 4π/λ [rad/m]: what a metre turns the phase by.
   Eigen::ArrayXd time_s;
   std::vector<Span> spans;
+  /// Of the antenna's places, where it is told and not 0.
+  std::optional<PoseErrorModel> pose_error;
 
   [[nodiscard]] Eigen::Index size() const { return value.size(); }
 };
 
 /// Unwrapped: each segment of two or more reads is a span, with an offset of its own.
-TagPhases unwrapped_phases(const std::vector<PhaseSegment>& segments,
+TagPhases unwrapped_phases(const LocalizationProblem& problem,
+                           const std::vector<PhaseSegment>& segments,
                            const std::vector<std::string>& antennas);
 
 /// As they were reported, known but for whole cycles: each antenna and channel is a span. Samples

@@ -339,7 +339,7 @@ Law law_of(const LocalizationProblem& problem, const TrilaterationOptions& optio
 }
 
 std::string why_not(const SamplesOfTag& samples, const Bins& bins) {
-  if (count_reads(samples) == 0) return "no reads";
+  if (count_reads(samples) == 0) return "no reads that have an antenna pose";
   if (bins.rssi.size() == 0) return "no read has an RSSI";
   if (bins.rssi.size() < kFewestBins) {
     return fmt::format("RSSI from {} places only, at least {} are needed", bins.rssi.size(),

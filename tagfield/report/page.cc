@@ -26,9 +26,10 @@ std::string figures_html(const std::vector<Figure>& figures) {
 
 std::string page_of(const Summary& summary, const std::vector<Figure>& figures) {
   return page_head(summary.scenario + " – Tagfield report") + "<body>\n" + page_header(summary) +
-         "<main>\n" + key_numbers(summary) + run_facts(summary) + navigation_table(summary) +
-         effects_table(summary) + "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" +
-         tag_table(summary) + "</main>\n" + page_footer() + "</body>\n</html>\n";
+         "<main>\n" + key_numbers(summary) + run_facts(summary) + methods_table(summary) +
+         navigation_table(summary) + effects_table(summary) + "<h2>Figures</h2>\n" +
+         figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) + "</main>\n" +
+         page_footer() + "</body>\n</html>\n";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/localization/locate.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -65,7 +66,14 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string spoken_method(const std::string& method) {
   if (method == "hyperbola") return "hyperbolic intersections of the unwrapped phase (the paper's)";
+  for (const Method& known : built_in_methods({})) {
+    if (known.name == method) return method + ": " + known.summary;
+  }
   return method;
+}
+
+std::string method_choice(const Summary& summary) {
+  return summary.method_why.empty() ? "" : "by itself: " + summary.method_why;
 }
 
 std::string spoken_pose(const std::string& pose) {
@@ -133,6 +141,10 @@ std::string pose_error_text(const Summary& summary) {
   const PoseErrorSummary& pose = *summary.pose_error;
   std::string text = fmt::format("The robot believed its antenna {} (rms) off its true place.",
                                  spoken_length(pose.position_rms_m));
+  if (pose.corrected_rms_m) {
+    text += fmt::format(" Localization estimated that error, too, which leaves {} of it.",
+                        spoken_length(*pose.corrected_rms_m));
+  }
   const auto errors = error_statistics(summary);
   if (!errors || !pose.error_with_true_pose_m) return text;
   const double with_truth = pose.error_with_true_pose_m->mean;
@@ -161,6 +173,7 @@ std::string compared_pose_text(const Summary& summary) {
 std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
   html += fact("Method", spoken_method(summary.method));
+  html += fact("Method chosen", method_choice(summary));
   html += fact("Antenna poses", spoken_pose(summary.pose));
   if (summary.pose_error && summary.pose != "slam") {  // There nothing was stated.
     html += fact("Stated pose error",

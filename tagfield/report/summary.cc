@@ -27,7 +27,7 @@ double quantile(const std::vector<double>& rising, double fraction) {
 std::optional<double> error_of(const TagOutcome& outcome) {
   const TagEstimate& estimate = outcome.estimate;
   const bool located = estimate.verdict == Verdict::kLocated && !estimate.candidates.empty();
-  if (!located || !outcome.truth_m) return std::nullopt;
+  if (!located || !outcome.truth_m || outcome.reference) return std::nullopt;
   return (estimate.candidates.front().p_WT - *outcome.truth_m).norm();
 }
 

@@ -22,9 +22,10 @@ struct TagOutcome {
   std::size_t reads = 0;  ///< All of the tag, whether localization could use them or not.
   std::optional<Eigen::Vector3d> truth_m;  ///< None where unknown, or where the tag moved.
   bool moved = false;                      ///< The tag did not rest, so it has no one true place.
+  bool reference = false;  ///< Localization was told its place, so that it has no error.
 };
 
-/// |estimate − truth| [m] of a located tag with a known place.
+/// |estimate − truth| [m] of a located tag with a known place that localization was not told.
 std::optional<double> error_of(const TagOutcome& outcome);
 
 struct ErrorStatistics {
@@ -51,6 +52,8 @@ struct PoseErrorSummary {
   double position_rms_m = 0.0;  ///< Of the antenna in this run, horizontally, as it came out.
   /// Tags located from the same reads with the true poses, for comparison.
   std::optional<ErrorStatistics> error_with_true_pose_m;
+  /// As position_rms_m, after localization corrected the poses; none where it did not.
+  std::optional<double> corrected_rms_m{};
 };
 
 /// The same reads located with other poses, for comparison.
@@ -60,6 +63,17 @@ struct ComparedPose {
   double position_rms_m = 0.0;
   std::optional<ErrorStatistics> error_m;  ///< Of the tags that they locate.
   std::size_t located = 0;
+};
+
+/// What a method makes of the reads of all seeds.
+struct MethodSummary {
+  std::string method;
+  std::size_t located = 0;
+  std::size_t ambiguous = 0;
+  std::size_t not_located = 0;
+  std::optional<ErrorStatistics> error_m;
+  /// See aligned_errors(); none where the pose is the true one.
+  std::optional<ErrorStatistics> aligned_error_m;
 };
 
 /// How robots found out where they are, over all seeds.
@@ -121,7 +135,9 @@ struct Summary {
   std::string scenario;              ///< Name.
   std::string description;           ///< One line of the scenario, or "".
   std::vector<std::uint64_t> seeds;  ///< Empty where reads came from outside.
-  std::string method;                ///< "hyperbola"
+  std::string method;                ///< That was used: "hyperbola".
+  std::string method_asked;          ///< "auto" where that chose `method`, else the same.
+  std::string method_why;            ///< Why it was chosen; "" where it was asked for.
   /// What the believed pose is: "true", "noisy", "odometry", "tf" (transforms), "given".
   std::string pose;
   bool complete = true;  ///< False where the run was interrupted.
@@ -132,6 +148,8 @@ struct Summary {
   double real_time_factor = 0.0;  ///< Simulated time of all seeds, mapping too, over wall_s.
   std::optional<PoseErrorSummary> pose_error;
   std::optional<ComparedPose> compared_pose;
+  /// The method of the run and others; empty where none were compared.
+  std::vector<MethodSummary> compared_methods;
   std::optional<NavigationSummary> navigation;
   std::vector<EffectCost> effects;  ///< Empty where they were not told apart.
   std::vector<TagOutcome> tags;     ///< By seed, then by ID.
@@ -159,14 +177,16 @@ std::size_t count(const Summary& summary, Verdict verdict);
 /// How many located tags are further off than `limit_m`.
 std::size_t count_over(const Summary& summary, double limit_m);
 
-/// summary.json: scenario, description, seeds, method, pose, complete, path_length_m, reads,
-/// simulated_s, wall_s, real_time_factor, pose_error, compared_pose: {pose, position_rms_m,
-/// error_m, located} or null, tags: [{id, seed, verdict, reason, truth_m, moved, estimate_m,
-/// error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m, candidates_expected_error_m,
-/// reads, reads_used}], error_m: {mean, median, p95, max, min, count}, over_0_3_m, located,
-/// ambiguous, not_located, warnings. What is unknown or not finite is null. `estimate_m` is null
-/// unless the tag is located; `rms_m` and `expected_error_m` are the best candidate's, and the
-/// three lists of candidates are equally long. Bytes that are not UTF-8 become U+FFFD.
+/// summary.json: scenario, description, seeds, method, method_asked, method_why, pose, complete,
+/// path_length_m, reads, simulated_s, wall_s, real_time_factor, pose_error, compared_pose: {pose,
+/// position_rms_m, error_m, located} or null, compared_methods: [{method, located, ambiguous,
+/// not_located, error_m, aligned_error_m}], tags: [{id, seed, verdict, reason, truth_m, moved,
+/// estimate_m, error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m,
+/// candidates_expected_error_m, reads, reads_used, reference}], error_m: {mean, median, p95, max,
+/// min, count}, over_0_3_m, located, ambiguous, not_located, warnings. What is unknown or not
+/// finite is null. `estimate_m` is null unless the tag is located; `rms_m` and `expected_error_m`
+/// are the best candidate's, and the three lists of candidates are equally long. Bytes that are not
+/// UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
 /// Inverse of to_json; what follows from the rest (errors, counts) is not read, a figure of the

@@ -33,7 +33,8 @@ Json pose_error_json(const std::optional<PoseErrorSummary>& error) {
           {"time_constant_s", number(error->time_constant_s)},
           {"yaw_sigma_rad", number(error->yaw_sigma_rad)},
           {"position_rms_m", number(error->position_rms_m)},
-          {"error_with_true_pose_m", statistics_json(error->error_with_true_pose_m)}};
+          {"error_with_true_pose_m", statistics_json(error->error_with_true_pose_m)},
+          {"corrected_rms_m", number(error->corrected_rms_m)}};
 }
 
 Json compared_pose_json(const std::optional<ComparedPose>& compared) {
@@ -42,6 +43,19 @@ Json compared_pose_json(const std::optional<ComparedPose>& compared) {
           {"position_rms_m", number(compared->position_rms_m)},
           {"error_m", statistics_json(compared->error_m)},
           {"located", compared->located}};
+}
+
+Json compared_methods_json(const std::vector<MethodSummary>& methods) {
+  Json rows = Json::array();
+  for (const MethodSummary& of_method : methods) {
+    rows.push_back({{"method", of_method.method},
+                    {"located", of_method.located},
+                    {"ambiguous", of_method.ambiguous},
+                    {"not_located", of_method.not_located},
+                    {"error_m", statistics_json(of_method.error_m)},
+                    {"aligned_error_m", statistics_json(of_method.aligned_error_m)}});
+  }
+  return rows;
 }
 
 Json finding_json(const std::optional<FindingSummary>& finding) {
@@ -116,6 +130,7 @@ Json tag_json(const TagOutcome& outcome) {
   put_candidates(json, estimate);
   json["reads"] = outcome.reads;
   json["reads_used"] = estimate.reads;
+  json["reference"] = outcome.reference;
   return json;
 }
 
@@ -137,6 +152,8 @@ void put_run(Json& json, const Summary& summary) {
   json["description"] = summary.description;
   json["seeds"] = summary.seeds;
   json["method"] = summary.method;
+  json["method_asked"] = summary.method_asked;
+  json["method_why"] = summary.method_why;
   json["pose"] = summary.pose;
   json["complete"] = summary.complete;
   json["path_length_m"] = number(summary.path_length_m);
@@ -146,6 +163,7 @@ void put_run(Json& json, const Summary& summary) {
   json["real_time_factor"] = number(summary.real_time_factor);
   json["pose_error"] = pose_error_json(summary.pose_error);
   json["compared_pose"] = compared_pose_json(summary.compared_pose);
+  json["compared_methods"] = compared_methods_json(summary.compared_methods);
   json["navigation"] = navigation_json(summary.navigation);
   json["effects"] = effects_json(summary.effects);
 }
@@ -173,6 +191,10 @@ std::optional<PoseErrorSummary> pose_error_at(const JsonPlace& place) {
   result.yaw_sigma_rad = number_or_zero(member(place, "yaw_sigma_rad"));
   result.position_rms_m = number_or_zero(member(place, "position_rms_m"));
   result.error_with_true_pose_m = statistics_at(member(place, "error_with_true_pose_m"));
+  if (place.value->contains("corrected_rms_m")) {
+    const JsonPlace corrected = member(place, "corrected_rms_m");
+    if (!is_null(corrected)) result.corrected_rms_m = number_at(corrected);
+  }
   return result;
 }
 
@@ -187,6 +209,19 @@ std::optional<ComparedPose> compared_pose_at(const JsonPlace& top) {
   result.error_m = statistics_at(member(place, "error_m"));
   result.located = whole_at(member(place, "located"));
   return result;
+}
+
+/// As compared_pose_at().
+std::vector<MethodSummary> compared_methods_at(const JsonPlace& top) {
+  std::vector<MethodSummary> methods;
+  if (!top.value->contains("compared_methods")) return methods;
+  for (const JsonPlace& row : elements(member(top, "compared_methods"))) {
+    methods.push_back({text_at(member(row, "method")), whole_at(member(row, "located")),
+                       whole_at(member(row, "ambiguous")), whole_at(member(row, "not_located")),
+                       statistics_at(member(row, "error_m")),
+                       statistics_at(member(row, "aligned_error_m"))});
+  }
+  return methods;
 }
 
 std::optional<FindingSummary> finding_at(const JsonPlace& place) {
@@ -294,11 +329,22 @@ TagOutcome tag_at(const JsonPlace& place) {
   const JsonPlace truth = member(place, "truth_m");
   if (!is_null(truth)) outcome.truth_m = point_at(truth);
   outcome.moved = truth_at(member(place, "moved"));
+  const bool told = place.value->contains("reference");
+  outcome.reference = told && truth_at(member(place, "reference"));
   const bool empty = outcome.estimate.candidates.empty();
   if (empty && outcome.estimate.verdict != Verdict::kNotLocated) {
     fail_at(place, "is " + to_string(outcome.estimate.verdict) + " but has no candidates_m");
   }
   return outcome;
+}
+
+/// As compared_pose_at(): without a word of it, the method that was used was asked for.
+void take_method(const JsonPlace& top, Summary& summary) {
+  summary.method = text_at(member(top, "method"));
+  summary.method_asked = summary.method;
+  if (!top.value->contains("method_asked")) return;
+  summary.method_asked = text_at(member(top, "method_asked"));
+  summary.method_why = text_at(member(top, "method_why"));
 }
 
 void take_run(const JsonPlace& top, Summary& summary) {
@@ -307,7 +353,7 @@ void take_run(const JsonPlace& top, Summary& summary) {
   for (const JsonPlace& seed : elements(member(top, "seeds"))) {
     summary.seeds.push_back(whole_at(seed));
   }
-  summary.method = text_at(member(top, "method"));
+  take_method(top, summary);
   summary.pose = text_at(member(top, "pose"));
   summary.complete = truth_at(member(top, "complete"));
   summary.path_length_m = number_or_zero(member(top, "path_length_m"));
@@ -317,6 +363,7 @@ void take_run(const JsonPlace& top, Summary& summary) {
   summary.real_time_factor = number_or_zero(member(top, "real_time_factor"));
   summary.pose_error = pose_error_at(member(top, "pose_error"));
   summary.compared_pose = compared_pose_at(top);
+  summary.compared_methods = compared_methods_at(top);
   summary.navigation = navigation_at(top);
   summary.effects = effects_at(top);
 }

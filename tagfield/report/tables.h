@@ -17,6 +17,10 @@ std::string tag_table(const Summary& summary);
 /// How robots found their way, with its heading; "" where they did not have to.
 std::string navigation_table(const Summary& summary);
 
+/// What each compared method makes of the same reads, with its heading; "" where none were
+/// compared.
+std::string methods_table(const Summary& summary);
+
 /// Which effect of the physical models costs how much, with its heading; "" where that was not
 /// asked.
 std::string effects_table(const Summary& summary);

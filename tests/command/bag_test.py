@@ -32,7 +32,7 @@ def a_bag_gives_what_its_tables_give(context):
         check_equal((out / name).read_bytes(), (folder / name).read_bytes(), name)
     context.run_well("localize", folder / "reads.csv", "--poses",
                      folder / "truth/antenna_poses.csv", "--tag-heights",
-                     folder / "tag_heights.csv", "--out", "tables")
+                     folder / "tag_heights.csv", "--method", "hyperbola", "--out", "tables")
     check_equal(sorted(map(tuple, map(dict.items, read_csv(out / "estimates.csv")))),
                 sorted(map(tuple, map(dict.items,
                                       read_csv(context.folder / "tables/estimates.csv")))),
@@ -76,7 +76,8 @@ def poses_can_be_chosen(context):
         warned = any("they are taken to be the same" in line for line in summary["warnings"])
         check_equal(warned, "--frame" in words, f"{words}: warned of different frames")
     run = read_json(folder / "summary.json")
-    context.run_well("localize", bag, "--poses", "tf", *heights, "--out", "tf")
+    context.run_well("localize", bag, "--poses", "tf", *heights, "--method", "hyperbola", "--out",
+                     "tf")
     check_equal(read_json(context.folder / "tf/summary.json")["error_m"]["count"],
                 run["error_m"]["count"], "located with odometry")
 
@@ -234,8 +235,8 @@ def nothing_of_an_earlier_run_stays(context):
               RunBag(context.source, folder).messages(truth=False))
     context.run_well("localize", "blind.bag", "--out", "o")
     left = {name.split("/")[0] for name in files_in(context.folder / "o")}
-    check_equal(left, {"reads.csv", "antenna_poses.csv", "estimates.csv", "summary.json",
-                       "report.html", "figures"}, "what is in the folder")
+    check_equal(left, {"reads.csv", "antenna_poses.csv", "corrected_poses.csv", "estimates.csv",
+                       "summary.json", "report.html", "figures"}, "what is in the folder")
 
 
 if __name__ == "__main__":

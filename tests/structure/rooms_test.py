@@ -14,9 +14,10 @@ import tempfile
 
 # docs/architecture.md: a room includes only itself and rooms above it.
 ROOMS = ["base", "poses", "motion", "world", "sdf", "map", "laser", "link", "propagation", "channel",
-         "gen2", "reader", "stream", "localization", "report"]
+         "gen2", "reader", "stream", "localization", "tracking", "calibration", "report"]
 # What a room must not include although it stands above.
-FORBIDDEN = {"localization": {"world", "sdf", "report"}}
+FORBIDDEN = {"localization": {"world", "sdf", "report"}, "tracking": {"world", "sdf"},
+             "calibration": {"world", "sdf", "tracking"}}
 FOLDERS = ["tagfield", "simulator", "bench", "navigation", "adapters", "apps", "benchmarks", "examples"]
 ROS = ("ros/", "rclcpp/", "rosbag/", "tf2", "tf/", "tagfield_msgs/", "rfid_sensor/", "std_msgs/",
        "geometry_msgs/", "nav_msgs/", "sensor_msgs/", "visualization_msgs/", "rosgraph_msgs/")

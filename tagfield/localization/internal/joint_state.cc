@@ -1,5 +1,6 @@
 #include "tagfield/localization/internal/joint_state.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -113,23 +114,15 @@ Eigen::ArrayXd residuals_of(const JointSystem& system, const JointTag& tag) {
   return tagfield::residuals_of(phases, tag.height, tag.fit);
 }
 
-/// Phase noise from residuals of neighbouring reads, which slow errors leave alone.
+/// Phase noise from residuals of neighbouring reads of all tags.
 double noise_of_neighbours(const JointSystem& system) {
-  constexpr double kNear = 0.35;  // [s]
   constexpr std::size_t kFewest = 30;
-  std::vector<double> differences;
+  std::vector<double> all;
   for (const JointTag& tag : system.tags) {
-    const Eigen::ArrayXd errors = residuals_of(system, tag);
-    for (const TagPhases::Span& span : tag.phases.spans) {
-      for (Index i = span.begin + 1; i < span.begin + span.count; ++i) {
-        if (tag.phases.time_s[i] - tag.phases.time_s[i - 1] > kNear) continue;
-        differences.push_back(std::abs(errors[i] - errors[i - 1]) * tag.phases.wavenumber[i]);
-      }
-    }
+    const auto of_tag = neighbour_differences(tag.phases, residuals_of(system, tag));
+    all.insert(all.end(), of_tag.begin(), of_tag.end());
   }
-  if (differences.size() < kFewest) return system.noise_rad;
-  // A normal variable's median magnitude is 0.6745 σ; a difference has variance 2 σ².
-  return std::max(median(differences) / (0.6745 * std::sqrt(2.0)), 1e-3);
+  return all.size() < kFewest ? system.noise_rad : noise_of_differences(std::move(all));
 }
 
 FitData spans_of(const TagPhases& phases) {
@@ -259,11 +252,15 @@ Way way_of(const JointSystem& system) {
     way.places.y.segment(at, tag.phases.size()) = tag.phases.y;
     at += tag.phases.size();
   }
-  double farthest = 0.0;
-  for (Index i = 0; i < reads; ++i) {
-    const Eigen::Vector2d p(way.places.x[i], way.places.y[i]);
-    farthest = std::max(farthest, 0.5 * (mirror_image(way.places, p) - p).norm());
-  }
+  // The spread across the axis along which the places lie: the scatter's lesser eigenvector.
+  Eigen::MatrixX2d places(reads, 2);
+  places << way.places.x, way.places.y;
+  const Eigen::RowVector2d middle = places.colwise().mean();
+  places.rowwise() -= middle;
+  const Eigen::Matrix2d scatter = places.transpose() * places;
+  const Eigen::Vector2d across =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+  const double farthest = (places * across).cwiseAbs().maxCoeff();
   way.is_straight = farthest < kStraight;
   return way;
 }

@@ -55,7 +55,33 @@ TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
   EXPECT_EQ(joined.at("t").at("a").size(), 1u);  // that at 1.0: 2.0 lies in a gap of 2 s
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
   EXPECT_EQ(diagnostics.warnings()[0],
-            "antenna 'a': 3 of 4 reads have no pose at their stamp and are left out");
+            "antenna 'a': 3 of 4 reads have no pose at their stamp and are left out: reads are from "
+            "0.900 to 3.100 s, poses from 1.000 to 3.000 s");
+}
+
+TEST(Join, SaysHowFarTwoClocksAreApart) {
+  for (const double shift : {1.7e9, -50.0}) {
+    Diagnostics diagnostics;
+    join({read_at(shift + 1.0), read_at(shift + 2.0)}, {pose_at_x(1.0, 0.0), pose_at_x(2.0, 1.0)},
+         diagnostics);
+    ASSERT_EQ(diagnostics.warnings().size(), 1u);
+    const std::string& warning = diagnostics.warnings()[0];
+    // From the end of the earlier to the begin of the later: a second less than the shift.
+    const std::string apart = shift > 0.0 ? "1699999999.000 s apart" : "49.000 s apart";
+    EXPECT_NE(warning.find(apart), std::string::npos) << warning;
+    EXPECT_NE(warning.find("poses from 1.000 to 2.000 s"), std::string::npos) << warning;
+  }
+}
+
+TEST(Join, SaysWhichAntennasHavePoses) {
+  Diagnostics diagnostics;
+  AntennaPose other = pose_at_x(1.0, 0.0);
+  other.antenna = "aa";
+  join({read_at(1.0)}, {other}, diagnostics);
+  ASSERT_EQ(diagnostics.warnings().size(), 1u);
+  EXPECT_NE(diagnostics.warnings()[0].find("there are no poses of it (did you mean 'aa'?)"),
+            std::string::npos)
+      << diagnostics.warnings()[0];
 }
 
 TEST(Join, AGapIsNoMatterToAnAntennaThatStood) {
@@ -83,9 +109,11 @@ TEST(Join, TheFirstOfTwoReadsOrPosesAtOneStampCounts) {
   ASSERT_EQ(samples.size(), 1u);
   EXPECT_DOUBLE_EQ(samples[0].phase_rad, 0.5);
   EXPECT_DOUBLE_EQ(samples[0].p_WA.x(), 3.0);
-  ASSERT_EQ(diagnostics.warnings().size(), 1u);
+  ASSERT_EQ(diagnostics.warnings().size(), 2u);
   EXPECT_EQ(diagnostics.warnings()[0],
             "antenna 'a': 1 poses repeat the stamp of another, of which the first counts");
+  EXPECT_EQ(diagnostics.warnings()[1],
+            "antenna 'a': 1 of 2 reads repeat tag and stamp of another, of which the first counts");
 }
 
 TEST(Join, KeepsWhatIsNotFiniteOut) {

@@ -39,6 +39,11 @@ Summary full_summary() {
   summary.warnings = {"first", "second"};
   summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.02, 0.0141, statistics({0.001, 0.004})};
   summary.compared_pose = ComparedPose{"odometry", 0.25, statistics({0.2, 0.5}), 2};
+  summary.method_asked = "auto";
+  summary.method_why = "the pose is not exact";
+  summary.pose_error->corrected_rms_m = 0.003;
+  summary.compared_methods = {{"joint", 9, 1, 0, statistics({0.01, 0.02}), statistics({0.004})},
+                              {"hyperbola", 8, 0, 2, std::nullopt, std::nullopt}};
   summary.navigation = full_navigation();
   summary.tags[0].truth_m.reset();
   summary.tags[0].moved = true;
@@ -46,6 +51,7 @@ Summary full_summary() {
   estimate.verdict = Verdict::kAmbiguous;
   estimate.reason = "two mirror images";
   estimate.candidates.push_back({{1.0, 2.0, 3.0}, 0.1, 0.2});
+  summary.tags[2].reference = true;
   summary.tags[2].estimate.verdict = Verdict::kNotLocated;
   summary.tags[2].estimate.candidates.clear();
   return summary;
@@ -75,6 +81,13 @@ TEST(SummaryJson, ComesBackTheSame) {
   EXPECT_EQ(after.tags[1].estimate.candidates[1].p_WT, Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_DOUBLE_EQ(after.tags[1].estimate.candidates[1].expected_error_m, 0.2);
   EXPECT_TRUE(after.tags[0].moved);
+  EXPECT_TRUE(after.tags[2].reference);
+  EXPECT_EQ(after.method_asked, "auto");
+  EXPECT_EQ(after.method_why, "the pose is not exact");
+  ASSERT_EQ(after.compared_methods.size(), 2u);
+  EXPECT_DOUBLE_EQ(after.compared_methods[0].aligned_error_m->mean, 0.004);
+  EXPECT_EQ(after.compared_methods[1].not_located, 2u);
+  EXPECT_DOUBLE_EQ(after.pose_error->corrected_rms_m.value(), 0.003);
   EXPECT_FALSE(after.tags[0].truth_m);
 }
 

@@ -1,4 +1,4 @@
-#include "bench/alignment.h"
+#include "tagfield/report/alignment.h"
 
 #include <gtest/gtest.h>
 

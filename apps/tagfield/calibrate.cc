@@ -1,0 +1,117 @@
+#include "tagfield/calibration/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "simulator/calibration_profile.h"
+#include "tagfield/stream/files.h"
+#include "tagfield/stream/poses_csv.h"
+#include "tagfield/stream/reads_csv.h"
+
+namespace tagfield {
+namespace {
+
+struct CalibrateArguments {
+  std::string reads;
+  std::string poses;
+  std::string tags;
+  std::string out;
+  CalibrationOptions options;
+  int threads = default_threads();
+};
+
+std::string figure(const char* what, const CalibratedValue& value, double scale, const char* unit) {
+  if (!value.observable) {
+    return fmt::format("  {:<12} not observable: left at {:.1f} {}\n", what, scale * value.value,
+                       unit);
+  }
+  return fmt::format("  {:<12} {:8.2f} ± {:.2f} {}\n", what, scale * value.value,
+                     scale * value.sigma, unit);
+}
+
+std::string table_of(const Calibration& calibration) {
+  std::string text;
+  for (const auto& [name, antenna] : calibration.antennas) {
+    text +=
+        fmt::format("{}: {} reads, phase {} with distance, noise {:.3f} rad\n", name, antenna.reads,
+                    antenna.phase_sign > 0 ? "grows" : "falls", antenna.noise_rad);
+    for (int i = 0; i < 3; ++i) {
+      const char* const names[] = {"place x", "place y", "place z"};
+      text += figure(names[i], antenna.place_m[i], 1e3, "mm");
+    }
+    text += figure("late by", antenna.time_offset_s, 1e3, "ms");
+    for (const ChannelOffset& offset : antenna.offsets) {
+      text += fmt::format("  offset at {:.3f} MHz {:.3f} ± {:.3f} rad\n",
+                          1e-6 * offset.frequency_hz, offset.value_rad, offset.sigma_rad);
+    }
+    if (antenna.offsets.empty()) {
+      text += fmt::format("  no offsets: those of the tags scatter by {:.2f} rad\n",
+                          antenna.tag_scatter_rad);
+    }
+  }
+  return text;
+}
+
+int calibrate_command(const CalibrateArguments& arguments) {
+  Diagnostics diagnostics;
+  const std::vector<TagRead> reads = read_reads_csv(arguments.reads);
+  const std::vector<AntennaPose> poses = read_poses_csv(arguments.poses);
+  const auto tags = read_tag_places_csv(arguments.tags);
+  Calibration calibration =
+      calibrate(reads, poses, tags, arguments.options, arguments.threads, diagnostics);
+  print_warnings(diagnostics);
+  if (calibration.antennas.empty()) {
+    fail({arguments.reads, 0}, "nothing to calibrate by: expected at least 30 reads of tags of " +
+                                   arguments.tags + " by an antenna of " + arguments.poses);
+  }
+  calibration.name = "calibration by " + std::filesystem::path(arguments.reads).filename().string();
+  write_text_file(arguments.out, to_yaml(calibration));
+  fmt::print("{}profile: {}\n", table_of(calibration), arguments.out);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<CalibrateArguments>();
+  CLI::App* command = app.add_subcommand(
+      "calibrate",
+      "Find antennas' phase centres, lateness, offsets, noise from tags at known "
+      "places");
+  command
+      ->add_option("READS", arguments->reads,
+                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm")
+      ->required();
+  command
+      ->add_option("--poses", arguments->poses,
+                   "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw)")
+      ->required();
+  command->add_option("--tags", arguments->tags, "Tags at known places (CSV: tag,x_m,y_m,z_m)")
+      ->required();
+  command->add_option("--out", arguments->out, "Profile to write (YAML)")->required();
+  command
+      ->add_option(
+          "--place-sigma", arguments->options.place_sigma_m,
+          "How far off each component of an antenna's place may be, one sigma [m] (default "
+          "0.1)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--time-sigma", arguments->options.time_offset_sigma_s,
+                   "How late or early stamps may be, one sigma [s] (default 0.05)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->footer(
+      "Drive past five tags or more whose places are measured, along curves and at an uneven "
+      "pace:\n"
+      "what such a drive does not tell is left as it was and said so. Then\n"
+      "  tagfield localize reads.csv --poses poses.csv --calibration PROFILE.yaml");
+  command->callback(
+      [arguments, &chosen] { chosen = [arguments] { return calibrate_command(*arguments); }; });
+}
+
+}  // namespace tagfield

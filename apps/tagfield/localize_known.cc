@@ -1,0 +1,132 @@
+#include "apps/tagfield/localize_known.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "simulator/known_beforehand.h"
+#include "tagfield/base/number.h"
+#include "tagfield/base/spelling.h"
+#include "tagfield/base/units.h"
+#include "tagfield/stream/tag_heights_csv.h"
+#include "tagfield/stream/tag_places_csv.h"
+
+namespace tagfield {
+namespace {
+
+TagHeights heights_of(const LocalizeArguments& arguments) {
+  TagHeights heights;
+  heights.of_all = arguments.tag_height_m;
+  if (!arguments.heights_file.empty()) {
+    heights.of_tag = read_tag_heights_csv(arguments.heights_file);
+  }
+  if (arguments.height_side == "above") heights.estimated = HeightSide::kAbove;
+  if (arguments.height_side == "below") heights.estimated = HeightSide::kBelow;
+  return heights;
+}
+
+/// "RAD" or "ANTENNA=RAD"; then without an antenna's name it is that of all.
+KnownOffset parse_offset(const std::string& word) {
+  const std::size_t equals = word.rfind('=');
+  const std::string number = equals == std::string::npos ? word : word.substr(equals + 1);
+  const auto offset = parse_number(number);
+  if (!offset || equals == 0) {
+    throw Error("localize: --offset is '" + word + "', expected RAD or ANTENNA=RAD");
+  }
+  return {equals == std::string::npos ? "" : word.substr(0, equals), std::nullopt, *offset};
+}
+
+/// An offset for each antenna of the reads that one is told of; that of its own name counts.
+std::vector<KnownOffset> offsets_of(const std::vector<std::string>& words,
+                                    const std::vector<TagRead>& reads) {
+  std::set<std::string> antennas;
+  for (const TagRead& read : reads) antennas.insert(read.antenna);
+  std::vector<KnownOffset> named;
+  std::vector<KnownOffset> of_all;
+  for (const std::string& word : words) {
+    KnownOffset offset = parse_offset(word);
+    if (!offset.antenna.empty() && antennas.count(offset.antenna) == 0) {
+      throw Error(fmt::format(
+          "localize: --offset: there are no reads of antenna '{}'{}", offset.antenna,
+          suggestion(offset.antenna, std::vector<std::string>(antennas.begin(), antennas.end()))));
+    }
+    (offset.antenna.empty() ? of_all : named).push_back(std::move(offset));
+  }
+  for (KnownOffset offset : of_all) {
+    for (const std::string& antenna : antennas) {
+      offset.antenna = antenna;
+      named.push_back(offset);
+    }
+  }
+  return named;
+}
+
+}  // namespace
+
+void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
+  CLI::Option* of_all =
+      command
+          .add_option("--tag-height", arguments.tag_height_m,
+                      "Height of the tags [m, world]; without it, that of the antenna in the mean")
+          ->check(CLI::Number);
+  command.add_option("--tag-heights", arguments.heights_file,
+                     "CSV: tag,height_m; goes before --tag-height");
+  command
+      .add_option("--height", arguments.height_side,
+                  "above or below: heights that are not known are estimated, on that side of the "
+                  "antennas")
+      ->check(CLI::IsMember({"above", "below"}))
+      ->excludes(of_all);
+  command.add_option("--reference", arguments.references_file,
+                     "Tags at known places (CSV: tag,x_m,y_m,z_m)");
+  command
+      .add_option("--offset", arguments.offsets,
+                  "Known phase offset [rad]: RAD of all antennas or ANTENNA=RAD. Can be given "
+                  "several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  CLI::Option* sigma =
+      command
+          .add_option(
+              "--pose-sigma", arguments.pose_sigma_m,
+              "Error of the poses, standard deviation in x and y [m]; 0 for exact. Without, "
+              "the covariances in the table of poses, or unknown")
+          ->check(CLI::NonNegativeNumber);
+  command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(sigma);
+  command
+      .add_option("--pose-time-constant", arguments.pose_time_constant_s,
+                  "How long the poses' error takes to change [s] (default 5)")
+      ->check(CLI::PositiveNumber)
+      ->needs(sigma);
+}
+
+void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
+                KnownBeforehand& known) {
+  if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty()) {
+    known.heights = heights_of(arguments);
+  }
+  if (!arguments.references_file.empty()) {
+    known.reference_tags = read_tag_places_csv(arguments.references_file);
+  }
+  if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
+}
+
+std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
+                                            const Scenario* scenario, const std::string& poses) {
+  if (poses == "true") return PoseErrorModel{};
+  if (arguments.pose_sigma_m) {
+    PoseErrorModel model;
+    model.sigma_m = *arguments.pose_sigma_m;
+    model.yaw_sigma_rad = radians(arguments.pose_yaw_sigma_deg.value_or(0.0));
+    model.time_constant_s = arguments.pose_time_constant_s.value_or(model.time_constant_s);
+    return model;
+  }
+  if (scenario == nullptr) return std::nullopt;
+  if (poses == "given") return known_beforehand(*scenario).pose_error;
+  return scenario->localization.pose_error;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,30 @@
+/// @file
+/// What the command line of `localize` says to be known beforehand.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/tagfield/localize.h"
+#include "simulator/scenario.h"
+#include "tagfield/localization/problem.h"
+#include "tagfield/reader/tag_read.h"
+
+namespace tagfield {
+
+/// Adds the options for heights, reference tags, offsets and the error of the poses.
+void add_known_options(CLI::App& command, LocalizeArguments& arguments);
+
+/// Replaces in `known` what the command line says of heights, reference tags and offsets. Throws
+/// Error on an offset of an antenna that has no reads.
+void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
+                KnownBeforehand& known);
+
+/// What is known of the error of poses of that name ("true", "odometry", "given", …): those of a
+/// bag are the robot's own, whatever the scenario simulates.
+std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
+                                            const Scenario* scenario, const std::string& poses);
+
+}  // namespace tagfield

@@ -1,0 +1,25 @@
+/// @file
+/// What may be wrong with tables of reads and poses although every number in them is one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/tag_read.h"
+
+namespace tagfield {
+
+/// Warns of rows that are not in order of time (of each antenna by itself) and of carriers that can
+/// hardly all be in hertz.
+void warn_of_odd_reads(const std::string& file, const std::vector<TagRead>& reads,
+                       Diagnostics& diagnostics);
+/// Likewise of the order of poses.
+void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& poses,
+                       Diagnostics& diagnostics);
+
+/// "1200 reads of 10 tags by 1 antenna on 4 carriers from 865.7 to 867.5 MHz".
+std::string told_of_reads(const std::vector<TagRead>& reads);
+
+}  // namespace tagfield

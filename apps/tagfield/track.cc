@@ -1,0 +1,317 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "simulator/calibration_profile.h"
+#include "simulator/known_beforehand.h"
+#include "simulator/scenario_yaml.h"
+#include "simulator/tracking_run.h"
+#include "tagfield/base/units.h"
+#include "tagfield/report/tracks_figure.h"
+#include "tagfield/stream/poses_csv.h"
+#include "tagfield/stream/reads_csv.h"
+#include "tagfield/stream/tag_heights_csv.h"
+#include "tagfield/tracking/tracks_csv.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrackArguments {
+  std::string input;     ///< Reads as CSV, or a scenario.
+  std::string poses;     ///< CSV; "" with a scenario.
+  std::string scenario;  ///< Besides reads, or "".
+  std::vector<std::string> settings;
+  std::optional<std::string> method;
+  std::vector<double> lane;   ///< X Y HEADING_DEG [SIGMA_M].
+  std::vector<double> line;   ///< X Y HEADING_DEG.
+  std::vector<double> speed;  ///< MIN MAX.
+  bool both_ways = false;
+  std::optional<double> acceleration_noise;
+  std::optional<double> tag_height_m;
+  std::string heights_file;
+  std::string calibration;
+  std::optional<std::uint64_t> seed;
+  std::size_t seeds = 1;
+  std::string out;
+  int threads = default_threads();
+};
+
+bool is_scenario(const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+/// What the command line says goes before what the scenario says.
+void apply(const TrackArguments& arguments, TrackingSpec& spec) {
+  TrackingOptions& options = spec.options;
+  if (arguments.method) options.method = track_method(*arguments.method);
+  if (!arguments.lane.empty()) {
+    Lane lane;
+    lane.point = {arguments.lane[0], arguments.lane[1]};
+    lane.heading_rad = radians(arguments.lane[2]);
+    if (arguments.lane.size() > 3) lane.lateral_sigma_m = arguments.lane[3];
+    options.lane = lane;
+  }
+  if (arguments.both_ways) {
+    if (!options.lane) throw Error("track: --both-ways goes with a lane only");
+    options.lane->both_ways = true;
+  }
+  if (!arguments.line.empty()) {
+    spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};
+  }
+  if (!arguments.speed.empty()) {
+    options.min_speed_m_s = arguments.speed[0];
+    options.max_speed_m_s = arguments.speed[1];
+  }
+  options.acceleration_noise = arguments.acceleration_noise.value_or(options.acceleration_noise);
+  check(options);
+}
+
+ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
+                       Diagnostics& diagnostics) {
+  return load(ScenarioArguments{path, arguments.settings, arguments.seed}, diagnostics);
+}
+
+void refuse_options_of_reads(const TrackArguments& arguments) {
+  if (!arguments.poses.empty() || !arguments.scenario.empty()) {
+    throw Error("track: --poses and --scenario go with reads, not with a scenario in their place");
+  }
+  if (arguments.tag_height_m || !arguments.heights_file.empty()) {
+    throw Error(
+        "track: a scenario tells heights by localization.tag_height_m "
+        "(--set localization.tag_height_m=NUMBER)");
+  }
+}
+
+struct Result {
+  TrackSummary summary;
+  TrackingRun first;
+  bool complete = true;
+};
+
+void gather(const std::vector<TrackingRun>& runs, TrackSummary& summary) {
+  for (const TrackingRun& run : runs) {
+    summary.seeds.push_back(run.seed);
+    summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
+    add_orders(run.order_outcomes, summary.orders);
+  }
+}
+
+Result track_scenario(const TrackArguments& arguments, Diagnostics& diagnostics) {
+  refuse_options_of_reads(arguments);
+  ScenarioWithWorld loaded = load(arguments, arguments.input, diagnostics);
+  apply(arguments, loaded.scenario.tracking);
+  ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "tracking");
+  RunControl control;
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  control.on_progress = [&bar](double share) { bar.show(share); };
+  catch_interrupts();
+  std::vector<TrackingRun> runs =
+      track_seeds(loaded.scenario, arguments.seed.value_or(loaded.scenario.seed), arguments.seeds,
+                  control, diagnostics);
+  Result result;
+  result.complete = runs.size() == arguments.seeds && !interrupted();
+  result.summary.name = loaded.scenario.name;
+  result.summary.method = to_string(loaded.scenario.tracking.options.method);
+  gather(runs, result.summary);
+  if (!runs.empty()) result.first = std::move(runs.front());
+  return result;
+}
+
+/// Beside reads of a run there is its truth, which judges the tracks and makes none.
+Truth truth_beside(const std::string& reads) {
+  const fs::path folder = fs::path(reads).parent_path();
+  if (!fs::exists(folder / "truth" / "tags.csv")) return {};
+  return read_truth(folder.empty() ? "." : folder.string());
+}
+
+Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
+  if (arguments.poses.empty()) {
+    throw Error("track: reads as CSV need --poses FILE, the poses of their antennas");
+  }
+  if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
+  TrackingSpec spec;
+  KnownBeforehand known;
+  if (!arguments.scenario.empty()) {
+    const ScenarioWithWorld loaded = load(arguments, arguments.scenario, diagnostics);
+    spec = loaded.scenario.tracking;
+    known = known_beforehand(loaded.scenario);
+  } else if (!arguments.settings.empty()) {
+    throw Error("track: --set goes with a scenario only");
+  }
+  apply(arguments, spec);
+  if (arguments.tag_height_m || !arguments.heights_file.empty()) known.heights = {};
+  if (arguments.tag_height_m) known.heights.of_all = arguments.tag_height_m;
+  if (!arguments.heights_file.empty()) {
+    known.heights.of_tag = read_tag_heights_csv(arguments.heights_file);
+  }
+  std::vector<TrackingRun> runs(1);
+  runs[0].seed = arguments.seed.value_or(1);
+  runs[0].reads = read_reads_csv(arguments.input);
+  runs[0].believed_poses = read_poses_csv(arguments.poses);
+  runs[0].truth = truth_beside(arguments.input);
+  if (!arguments.calibration.empty()) {
+    apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
+                      runs[0].believed_poses, known);
+  }
+  if (runs[0].reads.empty()) {
+    diagnostics.warn({arguments.input, 0}, "no reads: cannot track anything");
+  }
+  track(spec, known, arguments.threads, runs[0], diagnostics);
+  Result result;
+  result.summary.name = arguments.input;
+  result.summary.method = to_string(spec.options.method);
+  gather(runs, result.summary);
+  result.first = std::move(runs.front());
+  return result;
+}
+
+std::string line_of(const char* what, const std::optional<ErrorStatistics>& statistics,
+                    double scale, const char* unit) {
+  if (!statistics) return "";
+  return fmt::format("  {}: mean {:.1f} {}, 95 % {:.1f}, max {:.1f}\n", what,
+                     scale * statistics->mean, unit, scale * statistics->p95,
+                     scale * statistics->max);
+}
+
+std::string table_of(const TrackSummary& summary) {
+  std::string text;
+  if (summary.seeds.size() == 1) {
+    for (const TrackOutcome& outcome : summary.tags) {
+      text += fmt::format("{:<16} {:<12} {:>5} reads", outcome.tag, to_string(outcome.verdict),
+                          outcome.reads);
+      if (outcome.verdict == TrackVerdict::kTracked) {
+        text += fmt::format("  expected error {:.1f} mm", 1e3 * outcome.expected_error_m);
+      }
+      text += fmt::format("{}{}\n", outcome.reason.empty() ? "" : "  ", outcome.reason);
+    }
+  }
+  text += fmt::format("{} ({}): {} tracked, {} ambiguous, {} not tracked\n", summary.name,
+                      summary.method, count(summary, TrackVerdict::kTracked),
+                      count(summary, TrackVerdict::kAmbiguous),
+                      count(summary, TrackVerdict::kNotTracked));
+  text += line_of("along the track", track_statistics(summary, &TrackOutcome::along_m), 1e3, "mm");
+  text += line_of("across it", track_statistics(summary, &TrackOutcome::across_m), 1e3, "mm");
+  text += line_of("speed", track_statistics(summary, &TrackOutcome::speed_m_s), 1e3, "mm/s");
+  for (const OrderOutcome& order : summary.orders) {
+    if (order.pairs == 0) continue;
+    text += fmt::format(
+        "  order at {}: {} of {} neighbours right ({:.2f} %)\n", order.name, order.right,
+        order.pairs, 100.0 * static_cast<double>(order.right) / static_cast<double>(order.pairs));
+  }
+  return text;
+}
+
+std::string folder_of(const TrackArguments& arguments, const Result& result) {
+  if (!arguments.out.empty()) return arguments.out;
+  if (!is_scenario(arguments.input)) return "runs/tracked";
+  return "runs/" + folder_name(result.summary.name);
+}
+
+int track_command(const TrackArguments& arguments) {
+  Diagnostics diagnostics;
+  Result result = is_scenario(arguments.input) ? track_scenario(arguments, diagnostics)
+                                               : track_reads(arguments, diagnostics);
+  result.summary.warnings = diagnostics.warnings();
+  print_warnings(diagnostics);
+  if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
+  const std::string out = folder_of(arguments, result);
+  StagedFolder folder(out);
+  if (is_scenario(arguments.input)) {
+    folder.add("reads.csv", reads_to_csv(result.first.reads));
+    folder.add("antenna_poses.csv", poses_to_csv(result.first.believed_poses));
+    stage_truth(result.first.truth, folder);
+  }
+  folder.add("tracks.csv", tracks_to_csv(result.first.tracks));
+  folder.add("verdicts.csv", verdicts_to_csv(result.first.tracks));
+  folder.add("order.csv", orders_to_csv(result.first.orders));
+  folder.add("tracks.json", to_json(result.summary));
+  folder.add("tracks.svg",
+             tracks_figure(result.first.tracks, result.first.believed_poses, result.first.truth));
+  folder.commit();
+  fmt::print("{}folder: {}\n", table_of(result.summary), out);
+  if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  return result.complete ? kExitOk : kExitInterrupted;
+}
+
+void add_knowledge(CLI::App& command, TrackArguments& arguments) {
+  command
+      .add_option("--lane", arguments.lane,
+                  "Where tags run: X Y of a point [m], HEADING [deg from x towards y], and how far "
+                  "to the side they may be (one sigma, default 0.1 m)")
+      ->expected(3, 4);
+  command.add_flag("--both-ways", arguments.both_ways, "On the lane tags may also run backwards");
+  command
+      .add_option("--line", arguments.line,
+                  "Line across which the tags' order is told: X Y of a point [m], HEADING [deg]")
+      ->expected(3);
+  command.add_option("--speed", arguments.speed, "Least and greatest speed [m/s] (default 0.05 3)")
+      ->expected(2);
+  command
+      .add_option("--acceleration-noise", arguments.acceleration_noise,
+                  "How unsteady the motion is [m/s2/sqrt(Hz)]: after a time t the velocity has "
+                  "strayed by this times sqrt(t). Default 0.005, a conveyor; a person walks with "
+                  "0.3")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--tag-height", arguments.tag_height_m,
+                  "Height of the tags [m, world]; without it, it is estimated about the antennas'")
+      ->check(CLI::Number);
+  command.add_option("--tag-heights", arguments.heights_file,
+                     "CSV: tag,height_m; goes before --tag-height");
+  command.add_option("--calibration", arguments.calibration,
+                     "With reads, a profile by 'tagfield calibrate'");
+}
+
+}  // namespace
+
+void add_track_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<TrackArguments>();
+  CLI::App* command = app.add_subcommand(
+      "track", "Follow moving tags past antennas: tracks with covariances, and the tags' order");
+  command
+      ->add_option("READS", arguments->input,
+                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; or a scenario "
+                   "(YAML), which is simulated, tracked and compared with the truth")
+      ->required();
+  command->add_option("--poses", arguments->poses,
+                      "With reads, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,"
+                      "qw; one row for one at rest)");
+  command->add_option("--scenario", arguments->scenario,
+                      "With reads, a scenario whose 'tracking' and heights are to be used");
+  command->add_option("--set", arguments->settings, "Replace a value of the scenario")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--method", arguments->method, "How tracks are smoothed (default ekf)")
+      ->check(CLI::IsMember({"ekf", "ukf", "particle"}));
+  add_knowledge(*command, *arguments);
+  command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
+      ->check(fault_of_seed);
+  command->add_option("--seeds", arguments->seeds, "With a scenario, so many seeds")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  command->add_option("--out", arguments->out,
+                      "Folder for the results (default runs/tracked, of a scenario runs/NAME)");
+  command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->footer(
+      "Writes tracks.csv (a row for each stamp), verdicts.csv, order.csv (who passed the line, "
+      "and\n"
+      "each antenna at rest, when, and how surely before the next), tracks.json and tracks.svg.\n"
+      "From antennas in one vertical plane a tag and its mirror image look alike: then say by\n"
+      "--lane where tags run. For example, a belt along x with its middle at y = 0:\n"
+      "  tagfield track reads.csv --poses poses.csv --lane 0 0 0 0.1 --line 0 0 90 --tag-height "
+      "0.8\n"
+      "Truth beside READS (truth/tags.csv) judges the tracks and is not used to make them.");
+  command->callback(
+      [arguments, &chosen] { chosen = [arguments] { return track_command(*arguments); }; });
+}
+
+}  // namespace tagfield

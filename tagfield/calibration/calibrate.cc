@@ -1,0 +1,443 @@
+#include "tagfield/calibration/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/phase_sample.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kFewestReads = 30;
+constexpr double kShortest = 1.0;   ///< First stretches of time [s].
+constexpr double kTimeStep = 0.01;  ///< Of the search for the time offset [s].
+constexpr std::size_t kSearchReads = 3000;
+constexpr double kSlopeTime = 1e-3;  ///< [s]
+constexpr int kMostSteps = 40;
+constexpr double kLeastNoise = 0.01;  ///< [rad]
+constexpr double kStraight = 0.02;    ///< An antenna that moved less tells nothing of time [m].
+/// Offsets of tags that differ by more than this, rms, beyond what noise does, are not shared.
+constexpr double kAgree = 0.25;
+
+using Vector4 = Eigen::Vector4d;  ///< d [m], τ [s].
+using Matrix4 = Eigen::Matrix4d;
+
+struct Sample {
+  Time stamp;
+  double phase_rad = 0.0;
+  double k = 0.0;
+  double frequency_hz = 0.0;
+  std::size_t tag = 0;
+};
+
+/// All of one antenna, in order of time.
+struct AntennaData {
+  std::string name;
+  const Trajectory* X_WA = nullptr;
+  std::vector<Sample> samples;
+  std::vector<Eigen::Vector3d> tags;
+};
+
+/// Samples that share an offset.
+using Stretch = std::vector<std::size_t>;
+
+struct Normal {
+  Matrix4 matrix = Matrix4::Zero();
+  Vector4 right = Vector4::Zero();
+  double cost = 0.0;
+  std::vector<double> residuals;
+};
+
+struct Model {
+  const AntennaData& data;
+  const std::vector<Stretch>& stretches;
+  const CalibrationOptions& options;
+  double sign = 1.0;
+  double noise_rad = 0.3;
+};
+
+double distance_at(const AntennaData& data, const Sample& sample, const Vector4& theta) {
+  const Time time = sample.stamp - duration_from_seconds(theta(3));
+  const RigidTransform X_WA = held_pose_at(*data.X_WA, time);
+  return (X_WA * Eigen::Vector3d(theta.head<3>()) - data.tags[sample.tag]).norm();
+}
+
+struct Linearized {
+  double angle = 0.0;
+  Vector4 slope;
+};
+
+Linearized linearize(const Model& model, const Sample& sample, const Vector4& theta) {
+  const RigidTransform X_WA =
+      held_pose_at(*model.data.X_WA, sample.stamp - duration_from_seconds(theta(3)));
+  const Eigen::Vector3d away =
+      X_WA * Eigen::Vector3d(theta.head<3>()) - model.data.tags[sample.tag];
+  const double r = std::max(away.norm(), 1e-3);
+  Vector4 later = theta;
+  Vector4 earlier = theta;
+  later(3) -= kSlopeTime;
+  earlier(3) += kSlopeTime;
+  Linearized one;
+  one.angle = model.sign * sample.phase_rad - sample.k * r;
+  one.slope.head<3>() = sample.k / r * (X_WA.rotation.conjugate() * away);
+  one.slope(3) =
+      sample.k *
+      (distance_at(model.data, sample, earlier) - distance_at(model.data, sample, later)) /
+      (2.0 * kSlopeTime);
+  return one;
+}
+
+double circular_mean(const std::vector<Linearized>& rows) {
+  double cosine = 0.0;
+  double sine = 0.0;
+  for (const Linearized& row : rows) {
+    cosine += std::cos(row.angle);
+    sine += std::sin(row.angle);
+  }
+  return std::atan2(sine, cosine);
+}
+
+/// With residual 2 sin(e/2), which is bounded, the stretch's offset eliminated.
+void add_stretch(const std::vector<Linearized>& rows, double weight, Normal& normal) {
+  const double offset = circular_mean(rows);
+  Vector4 sum = Vector4::Zero();
+  double weights = 0.0;
+  double residuals = 0.0;
+  for (const Linearized& row : rows) {
+    const double error = wrap_to_pi(row.angle - offset);
+    const double cosine = std::cos(error / 2.0);
+    const double residual = 2.0 * std::sin(error / 2.0);
+    normal.matrix += weight * cosine * cosine * row.slope * row.slope.transpose();
+    normal.right += weight * cosine * residual * row.slope;
+    normal.cost += 0.5 * weight * residual * residual;
+    normal.residuals.push_back(error);
+    sum += cosine * cosine * row.slope;
+    weights += cosine * cosine;
+    residuals += cosine * residual;
+  }
+  if (weights <= 1e-9) return;
+  normal.matrix -= weight / weights * sum * sum.transpose();
+  normal.right -= weight * residuals / weights * sum;
+}
+
+Vector4 prior_weights(const CalibrationOptions& options) {
+  Vector4 weights;
+  weights.head<3>().setConstant(1.0 / (options.place_sigma_m * options.place_sigma_m));
+  weights(3) = 1.0 / (options.time_offset_sigma_s * options.time_offset_sigma_s);
+  return weights;
+}
+
+Normal normal_at(const Model& model, const Vector4& theta) {
+  Normal normal;
+  std::vector<Linearized> rows;
+  const double weight = 1.0 / (model.noise_rad * model.noise_rad);
+  for (const Stretch& stretch : model.stretches) {
+    rows.clear();
+    for (const std::size_t i : stretch) {
+      rows.push_back(linearize(model, model.data.samples[i], theta));
+    }
+    add_stretch(rows, weight, normal);
+  }
+  const Vector4 prior = prior_weights(model.options);
+  normal.matrix.diagonal() += prior;
+  normal.right -= prior.cwiseProduct(theta);
+  normal.cost += 0.5 * theta.dot(prior.cwiseProduct(theta));
+  return normal;
+}
+
+struct Fit {
+  Vector4 theta = Vector4::Zero();
+  Matrix4 covariance = Matrix4::Identity();
+  double noise_rad = 0.3;
+  double sign = 1.0;
+  double cost = 0.0;
+};
+
+double median_size(const std::vector<double>& values) {
+  std::vector<double> sizes;
+  for (const double value : values) sizes.push_back(std::abs(value));
+  if (sizes.empty()) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
+  const auto count = static_cast<double>(residuals.size());
+  const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
+  return std::max(kLeastNoise, median_size(residuals) / 0.6745 * std::sqrt(count / freedom));
+}
+
+Fit fitted(Model model, const Fit& start) {
+  Fit fit = start;
+  model.noise_rad = start.noise_rad;
+  model.sign = start.sign;
+  Normal normal = normal_at(model, fit.theta);
+  double damping = 1e-3;
+  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
+    Matrix4 damped = normal.matrix;
+    damped.diagonal() *= 1.0 + damping;
+    const Vector4 next = fit.theta + damped.ldlt().solve(normal.right);
+    if (!next.allFinite() || std::abs(next(3)) > 2.0 * model.options.most_time_offset_s) break;
+    Normal there = normal_at(model, next);
+    if (!(there.cost <= normal.cost)) {
+      damping *= 10.0;
+      continue;
+    }
+    const double gain = normal.cost - there.cost;
+    fit.theta = next;
+    normal = std::move(there);
+    damping = std::max(0.1 * damping, 1e-9);
+    if (gain < 1e-7 * std::max(1.0, normal.cost)) break;
+  }
+  fit.cost = normal.cost;
+  fit.noise_rad = noise_of(normal.residuals, model.stretches.size() + 4);
+  model.noise_rad = fit.noise_rad;
+  fit.covariance = normal_at(model, fit.theta).matrix.ldlt().solve(Matrix4(Matrix4::Identity()));
+  return fit;
+}
+
+/// Of one channel, and of one tag unless `shared`, over up to `length_s`.
+std::vector<Stretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
+  std::vector<Stretch> stretches;
+  std::map<std::pair<std::size_t, double>, std::size_t> open;
+  const Duration length = duration_from_seconds(length_s);
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    const Sample& sample = data.samples[i];
+    const std::pair key(shared ? 0 : sample.tag, sample.frequency_hz);
+    const auto found = open.find(key);
+    if (found != open.end() &&
+        sample.stamp - data.samples[stretches[found->second].front()].stamp <= length) {
+      stretches[found->second].push_back(i);
+      continue;
+    }
+    open[key] = stretches.size();
+    stretches.push_back({i});
+  }
+  return stretches;
+}
+
+double duration_of(const AntennaData& data) {
+  return to_seconds(data.samples.back().stamp - data.samples.front().stamp);
+}
+
+bool moves(const AntennaData& data) {
+  const Eigen::Vector3d first = data.X_WA->front().X_WB.translation;
+  return std::any_of(data.X_WA->begin(), data.X_WA->end(), [&](const StampedPose& pose) {
+    return (pose.X_WB.translation - first).norm() > kStraight;
+  });
+}
+
+/// Both signs and a grid of time offsets over short stretches; the best few.
+std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& options) {
+  std::vector<Stretch> stretches = stretches_of(data, kShortest, false);
+  const std::size_t stride = 1 + data.samples.size() / kSearchReads;
+  std::vector<Stretch> some;
+  for (std::size_t i = 0; i < stretches.size(); i += stride) some.push_back(stretches[i]);
+  const int steps =
+      moves(data) ? static_cast<int>(std::round(options.most_time_offset_s / kTimeStep)) : 0;
+  std::vector<Fit> fits;
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<Fit> of_sign;
+    for (int i = -steps; i <= steps; ++i) {
+      Fit fit;
+      fit.sign = sign;
+      fit.theta(3) = i * kTimeStep;
+      fit.cost = normal_at({data, some, options, sign, fit.noise_rad}, fit.theta).cost;
+      of_sign.push_back(fit);
+    }
+    std::stable_sort(of_sign.begin(), of_sign.end(),
+                     [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+    // Neighbours on the grid are the same beginning.
+    for (const Fit& fit : of_sign) {
+      const bool near = std::any_of(fits.begin(), fits.end(), [&](const Fit& other) {
+        return other.sign == sign && std::abs(other.theta(3) - fit.theta(3)) < 3.5 * kTimeStep;
+      });
+      if (!near) fits.push_back(fit);
+      if (fits.size() >= (sign > 0.0 ? 3U : 6U)) break;
+    }
+  }
+  for (Fit& fit : fits) fit = fitted({data, some, options, fit.sign, fit.noise_rad}, fit);
+  return fits;
+}
+
+/// Ever longer stretches, from the best coarse fit.
+Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
+  std::vector<Fit> fits = coarse_fits(data, options);
+  Fit best = *std::min_element(fits.begin(), fits.end(),
+                               [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+  const double duration = duration_of(data);
+  for (double length = 2.0 * kShortest; length < 2.0 * duration + 4.0 * kShortest; length *= 2.0) {
+    const std::vector<Stretch> stretches = stretches_of(data, length, false);
+    best = fitted({data, stretches, options, best.sign, best.noise_rad}, best);
+  }
+  return best;
+}
+
+struct TagOffset {
+  double frequency_hz = 0.0;
+  double offset_rad = 0.0;
+  double sigma_rad = 0.0;
+  std::size_t reads = 0;
+};
+
+/// Offset of each stretch, with what the geometry's uncertainty adds.
+std::vector<TagOffset> offsets_of(const AntennaData& data, const CalibrationOptions& options,
+                                  const std::vector<Stretch>& stretches, const Fit& fit) {
+  std::vector<TagOffset> offsets;
+  const Model model{data, stretches, options, fit.sign, fit.noise_rad};
+  for (const Stretch& stretch : stretches) {
+    std::vector<Linearized> rows;
+    Vector4 mean = Vector4::Zero();
+    for (const std::size_t i : stretch) {
+      rows.push_back(linearize(model, data.samples[i], fit.theta));
+      mean += rows.back().slope / static_cast<double>(stretch.size());
+    }
+    const double variance = fit.noise_rad * fit.noise_rad / static_cast<double>(stretch.size()) +
+                            mean.dot(fit.covariance * mean);
+    offsets.push_back({data.samples[stretch.front()].frequency_hz,
+                       wrap_to_two_pi(circular_mean(rows)), std::sqrt(variance), stretch.size()});
+  }
+  return offsets;
+}
+
+/// Rms of the tags' offsets about those of all, channel by channel, less what is due to noise.
+double scatter_of(const std::vector<TagOffset>& by_tag) {
+  std::map<double, std::vector<const TagOffset*>> by_channel;
+  for (const TagOffset& offset : by_tag) by_channel[offset.frequency_hz].push_back(&offset);
+  double squares = 0.0;
+  double freedom = 0.0;
+  for (const auto& [channel, offsets] : by_channel) {
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (const TagOffset* offset : offsets) {
+      cosine += std::cos(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
+      sine += std::sin(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
+    }
+    const double mean = std::atan2(sine, cosine);
+    for (const TagOffset* offset : offsets) {
+      const double error = wrap_to_pi(offset->offset_rad - mean);
+      squares += std::max(0.0, error * error - offset->sigma_rad * offset->sigma_rad);
+    }
+    freedom += static_cast<double>(offsets.size()) - 1.0;
+  }
+  return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
+}
+
+AntennaCalibration calibration_of(const AntennaData& data, const CalibrationOptions& options,
+                                  bool half_turns) {
+  const double whole = duration_of(data) + 1.0;
+  Fit fit = fine_fit(data, options);
+  AntennaCalibration result;
+  result.tag_scatter_rad =
+      scatter_of(offsets_of(data, options, stretches_of(data, whole, false), fit));
+  const bool agree = result.tag_scatter_rad < kAgree;
+  const std::vector<Stretch> shared = stretches_of(data, whole, true);
+  if (agree) fit = fitted({data, shared, options, fit.sign, fit.noise_rad}, fit);
+  const double scale = half_turns ? 0.5 : 1.0;
+  result.phase_sign = fit.sign > 0.0 ? 1 : -1;
+  result.noise_rad = scale * fit.noise_rad;
+  result.tag_scatter_rad *= scale;
+  result.reads = data.samples.size();
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const double before = i < 3 ? options.place_sigma_m : options.time_offset_sigma_s;
+    const double sigma = std::sqrt(std::max(0.0, fit.covariance(i, i)));
+    CalibratedValue& value = i < 3 ? result.place_m[i] : result.time_offset_s;
+    value = {fit.theta(i), sigma, sigma < 0.5 * before};
+  }
+  if (!agree) return result;
+  for (const TagOffset& offset : offsets_of(data, options, shared, fit)) {
+    result.offsets.push_back({scale == 1.0 ? offset.frequency_hz : 0.5 * offset.frequency_hz,
+                              scale * offset.offset_rad, scale * offset.sigma_rad, offset.reads});
+  }
+  std::sort(result.offsets.begin(), result.offsets.end(),
+            [](const auto& a, const auto& b) { return a.frequency_hz < b.frequency_hz; });
+  return result;
+}
+
+/// Samples of tags at known places, by antenna.
+std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
+                                           const std::map<std::string, BelievedTrack>& tracks,
+                                           const std::map<std::string, Eigen::Vector3d>& tags) {
+  std::map<std::string, AntennaData> data;
+  for (const auto& [tag, place] : tags) {
+    const auto of_tag = samples.find(tag);
+    if (of_tag == samples.end()) continue;
+    for (const auto& [antenna, series] : of_tag->second) {
+      AntennaData& one = data[antenna];
+      one.name = antenna;
+      one.X_WA = &tracks.at(antenna).X_WA;
+      for (const PhaseSample& sample : series) {
+        one.samples.push_back({sample.stamp, sample.phase_rad,
+                               2.0 * kTwoPi / wavelength(sample.frequency_hz), sample.frequency_hz,
+                               one.tags.size()});
+      }
+      one.tags.push_back(place);
+    }
+  }
+  for (auto& [antenna, one] : data) {
+    std::stable_sort(one.samples.begin(), one.samples.end(),
+                     [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
+  }
+  return data;
+}
+
+void require_positive(double value, const char* name) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
+}
+
+}  // namespace
+
+void check(const CalibrationOptions& options) {
+  require_positive(options.place_sigma_m, "place_sigma_m");
+  require_positive(options.time_offset_sigma_s, "time_offset_sigma_s");
+  require_positive(options.most_time_offset_s, "most_time_offset_s");
+  require_positive(options.max_pose_gap_s, "max_pose_gap_s");
+}
+
+Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<AntennaPose>& poses,
+                      const std::map<std::string, Eigen::Vector3d>& tags,
+                      const CalibrationOptions& options, int threads, Diagnostics& diagnostics) {
+  check(options);
+  for (const auto& [tag, place] : tags) {
+    if (!place.allFinite()) throw Error("the place of tag '" + tag + "' must be finite");
+  }
+  const auto tracks = tracks_of(poses, diagnostics);
+  SamplesByTag samples = join_reads_with_tracks(reads, tracks, options.max_pose_gap_s, diagnostics);
+  Calibration calibration;
+  calibration.half_turns = has_half_turns(samples);
+  if (calibration.half_turns) {
+    diagnostics.warn("phases jump by half turns: they are taken as known but for π");
+    double_phases(samples);
+  }
+  const auto data = data_of(samples, tracks, tags);
+  std::vector<const AntennaData*> usable;
+  for (const auto& [antenna, one] : data) {
+    if (one.samples.size() >= kFewestReads) {
+      usable.push_back(&one);
+      continue;
+    }
+    diagnostics.warn(fmt::format(
+        "antenna '{}': {} reads of tags at known places, at least {} are needed to calibrate it",
+        antenna, one.samples.size(), kFewestReads));
+  }
+  std::vector<AntennaCalibration> results(usable.size());
+  parallel_for(usable.size(), threads, [&](std::size_t i) {
+    results[i] = calibration_of(*usable[i], options, calibration.half_turns);
+  });
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    calibration.antennas[usable[i]->name] = std::move(results[i]);
+  }
+  return calibration;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,193 @@
+#include "tagfield/tracking/line_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr int kMostSteps = 30;
+constexpr double kNearest = 1e-3;     ///< Distances below are taken for this [m].
+constexpr double kLeastNoise = 0.02;  ///< [rad]
+/// What is known of any motion at all, so that normal matrices have an inverse [m, m/s].
+constexpr double kAnywhere = 100.0;
+
+using Row6 = Eigen::Matrix<double, 1, 6>;
+
+/// Normal equations of one linearization, and the cost there.
+struct Normal {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d right = Vector6d::Zero();
+  double cost = 0.0;
+  double cosines = 0.0;
+  double squares = 0.0;
+};
+
+struct Linearized {
+  double angle = 0.0;  ///< φ − k r.
+  Row6 slope;          ///< Of the predicted phase.
+};
+
+Linearized linearize(const PassRead& read, const StraightMotion& motion) {
+  const Eigen::Vector3d away = motion.p_WT + read.t_s * motion.v_WT - read.p_WA;
+  const double r = std::max(away.norm(), kNearest);
+  Linearized one;
+  one.angle = read.phase_rad - read.k * r;
+  const Eigen::RowVector3d slope = read.k / r * away.transpose();
+  one.slope << slope, read.t_s * slope;
+  return one;
+}
+
+/// Circular mean of the angles.
+double offset_of(const std::vector<Linearized>& rows) {
+  double cosine = 0.0;
+  double sine = 0.0;
+  for (const Linearized& row : rows) {
+    cosine += std::cos(row.angle);
+    sine += std::sin(row.angle);
+  }
+  return std::atan2(sine, cosine);
+}
+
+/// With residual 2 sin(e/2), whose square is 2 (1 − cos e): the offset is eliminated.
+void add_aperture(const std::vector<Linearized>& rows, bool offset_free, double weight,
+                  Normal& normal) {
+  const double offset = offset_free ? offset_of(rows) : 0.0;
+  Row6 sum = Row6::Zero();
+  double weights = 0.0;
+  double residuals = 0.0;
+  for (const Linearized& row : rows) {
+    const double error = wrap_to_pi(row.angle - offset);
+    const double cosine = std::cos(error / 2.0);
+    const double residual = 2.0 * std::sin(error / 2.0);
+    const double w = cosine * cosine;
+    const double r = cosine * residual;
+    normal.matrix.noalias() += weight * w * row.slope.transpose() * row.slope;
+    normal.right += weight * r * row.slope.transpose();
+    sum += w * row.slope;
+    weights += w;
+    residuals += r;
+    normal.cost += 0.5 * weight * residual * residual;
+    normal.cosines += std::cos(error);
+    normal.squares += error * error;
+  }
+  if (!offset_free || weights <= 1e-9) return;
+  normal.matrix.noalias() -= weight / weights * sum.transpose() * sum;
+  normal.right -= weight * residuals / weights * sum.transpose();
+}
+
+Vector6d as_vector(const StraightMotion& motion) {
+  Vector6d theta;
+  theta << motion.p_WT, motion.v_WT;
+  return theta;
+}
+
+struct FitInput {
+  const Pass& pass;
+  const std::vector<Aperture>& apertures;
+  const MotionPrior& prior;
+  double weight = 1.0;
+  bool fix_known = false;
+};
+
+Normal normal_at(const FitInput& input, const StraightMotion& motion) {
+  Normal normal;
+  std::vector<Linearized> rows;
+  for (const Aperture& aperture : input.apertures) {
+    rows.clear();
+    for (const std::size_t i : aperture) rows.push_back(linearize(input.pass.reads[i], motion));
+    const bool known = input.fix_known && input.pass.reads[aperture.front()].offset_known;
+    add_aperture(rows, !known, input.weight, normal);
+  }
+  const Eigen::VectorXd residual = input.prior.values - input.prior.rows * as_vector(motion);
+  normal.matrix.noalias() += input.prior.rows.transpose() * input.prior.rows;
+  normal.right += input.prior.rows.transpose() * residual;
+  normal.cost += 0.5 * residual.squaredNorm();
+  return normal;
+}
+
+StraightMotion moved(const StraightMotion& motion, const Vector6d& step) {
+  return {motion.p_WT + step.head<3>(), motion.v_WT + step.tail<3>()};
+}
+
+}  // namespace
+
+std::vector<Aperture> sub_apertures(const Pass& pass, double length_s) {
+  std::vector<Aperture> apertures;
+  std::map<std::size_t, std::size_t> open;  // by group
+  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
+    const PassRead& read = pass.reads[i];
+    const auto found = open.find(read.group);
+    const bool goes_on = found != open.end() &&
+                         read.t_s - pass.reads[apertures[found->second].front()].t_s <= length_s;
+    if (goes_on) {
+      apertures[found->second].push_back(i);
+    } else {
+      open[read.group] = apertures.size();
+      apertures.push_back({i});
+    }
+  }
+  return apertures;
+}
+
+MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
+  MotionPrior prior;
+  prior.rows.resize(8 + 2, 6);
+  prior.rows.setZero();
+  prior.values = Eigen::VectorXd::Zero(10);
+  const Eigen::Vector3d middle = middle_of_antennas(pass);
+  for (Eigen::Index i = 0; i < 6; ++i) prior.rows(i, i) = 1.0 / kAnywhere;
+  for (Eigen::Index i = 0; i < 3; ++i) prior.values(i) = middle(i) / kAnywhere;
+  prior.rows(6, 2) = 1.0 / pass.height.sigma_m;
+  prior.values(6) = pass.height.mean_m / pass.height.sigma_m;
+  prior.rows(7, 5) = 1.0 / options.vertical_speed_sigma_m_s;
+  if (!options.lane) return prior;
+  const Lane& lane = *options.lane;
+  const Eigen::Vector2d side(-std::sin(lane.heading_rad), std::cos(lane.heading_rad));
+  prior.rows.block<1, 2>(8, 0) = side.transpose() / lane.lateral_sigma_m;
+  prior.values(8) = side.dot(lane.point) / lane.lateral_sigma_m;
+  // A tag's direction is that far from the lane's at a usual speed, whatever its own.
+  const double speed = std::max(0.5 * (options.min_speed_m_s + options.max_speed_m_s), 0.1);
+  prior.rows.block<1, 2>(9, 3) = side.transpose() / (speed * lane.heading_sigma_rad);
+  return prior;
+}
+
+LineFit fit_line(const Pass& pass, const std::vector<Aperture>& apertures, const MotionPrior& prior,
+                 double noise_rad, bool fix_known, const StraightMotion& start) {
+  const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
+  LineFit fit;
+  fit.motion = start;
+  Normal normal = normal_at(input, fit.motion);
+  double damping = 1e-3;
+  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
+    Matrix6d damped = normal.matrix;
+    damped.diagonal() *= 1.0 + damping;
+    const Vector6d change = damped.ldlt().solve(normal.right);
+    const StraightMotion next = moved(fit.motion, change);
+    const Normal there = normal_at(input, next);
+    if (!std::isfinite(there.cost) || there.cost > normal.cost) {
+      damping *= 10.0;
+      continue;
+    }
+    const double gain = normal.cost - there.cost;
+    fit.motion = next;
+    normal = there;
+    damping = std::max(damping * 0.1, 1e-9);
+    if (gain < 1e-6 * std::max(1.0, normal.cost)) break;
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(pass.reads.size(), 1));
+  const auto free = static_cast<double>(apertures.size() + 4);
+  fit.coherence = normal.cosines / count;
+  const double freedom = std::max(count - free, 1.0);
+  fit.noise_rad = std::max(std::sqrt(normal.squares / freedom), kLeastNoise);
+  const Eigen::VectorXd residual = prior.values - prior.rows * as_vector(fit.motion);
+  fit.prior_cost = 0.5 * residual.squaredNorm();
+  fit.covariance = normal.matrix.ldlt().solve(Matrix6d::Identity());
+  return fit;
+}
+
+}  // namespace tagfield

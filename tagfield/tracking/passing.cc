@@ -1,0 +1,97 @@
+#include "tagfield/tracking/passing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+/// Between two points of a track, as a part of the time from the first to the second.
+Time stamp_between(const TrackPoint& a, const TrackPoint& b, double part) {
+  return a.stamp + duration_from_seconds(part * to_seconds(b.stamp - a.stamp));
+}
+
+/// First place between two points where `height`(point) changes its sign, if it does.
+template <typename Height>
+std::optional<std::pair<std::size_t, double>> first_zero(const Track& track, const Height& height) {
+  for (std::size_t i = 1; i < track.points.size(); ++i) {
+    const double before = height(track.points[i - 1]);
+    const double after = height(track.points[i]);
+    if ((before < 0.0) == (after < 0.0)) continue;
+    return std::pair(i, before / (before - after));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Passing> passing_of(const Track& track, const PassingLine& line) {
+  const Eigen::Vector2d across(-std::sin(line.heading_rad), std::cos(line.heading_rad));
+  const auto zero = first_zero(track, [&](const TrackPoint& point) {
+    return across.dot(point.p_WT.head<2>() - line.point);
+  });
+  if (!zero) return std::nullopt;
+  const TrackPoint& point = track.points[zero->first];
+  const double speed = std::abs(across.dot(point.v_WT.head<2>()));
+  const double variance = across.dot(point.covariance.topLeftCorner<2, 2>() * across);
+  if (speed <= 0.0) return std::nullopt;
+  return Passing{"", stamp_between(track.points[zero->first - 1], point, zero->second),
+                 std::sqrt(std::max(0.0, variance)) / speed};
+}
+
+std::optional<Passing> nearest_of(const Track& track, const Eigen::Vector3d& place) {
+  const auto zero = first_zero(
+      track, [&](const TrackPoint& point) { return (point.p_WT - place).dot(point.v_WT); });
+  if (!zero) return std::nullopt;
+  const TrackPoint& point = track.points[zero->first];
+  const double square = point.v_WT.squaredNorm();
+  if (square <= 0.0) return std::nullopt;
+  const TrackPoint& before = track.points[zero->first - 1];
+  const Eigen::Vector3d p_WT = before.p_WT + zero->second * (point.p_WT - before.p_WT);
+  Vector6d slope;
+  slope << point.v_WT, p_WT - place;
+  slope /= square;
+  return Passing{"", stamp_between(track.points[zero->first - 1], point, zero->second),
+                 std::sqrt(std::max(0.0, slope.dot(point.covariance * slope)))};
+}
+
+std::vector<PassingOrder> passing_orders(const LocalizationProblem& problem,
+                                         const std::vector<TagTrack>& tracks,
+                                         const std::optional<PassingLine>& line) {
+  std::vector<PassingOrder> orders;
+  const auto add = [&](const std::string& name, const auto& passing) {
+    PassingOrder order{name, {}};
+    for (const TagTrack& tag : tracks) {
+      if (tag.verdict != TrackVerdict::kTracked) continue;
+      std::optional<Passing> one = passing(tag.tracks.front());
+      if (!one) continue;
+      one->tag = tag.tag;
+      order.passings.push_back(*one);
+    }
+    std::stable_sort(order.passings.begin(), order.passings.end(),
+                     [](const Passing& a, const Passing& b) { return a.stamp < b.stamp; });
+    orders.push_back(std::move(order));
+  };
+  if (line) add("line", [&](const Track& track) { return passing_of(track, *line); });
+  for (const auto& [antenna, believed] : problem.tracks) {
+    if (believed.X_WA.empty()) continue;
+    const Eigen::Vector3d place = believed.X_WA.front().X_WB.translation;
+    const bool still =
+        std::all_of(believed.X_WA.begin(), believed.X_WA.end(), [&](const StampedPose& pose) {
+          return (pose.X_WB.translation - place).norm() < kStillExtent;
+        });
+    if (still) add(antenna, [&](const Track& track) { return nearest_of(track, place); });
+  }
+  return orders;
+}
+
+double probability_before(const Passing& first, const Passing& second) {
+  const double sigma = std::hypot(first.sigma_s, second.sigma_s);
+  const double gap = to_seconds(second.stamp - first.stamp);
+  if (sigma <= 0.0) return gap > 0.0 ? 1.0 : 0.5;
+  return 0.5 * std::erfc(-gap / sigma / std::sqrt(2.0));
+}
+
+}  // namespace tagfield

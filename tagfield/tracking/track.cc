@@ -1,0 +1,10 @@
+#include "tagfield/tracking/track.h"
+
+namespace tagfield {
+
+std::string to_string(TrackVerdict verdict) {
+  if (verdict == TrackVerdict::kTracked) return "tracked";
+  return verdict == TrackVerdict::kAmbiguous ? "ambiguous" : "not_tracked";
+}
+
+}  // namespace tagfield

@@ -1,0 +1,157 @@
+#include "tagfield/tracking/tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/tracking/line_search.h"
+#include "tagfield/tracking/particle_track.h"
+#include "tagfield/tracking/pass.h"
+#include "tagfield/tracking/smoother.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kFewestReads = 12;
+constexpr std::size_t kMostHypotheses = 6;
+/// Hypotheses whose likelihood is less by more than this are not looked at any further.
+constexpr double kHopeless = 60.0;
+/// Tracks this much less likely than the best can't be told from it.
+constexpr double kUntold = 8.0;
+/// A tag that went less than this part of what the least speed asks for was at rest.
+constexpr double kAtRest = 0.8;
+constexpr double kSamePlace = 0.1;  ///< Tracks within this of each other are one [m].
+
+TagTrack not_tracked(TagTrack track, const std::string& why) {
+  track.verdict = TrackVerdict::kNotTracked;
+  track.reason = "cannot track: " + why;
+  track.tracks.clear();
+  return track;
+}
+
+Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypothesis& hypothesis) {
+  if (options.method == TrackMethod::kParticle) {
+    // Particles over a hundred times as much room in each direction would be few where it matters.
+    return particle_track(pass, options, start_from(pass, options, hypothesis, 4.0));
+  }
+  const SmootherStart start = start_from(pass, options, hypothesis);
+  return smooth(
+      pass, options,
+      options.method == TrackMethod::kUkf ? Linearization::kSigmaPoints : Linearization::kTaylor,
+      start);
+}
+
+double largest_distance(const Track& a, const Track& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < std::min(a.points.size(), b.points.size()); ++i) {
+    largest = std::max(largest, (a.points[i].p_WT - b.points[i].p_WT).norm());
+  }
+  return largest;
+}
+
+bool is_finite(const Track& track) {
+  return std::all_of(track.points.begin(), track.points.end(), [](const TrackPoint& point) {
+    return point.p_WT.allFinite() && point.v_WT.allFinite() && point.covariance.allFinite();
+  });
+}
+
+/// Those that the data can't tell from the best, best first.
+std::vector<Track> rivals(std::vector<Track> tracks) {
+  std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
+    return a.log_likelihood > b.log_likelihood;
+  });
+  std::vector<Track> kept;
+  for (Track& track : tracks) {
+    if (!kept.empty() && track.log_likelihood < kept.front().log_likelihood - kUntold) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Track& other) {
+      return largest_distance(track, other) < kSamePlace;
+    });
+    if (!known) kept.push_back(std::move(track));
+  }
+  return kept;
+}
+
+/// Prior knowledge weighs here too: smoothing forgets that of the lane by and by.
+std::vector<Track> tracks_of(const Pass& pass, const TrackingOptions& options) {
+  const std::vector<LineHypothesis> hypotheses = search_lines(pass, options, kMostHypotheses);
+  std::vector<Track> tracks;
+  for (const LineHypothesis& one : hypotheses) {
+    if (one.log_likelihood < hypotheses.front().log_likelihood - kHopeless) break;
+    Track track = smoothed(pass, options, one);
+    track.log_likelihood -= one.fit.prior_cost;
+    if (is_finite(track)) tracks.push_back(std::move(track));
+  }
+  return rivals(std::move(tracks));
+}
+
+std::string remark(const Pass& pass) {
+  if (pass.cut_off == 0) return "";
+  return fmt::format("left out beyond a gap in time: {} reads", pass.cut_off);
+}
+
+TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack result) {
+  if (result.tracks.empty()) return not_tracked(result, "no motion explains the phases");
+  const Track& best = result.tracks.front();
+  if (best.coherence < options.min_coherence) {
+    return not_tracked(result, fmt::format("the best track explains too little of the phases "
+                                           "(coherence {:.2f}, at least {} is asked for)",
+                                           best.coherence, options.min_coherence));
+  }
+  if (best.expected_error_m > options.max_expected_error_m) {
+    return not_tracked(
+        result, fmt::format("the expected error is {:.2f} m, over {} m: more antennas, or a lane, "
+                            "would tell more",
+                            best.expected_error_m, options.max_expected_error_m));
+  }
+  const double way = (best.points.back().p_WT - best.points.front().p_WT).head<2>().norm();
+  if (way < kAtRest * options.min_speed_m_s * duration_of(pass)) {
+    return not_tracked(result,
+                       fmt::format("it went {:.2f} m in {:.1f} s, less than the least speed "
+                                   "of {} m/s: tags at rest are localized",
+                                   way, duration_of(pass), options.min_speed_m_s));
+  }
+  result.reason = remark(pass);
+  result.verdict = TrackVerdict::kTracked;
+  if (result.tracks.size() > 1) {
+    result.verdict = TrackVerdict::kAmbiguous;
+    result.reason = fmt::format(
+        "{} tracks explain the phases equally well; a lane would tell them "
+        "apart",
+        result.tracks.size());
+  }
+  return result;
+}
+
+TagTrack track_tag(const LocalizationProblem& problem, const TrackingOptions& options,
+                   const std::string& tag) {
+  const Pass pass = make_pass(problem, tag, options);
+  TagTrack result;
+  result.tag = tag;
+  result.reads = pass.reads.size();
+  if (pass.reads.size() < kFewestReads) {
+    return not_tracked(result,
+                       fmt::format("{} usable {}, at least {} are needed", pass.reads.size(),
+                                   pass.reads.size() == 1 ? "read" : "reads", kFewestReads));
+  }
+  result.tracks = tracks_of(pass, options);
+  return judged(options, pass, std::move(result));
+}
+
+}  // namespace
+
+std::vector<TagTrack> track_tags(const LocalizationProblem& problem, const TrackingOptions& options,
+                                 int threads, Diagnostics& /*diagnostics*/) {
+  check(options);
+  std::vector<std::string> tags;
+  for (const auto& [tag, samples] : problem.samples) {
+    if (problem.reference_tags.count(tag) == 0) tags.push_back(tag);
+  }
+  std::vector<TagTrack> tracks(tags.size());
+  parallel_for(tags.size(), threads,
+               [&](std::size_t i) { tracks[i] = track_tag(problem, options, tags[i]); });
+  return tracks;
+}
+
+}  // namespace tagfield

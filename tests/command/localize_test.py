@@ -1,0 +1,337 @@
+#!/usr/bin/python3
+"""`tagfield localize` of tables: all methods, what is known beforehand, and reads as they come from
+real readers: other clocks, gaps, repeats, disorder, several carriers.
+
+The reads are made here, by eq. 3 of the paper along an S, so that the places are known.
+"""
+
+import math
+import random
+
+from common import (SPEED_OF_LIGHT, case, check, check_equal, check_in, check_near, main, position,
+                    read_csv, read_json)
+
+METHODS = ("auto", "hyperbola", "ml", "joint", "sar")
+CARRIER = 865.7e6
+HEIGHT = 1.0
+TAGS = {"one": (2.0, 2.5, HEIGHT), "two": (4.5, 2.8, HEIGHT), "three": (3.0, -1.5, HEIGHT)}
+ANTENNA = "a"
+
+
+def path(seconds):
+    """Where the antenna is after so long: along an S at about 0.3 m/s."""
+    x = 0.28 * seconds
+    return x, 0.5 * math.sin(x), HEIGHT
+
+
+def pose_rows(antenna=ANTENNA, begin=0.0, end=24.0, shift=0.0, error=lambda seconds: (0.0, 0.0)):
+    """Rows of a table of poses at 15 Hz, off by `error`."""
+    rows = []
+    for i in range(int(round(begin * 15)), int(round(end * 15)) + 1):
+        x, y, z = path(i / 15)
+        dx, dy = error(i / 15)
+        rows.append(f"{i / 15 + shift:.6f},{antenna},{x + dx:.6f},{y + dy:.6f},{z},0,0,0,1")
+    return rows
+
+
+def read_rows(tags, antenna=ANTENNA, shift=0.0, carrier=lambda i: CARRIER, offset=0.0):
+    """Rows of a table of reads at 15 Hz, in order of time."""
+    noise = random.Random(4)
+    rows = []
+    for i in range(15 * 24):
+        place = path(i / 15)
+        for tag, at in tags.items():
+            distance = math.dist(place, at)
+            phase = (4 * math.pi * distance * carrier(i) / SPEED_OF_LIGHT + offset +
+                     noise.gauss(0, 0.05)) % (2 * math.pi)
+            rssi = -40 - 40 * math.log10(distance)
+            rows.append(f"{i / 15 + shift:.6f},r,{antenna},{tag},{carrier(i):.0f},{phase:.6f},"
+                        f"{rssi:.1f}")
+    return rows
+
+
+def localize(context, reads, poses, *arguments, covariance=False):
+    """The result, the estimates by tag (best candidate), and summary.json."""
+    more = ",cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw" if covariance else ""
+    context.write("reads.csv", "\n".join(
+        ["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *reads]) + "\n")
+    context.write("poses.csv", "\n".join(
+        ["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw" + more, *poses]) + "\n")
+    result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out",
+                              *arguments)
+    check("warning" in result.err or result.err == "", f"stderr: {result.err!r}")
+    estimates = {}
+    for row in read_csv(context.folder / "out/estimates.csv"):
+        estimates.setdefault(row["tag"], row)
+    return result, estimates, read_json(context.folder / "out/summary.json")
+
+
+def check_located(estimates, tags, method, most=0.02):
+    for tag in tags:
+        row = estimates[tag]
+        if check_equal(row["verdict"], "located", f"{method}: verdict on {tag} ({row['reason']})"):
+            check_near(math.dist(position(row), TAGS[tag]), 0.0, most, f"{method}: error of {tag}")
+
+
+def check_hopeless(estimates, tag, why, method):
+    check_equal(estimates[tag]["verdict"], "not_located", f"{method}: verdict on {tag}")
+    check_in(why, estimates[tag]["reason"], f"{method}: reason of {tag}")
+
+
+# --- Methods --------------------------------------------------------------------------------------
+
+@case
+def every_method_by_name(context):
+    context.write("empty", "")
+    listed = context.run_well("bench", "--list-methods").out.splitlines()
+    told = context.run_well("localize", "--help").out
+    for line in listed:
+        check_in(line, told, "localize --help")
+    names = [line.split()[0] for line in listed]
+    for name in names:
+        _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--method", name,
+                                 "--pose-sigma", "0")
+        check_equal(summary["method_asked"], name, "method_asked")
+        check_equal(summary["method"] in names and summary["method"] != "auto", True,
+                    f"{summary['method']} as the method of {name}")
+    wrong = context.run("localize", "reads.csv", "--poses", "poses.csv", "--method", "hyprbola")
+    check_equal(wrong.code, 2, "exit code")
+    check_in("--method: there is no method 'hyprbola' (did you mean 'hyperbola'?)", wrong.err,
+             "the complaint")
+
+
+@case
+def good_methods_locate(context):
+    for method in METHODS:
+        result, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--method",
+                                              method, "--pose-sigma", "0")
+        check_located(estimates, TAGS, method)
+        check_equal(summary["warnings"], [], f"{method}: warnings")
+        check_in("1080 reads of 3 tags by 1 antenna\n", result.out, "what is printed")
+
+
+@case
+def auto_says_what_it_took_and_why(context):
+    for sigma, method in (("0", "ml"), ("0.01", "joint"), (None, "joint")):
+        words = ["--pose-sigma", sigma] if sigma else []
+        result, _, summary = localize(context, read_rows(TAGS), pose_rows(), *words)
+        check_equal((summary["method"], summary["method_asked"]), (method, "auto"), "method")
+        check_in(f"method: {method}, chosen by auto: {summary['method_why']}\n", result.out,
+                 "what is printed")
+        check(result.out.index("method:") < result.out.index("x [m]"), "not above the table")
+        page = (context.folder / "out/report.html").read_text(encoding="utf-8")
+        check_in("by itself: the pose", page, "the page")
+    _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--method", "ml")
+    check_equal((summary["method_asked"], summary["method_why"]), ("ml", ""), "asked by name")
+
+
+# --- What is known beforehand ---------------------------------------------------------------------
+
+@case
+def heights_are_estimated_on_a_side(context):
+    tags = {tag: (x, y, HEIGHT + 0.6) for tag, (x, y, _) in TAGS.items()}
+    for side, z in (("above", HEIGHT + 0.6), ("below", HEIGHT - 0.6)):
+        _, estimates, _ = localize(context, read_rows(tags), pose_rows(), "--height", side,
+                                   "--method", "ml", "--pose-sigma", "0")
+        for tag, row in estimates.items():
+            check_near(float(row["z_m"]), z, 0.05, f"height of {tag}, {side}")
+            check(float(row["cov_zz"]) > 0, f"cov_zz of {tag} is {row['cov_zz']}")
+
+
+@case
+def reference_tags_and_offsets(context):
+    context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
+    _, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--reference",
+                                     "known.csv", "--pose-sigma", "0")
+    check_equal(position(estimates["one"]), TAGS["one"], "place of the reference tag")
+    check_in("its place was given", estimates["one"]["reason"], "reason")
+    check_equal([tag["id"] for tag in summary["tags"] if tag["reference"]], ["one"], "references")
+    check((context.folder / "out/reference_tags.csv").exists(), "no reference_tags.csv")
+    # A known offset turns phases into distances: it narrows, a wrong one spoils.
+    reads = read_rows(TAGS, offset=2.5)
+    covariance = {}
+    for words in ([], ["--offset", "2.5"], ["--offset", "a=2.5"]):
+        _, estimates, _ = localize(context, reads, pose_rows(), *words, "--method", "ml",
+                                   "--pose-sigma", "0")
+        check_located(estimates, TAGS, words)
+        covariance[len(words) and words[1]] = sum(float(row["cov_xx"]) + float(row["cov_yy"])
+                                                  for row in estimates.values())
+    check(covariance["2.5"] < 0.9 * covariance[0], f"variances are {covariance}")
+    check_equal(covariance["2.5"], covariance["a=2.5"], "variance by the antenna's name")
+
+
+@case
+def covariances_stand_in_the_estimates(context):
+    _, estimates, _ = localize(context, read_rows(TAGS), pose_rows(), "--pose-sigma", "0",
+                               "--method", "ml")
+    for tag, row in estimates.items():
+        trace = float(row["cov_xx"]) + float(row["cov_yy"])
+        check_near(math.sqrt(trace), float(row["expected_error_m"]), 1e-5, f"root of {tag}'s trace")
+        check_equal(float(row["cov_zz"]), 0.0, f"cov_zz of {tag}, whose height was given,")
+        check(float(row["cov_xy"]) ** 2 < float(row["cov_xx"]) * float(row["cov_yy"]),
+              f"the covariance of {tag} is not positive")
+    _, estimates, _ = localize(context, read_rows(TAGS), pose_rows(), "--method", "hyperbola")
+    check_equal({row["cov_xx"] for row in estimates.values()}, {""}, "cov_xx of hyperbola")
+
+
+@case
+def the_error_of_poses_is_estimated(context):
+    def error(seconds):
+        return 0.03 * math.sin(0.7 * seconds), 0.03 * math.cos(0.5 * seconds)
+    tags = {f"t{i}": (0.7 * i, (2.0, -1.8, 2.6, -2.4)[i % 4], HEIGHT) for i in range(10)}
+    reads = read_rows(tags)
+    errors = {}
+    covariances = [f"{row},0.0009,0,0,0.0009,0,0.0001" for row in pose_rows(error=error)]
+    for name, poses, words in (
+            ("exact", pose_rows(error=error), ["--pose-sigma", "0"]),
+            ("told", pose_rows(error=error), ["--pose-sigma", "0.03", "--pose-time-constant", "2"]),
+            ("unknown", pose_rows(error=error), []),
+            ("covariances", covariances, [])):
+        _, estimates, _ = localize(context, reads, poses, "--method", "joint", *words,
+                                   covariance=poses is covariances)
+        corrected = read_csv(context.folder / "out/corrected_poses.csv")
+        check_equal(len(corrected), len(poses), f"{name}: corrected poses")
+        errors[name] = math.sqrt(sum(
+            math.dist(position(row), path(float(row["stamp_s"]))) ** 2 for row in corrected) /
+            len(corrected))
+    check_near(errors["exact"], 0.03, 0.006, "rms error of poses said to be exact")
+    for name in ("told", "unknown", "covariances"):
+        check(errors[name] < 0.5 * errors["exact"], f"{name}: rms errors are {errors}")
+
+
+@case
+def bad_words_for_what_is_known(context):
+    localize(context, read_rows({"one": TAGS["one"]}), pose_rows())
+    context.write("twice.csv", "tag,x_m,y_m,z_m\none,1,2,3\none,1,2,3\n")
+    for words, says in ((["--height", "beside"], "--height"),
+                        (["--height", "above", "--tag-height", "1"], "--height"),
+                        (["--offset", "half"], "expected RAD or ANTENNA=RAD"),
+                        (["--offset", "a=nan"], "expected RAD or ANTENNA=RAD"),
+                        (["--offset", "b=1"], "no reads of antenna 'b' (known: a)"),
+                        (["--pose-sigma", "-1"], "--pose-sigma"),
+                        (["--pose-sigma", "nan"], "pose"),
+                        (["--pose-yaw-sigma", "1"], "--pose-sigma"),
+                        (["--pose-sigma", "1", "--pose-time-constant", "0"], "time-constant"),
+                        (["--reference", "twice.csv"], "twice.csv:3: tag 'one' stands here twice"),
+                        (["--reference", "absent.csv"], "no such file")):
+        result = context.run("localize", "reads.csv", "--poses", "poses.csv", *words)
+        check_equal(result.code, 2, f"{words}: exit code")
+        check_equal(len(result.err.splitlines()), 1, f"{words}: lines of {result.err!r}")
+        check_in(says, result.err, str(words))
+
+
+# --- Reads as they come ---------------------------------------------------------------------------
+
+@case
+def clocks_that_differ(context):
+    """One antenna's reads are stamped since 1970, its poses since the start; the other is well."""
+    reads = (read_rows({"one": TAGS["one"], "two": TAGS["two"]}) +
+             read_rows({"lost": TAGS["three"]}, antenna="b", shift=1.7e9))
+    poses = pose_rows() + pose_rows("b")
+    for method in METHODS:
+        result, estimates, summary = localize(context, reads, poses, "--method", method)
+        check_located(estimates, ("one", "two"), method, 0.05)
+        check_hopeless(estimates, "lost", "no reads that have an antenna pose", method)
+        warnings = [line for line in summary["warnings"] if "apart" in line]
+        check_equal(len(warnings), 1, f"{method}: warnings of clocks in {summary['warnings']}")
+        for part in ("antenna 'b': 360 of 360 reads", "reads are from 1700000000.000 to ",
+                     "poses from 0.000 to 24.000 s", "1699999976.000 s apart"):
+            check_in(part, result.err, f"{method}: the warning")
+
+
+@case
+def poses_that_do_not_cover_the_reads(context):
+    for method in METHODS:
+        result, estimates, _ = localize(context, read_rows(TAGS), pose_rows(begin=4.0, end=18.0),
+                                        "--method", method)
+        check_located(estimates, TAGS, method, 0.05)
+        check_in("reads are from 0.000 to 23.933 s, poses from 4.000 to 18.000 s", result.err,
+                 f"{method}: the warning")
+    hole = pose_rows(end=10.0) + pose_rows(begin=14.0)
+    result, estimates, _ = localize(context, read_rows(TAGS), hole, "--method", "ml")
+    check_located(estimates, TAGS, "ml with a hole")
+    check_in("its poses there are over 0.5 s apart", result.err, "the warning of a hole")
+    result, estimates, _ = localize(context, read_rows(TAGS), pose_rows("mast"))
+    check_hopeless(estimates, "one", "no reads that have an antenna pose", "other names")
+    check_in("there are no poses of it (known: mast)", result.err, "the warning of other names")
+
+
+@case
+def rows_out_of_order_and_twice(context):
+    reads, poses = read_rows(TAGS), pose_rows()
+    shuffled, jumbled = list(reads), list(poses)
+    random.Random(1).shuffle(shuffled)
+    random.Random(2).shuffle(jumbled)
+    for method in METHODS:
+        _, expected, _ = localize(context, reads, poses, "--method", method)
+        result, estimates, _ = localize(context, shuffled, jumbled, "--method", method)
+        check_equal(estimates, expected, f"{method}: estimates of shuffled rows")
+        for name in ("reads.csv", "poses.csv"):
+            check_in(f"{name}: ", result.err, f"{method}: the warnings")
+        check_in("they are put in order of time", result.err, f"{method}: the warnings")
+        result, estimates, _ = localize(context, reads + reads[:90], poses, "--method", method)
+        check_equal({tag: position(row) for tag, row in estimates.items()},
+                    {tag: position(row) for tag, row in expected.items()},
+                    f"{method}: estimates with repeated rows")
+        check_in("antenna 'a': 90 of 1170 reads repeat tag and stamp of another", result.err,
+                 f"{method}: the warnings")
+    result, _, _ = localize(context, reads, poses + poses[:7])
+    check_in("antenna 'a': 7 poses repeat the stamp of another", result.err, "the warnings")
+
+
+@case
+def several_carriers(context):
+    """A reader that changes its channel every two seconds."""
+    channels = (865.7e6, 866.3e6, 866.9e6, 867.5e6)
+    reads = read_rows(TAGS, carrier=lambda i: channels[i // 30 % 4])
+    for method in METHODS:
+        result, estimates, summary = localize(context, reads, pose_rows(), "--method", method,
+                                              "--pose-sigma", "0")
+        check_in("on 4 carriers from 865.7 to 867.5 MHz", result.out, "what is printed")
+        check_located(estimates, TAGS, method, 0.05)
+        check_equal(summary["warnings"], [], f"{method}: warnings")
+    in_megahertz = [row.replace("865700000", "865.7") if i % 200 == 0 else row
+                    for i, row in enumerate(read_rows(TAGS))]
+    for method in METHODS:
+        result, estimates, _ = localize(context, in_megahertz, pose_rows(), "--method", method,
+                                        "--pose-sigma", "0")
+        check_in("frequency_hz goes from 865.7 to 8.657e+08: is all of it in Hz?", result.err,
+                 f"{method}: the warning")
+        check_located(estimates, ("one", "two"), method)
+
+
+@case
+def tags_with_hardly_a_read(context):
+    reads = read_rows(TAGS)
+    once = read_rows({"once": TAGS["one"]})[40:41]
+    thrice = read_rows({"thrice": TAGS["one"]})[40:43]
+    for method in METHODS:
+        _, estimates, _ = localize(context, reads + once + thrice, pose_rows(), "--method", method)
+        check_located(estimates, TAGS, method, 0.05)
+        check_hopeless(estimates, "once", "only 1 read", method)
+        check_hopeless(estimates, "thrice", "only 3 reads", method)
+        _, estimates, _ = localize(context, once, pose_rows(), "--method", method)
+        check_hopeless(estimates, "once", "only 1 read", method)
+
+
+@case
+def bad_numbers_name_file_and_line(context):
+    for column, bad in ((0, "nan"), (0, ""), (4, "inf"), (4, ""), (4, "0"), (5, "nan"), (5, "inf"),
+                        (5, ""), (6, "-inf")):
+        rows = read_rows({"one": TAGS["one"]})
+        fields = rows[7].split(",")
+        fields[column] = bad
+        rows[7] = ",".join(fields)
+        context.write("reads.csv", "\n".join(
+            ["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *rows]) + "\n")
+        context.write("poses.csv", "\n".join(
+            ["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw", *pose_rows()]) + "\n")
+        result = context.run("localize", "reads.csv", "--poses", "poses.csv", "--out", "bad")
+        check_equal(result.code, 2, f"column {column} {bad!r}: exit code")
+        check_in("reads.csv:9: ", result.err, f"column {column} {bad!r}")
+        check(not (context.folder / "bad").exists() or not any((context.folder / "bad").iterdir()),
+              "something was written")
+
+
+if __name__ == "__main__":
+    main()

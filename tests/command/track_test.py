@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+"""`tagfield track` as a user meets it: a scenario, reads of a run, bad input."""
+
+import math
+
+from common import (case, check, check_equal, check_in, check_near, files_in, main, read_csv,
+                    read_json)
+
+WRITTEN = ("tracks.csv", "verdicts.csv", "order.csv", "tracks.json", "tracks.svg")
+
+
+def track(context, *arguments, name="tracked"):
+    folder = context.folder / name
+    context.run_well("track", *arguments, "--out", folder)
+    return folder
+
+
+@case
+def a_scenario_is_tracked_and_judged(context):
+    folder = track(context, context.shipped("conveyor"))
+    for name in (*WRITTEN, "reads.csv", "antenna_poses.csv", "truth/tags.csv"):
+        check(name in files_in(folder), f"there is no {name}")
+    told = read_json(folder / "tracks.json")
+    check_equal((told["tracked"], told["ambiguous"], told["not_tracked"]), (12, 0, 0), "verdicts")
+    check(told["along_m"]["mean"] < 0.02, f"error along the track {told['along_m']}")
+    for order in told["orders"]:
+        check_equal(order["right"], order["pairs"], f"order at {order['passed']}")
+    check_equal([order["passed"] for order in told["orders"]], ["line", "gate_1", "gate_2"],
+                "orders")
+
+
+@case
+def tracks_lie_where_the_scenario_moves_its_tags(context):
+    folder = track(context, context.shipped("conveyor"))
+    # Of the file, not of the program: parcel_05 starts at x = -4.8, y = -0.05, at 1 m/s.
+    rows = [row for row in read_csv(folder / "tracks.csv") if row["tag"] == "parcel_05"]
+    check(len(rows) > 80, f"{len(rows)} rows")
+    for row in rows:
+        check_near(float(row["x_m"]), -4.8 + float(row["stamp_s"]), 0.08, "x_m")
+        check_near(float(row["y_m"]), -0.05, 0.15, "y_m")
+        check_near(float(row["vx_m_s"]), 1.0, 0.05, "vx_m_s")
+        check(all(math.isfinite(float(value)) for key, value in row.items() if key != "tag"),
+              f"not finite: {row}")
+    order = [row for row in read_csv(folder / "order.csv") if row["passed"] == "line"]
+    check_equal([row["tag"] for row in order], [f"parcel_{i:02}" for i in range(1, 13)], "order")
+    for i, row in enumerate(order):
+        check_near(float(row["stamp_s"]), 4.0 + 0.2 * i, 0.05, f"stamp of {row['tag']}")
+    check_equal(order[-1]["before_next"], "", "before_next of the last")
+    check(float(order[0]["before_next"]) > 0.99, f"before_next is {order[0]['before_next']}")
+
+
+@case
+def reads_of_a_run_give_the_same_tracks(context):
+    scenario = context.shipped("conveyor")
+    first = track(context, scenario, name="first")
+    again = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv",
+                  "--scenario", scenario, name="again")
+    check_equal((again / "order.csv").read_bytes(), (first / "order.csv").read_bytes(), "order.csv")
+    told = track(context, first / "reads.csv", "--poses", first / "antenna_poses.csv", "--lane",
+                 0, 0, 0, 0.1, "--line", 0, 0, 90, "--tag-height", 0.8, name="told")
+    check_equal((told / "tracks.csv").read_bytes(), (first / "tracks.csv").read_bytes(),
+                "tracks.csv by options")
+    judged = read_json(told / "tracks.json")
+    check(judged["along_m"]["mean"] < 0.02, "the truth beside the reads was not used to judge")
+
+
+@case
+def threads_and_seeds(context):
+    scenario = context.shipped("conveyor")
+    one = track(context, scenario, "--seeds", 2, "--threads", 1, name="one")
+    two = track(context, scenario, "--seeds", 2, "--threads", 2, name="two")
+    check_equal(files_in(one), files_in(two), "files by one and two threads")
+    told = read_json(one / "tracks.json")
+    check_equal(told["seeds"], [1, 2], "seeds")
+    check_equal(told["orders"][0]["pairs"], 22, "pairs of neighbours")
+
+
+@case
+def the_conveyor_still_runs_as_any_scenario(context):
+    folder = context.simulate("conveyor", "--no-page")
+    summary = read_json(folder / "summary.json")
+    check_equal({tag["verdict"] for tag in summary["tags"]} & {"located"}, set(),
+                "verdicts of moving tags")
+
+
+@case
+def bad_input_is_told_in_one_line(context):
+    reads = context.write("reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
+                                       "1,a,t,865.7e6,1,-50\n")
+    poses = context.write("poses.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n"
+                                       "0,a,0,0,1,0,0,0,1\n")
+    for arguments, says in (
+            ((reads,), "track: reads as CSV need --poses FILE"),
+            ((reads, "--poses", poses, "--seeds", 2), "--seeds goes with a scenario only"),
+            ((reads, "--poses", poses, "--both-ways"), "--both-ways goes with a lane only"),
+            ((reads, "--poses", poses, "--speed", 3, 1), "the least speed, 3 m/s, is over"),
+            ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
+            ((context.shipped("conveyor"), "--poses", poses), "go with reads"),
+            ((context.shipped("conveyor"), "--set", "tracking.lane.width=1"), "width"),
+            ((context.shipped("conveyor"), "--set", "tracking.method=kalman"), "tracking.method")):
+        result = context.run("track", *arguments, "--out", context.folder / "bad")
+        check_equal(result.code, 2, f"exit code of {arguments}")
+        check_in(says, result.err, f"{arguments}")
+        check_equal(result.err.count("\n"), 1, f"lines of {result.err!r}")
+        check(not (context.folder / "bad").exists(), f"{arguments} leaves a folder")
+    folder = track(context, reads, "--poses", poses)
+    check_in("1 usable read, at least 12", (folder / "verdicts.csv").read_text(), "verdicts.csv")
+
+
+@case
+def help_teaches(context):
+    result = context.run_well("track", "--help")
+    for word in ("READS", "--lane", "--line", "--speed", "--method", "ekf", "particle", "--seeds",
+                 "tracks.csv", "order.csv", "mirror image", "--acceleration-noise"):
+        check_in(word, result.out, "track --help")
+
+
+if __name__ == "__main__":
+    main()
