@@ -215,8 +215,7 @@ Dataset read_dataset_csv(const std::string& path, const DatasetForm& form) {
     read.tag = without_spaces(table.text(row, tag));
     read.frequency_hz = frequency.read(row);
     read.phase_rad = wrap_to_two_pi(turn * table.number(row, phase));
-    read.rssi_dbm =
-        rssi ? form.decibels * table.number(row, *rssi) : std::numeric_limits<double>::quiet_NaN();
+    read.rssi_dbm = rssi ? form.decibels * table.number(row, *rssi) : kUnknownRssi;
     if (position) poses.add(read.stamp, read.antenna, position->read(row));
     dataset.reads.push_back(std::move(read));
   }

@@ -36,7 +36,8 @@ TEST(PosesToCsv, WritesADocumentedRow) {
 
 TEST(PosesCsv, KeepsCovariancesWhereTheyAreTold) {
   AntennaPose told = {Time(Duration(1)), "a", from_translation({1.0, 2.0, 3.0})};
-  told.covariance << 4.0, 0.1, 0.2, 0.1, 5.0, 0.3, 0.2, 0.3, 6.0;
+  told.covariance.emplace();
+  *told.covariance << 4.0, 0.1, 0.2, 0.1, 5.0, 0.3, 0.2, 0.3, 6.0;
   AntennaPose untold = told;
   untold.covariance.reset();
   const auto poses = poses_of(poses_to_csv({told, untold}));
