@@ -17,6 +17,9 @@ namespace {
 /// long that took.
 constexpr double kStillDistance = 0.01;
 
+/// Lower carriers [Hz] are none: some were given in MHz.
+constexpr double kLowestCarrier = 1e6;
+
 bool is_finite(const AntennaPose& pose) {
   return pose.X_WA.translation.allFinite() && pose.X_WA.rotation.coeffs().allFinite() &&
          (!pose.covariance || pose.covariance->allFinite());
@@ -24,7 +27,7 @@ bool is_finite(const AntennaPose& pose) {
 
 bool is_usable(const TagRead& read) {
   return std::isfinite(read.phase_rad) && std::isfinite(read.frequency_hz) &&
-         read.frequency_hz > 0.0;
+         read.frequency_hz >= kLowestCarrier;
 }
 
 /// In order of time, the first of those with equal stamps kept; how many were dropped.

@@ -72,10 +72,6 @@ std::string spoken_method(const std::string& method) {
   return method;
 }
 
-std::string method_choice(const Summary& summary) {
-  return summary.method_why.empty() ? "" : "by itself: " + summary.method_why;
-}
-
 std::string spoken_pose(const std::string& pose) {
   if (pose == "true") return "the true antenna poses";
   if (pose == "noisy") return "true poses with an error added";
@@ -173,7 +169,7 @@ std::string compared_pose_text(const Summary& summary) {
 std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
   html += fact("Method", spoken_method(summary.method));
-  html += fact("Method chosen", method_choice(summary));
+  html += fact("Chosen by " + summary.method_asked, summary.method_why);
   html += fact("Antenna poses", spoken_pose(summary.pose));
   if (summary.pose_error && summary.pose != "slam") {  // There nothing was stated.
     html += fact("Stated pose error",

@@ -107,7 +107,7 @@ def good_methods_locate(context):
                                               method, "--pose-sigma", "0")
         check_located(estimates, TAGS, method)
         check_equal(summary["warnings"], [], f"{method}: warnings")
-        check_in("1080 reads of 3 tags by 1 antenna\n", result.out, "what is printed")
+        check_in("1,080 reads of 3 tags by 1 antenna\n", result.out, "what is printed")
 
 
 @case
@@ -120,7 +120,7 @@ def auto_says_what_it_took_and_why(context):
                  "what is printed")
         check(result.out.index("method:") < result.out.index("x [m]"), "not above the table")
         page = (context.folder / "out/report.html").read_text(encoding="utf-8")
-        check_in("by itself: the pose", page, "the page")
+        check_in("<dt>Chosen by auto</dt><dd>the pose is", page, "the page")
     _, _, summary = localize(context, read_rows(TAGS), pose_rows(), "--method", "ml")
     check_equal((summary["method_asked"], summary["method_why"]), ("ml", ""), "asked by name")
 
@@ -207,7 +207,7 @@ def bad_words_for_what_is_known(context):
                         (["--height", "above", "--tag-height", "1"], "--height"),
                         (["--offset", "half"], "expected RAD or ANTENNA=RAD"),
                         (["--offset", "a=nan"], "expected RAD or ANTENNA=RAD"),
-                        (["--offset", "b=1"], "no reads of antenna 'b' (known: a)"),
+                        (["--offset", "b=1"], "no reads of antenna 'b' (did you mean 'a'?)"),
                         (["--pose-sigma", "-1"], "--pose-sigma"),
                         (["--pose-sigma", "nan"], "pose"),
                         (["--pose-yaw-sigma", "1"], "--pose-sigma"),
@@ -295,6 +295,7 @@ def several_carriers(context):
     for method in METHODS:
         result, estimates, _ = localize(context, in_megahertz, pose_rows(), "--method", method,
                                         "--pose-sigma", "0")
+        check_in("6 of 1080 reads have no usable phase or carrier", result.err, method)
         check_in("frequency_hz goes from 865.7 to 8.657e+08: is all of it in Hz?", result.err,
                  f"{method}: the warning")
         check_located(estimates, ("one", "two"), method)

@@ -12,13 +12,13 @@ from common import (SPEED_OF_LIGHT, case, check, check_between, check_equal, che
 
 POSE_NOISE = ("--set", "pose.source=noisy", "--set", "pose.sigma_m=0.01",
               "--set", "pose.yaw_sigma_deg=0.5")
-SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "pose", "complete", "path_length_m",
-                "reads", "simulated_s", "wall_s", "real_time_factor", "pose_error",
-                "compared_pose", "navigation", "effects", "tags", "error_m", "over_0_3_m", "located",
-                "ambiguous", "not_located", "warnings"}
+SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "method_asked", "method_why", "pose",
+                "complete", "path_length_m", "reads", "simulated_s", "wall_s", "real_time_factor",
+                "pose_error", "compared_pose", "compared_methods", "navigation", "effects", "tags",
+                "error_m", "over_0_3_m", "located", "ambiguous", "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",
-            "candidates_expected_error_m", "reads", "reads_used"}
+            "candidates_expected_error_m", "reads", "reads_used", "reference"}
 RUN_FILES = {"reads.csv", "antenna_poses.csv", "estimates.csv", "summary.json", "report.html",
              "truth/antenna_poses.csv", "truth/robot_poses.csv", "truth/tags.csv",
              "truth/distances.csv"}
@@ -150,7 +150,7 @@ def check_statistics(summary):
         check_equal(summary[verdict], count, f"summary.{verdict}")
 
 
-def check_summary(folder):
+def check_summary(folder, method="hyperbola"):
     """Checks summary.json against itself and the other files, and gives it back."""
     summary = read_json(folder / "summary.json")
     check_equal(set(summary), SUMMARY_KEYS, "keys of summary.json")
@@ -158,7 +158,7 @@ def check_summary(folder):
         check_tag_outcome(tag)
     check_statistics(summary)
     check_equal(summary["complete"], True, "complete")
-    check_equal(summary["method"], "hyperbola", "method")
+    check_equal(summary["method"], method, "method")
     check_equal(summary["compared_pose"], None, "compared_pose where poses are of one kind")
     check(summary["wall_s"] > 0.0, f"wall_s is {summary['wall_s']}")
     simulated_s = summary["simulated_s"] + (summary["navigation"] or {}).get("mapping_s", 0.0)
@@ -285,11 +285,32 @@ def check_navigation(summary):
     return navigation
 
 
+def check_methods(folder, summary):
+    """The pose's error estimated with the tags, beside the paper's method."""
+    check_equal(summary["method_asked"], "auto", "method_asked")
+    check_in("the pose is not exact", summary["method_why"], "method_why")
+    joint, hyperbola = summary["compared_methods"]
+    check_equal((joint["method"], hyperbola["method"]), ("joint", "hyperbola"), "methods compared")
+    check_equal(joint["error_m"], summary["error_m"], "error_m of the method that was used")
+    aligned = joint["aligned_error_m"]["mean"]
+    check(aligned < 0.5 * hyperbola["aligned_error_m"]["mean"],
+          f"aligned, joint is off by {aligned}, hyperbola by {hyperbola['aligned_error_m']['mean']}")
+    check(summary["pose_error"]["corrected_rms_m"] < summary["pose_error"]["position_rms_m"],
+          "the corrected pose is no closer to the truth")
+    check_equal(len(read_csv(folder / "corrected_poses.csv")),
+                len(read_csv(folder / "antenna_poses.csv")), "rows of corrected_poses.csv")
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    for words in ("<h2>Methods</h2>", "After the best rigid alignment", ">joint</th>",
+                  ">hyperbola</th>", "<dt>Chosen by auto</dt><dd>the pose is not exact"):
+        check(words in page, f"the page lacks {words!r}")
+
+
 @case
 def paper_warehouse_slam(context):
     folder = context.simulate("paper_warehouse_slam")
-    summary = check_summary(folder)
+    summary = check_summary(folder, "joint")
     check_navigation(summary)
+    check_methods(folder, summary)
     check_equal(summary["located"], 10, "located")
     check_between(summary["error_m"]["mean"], 0.0, 0.060, "mean error with the robot's own pose")
     check_between(summary["pose_error"]["error_with_true_pose_m"]["mean"], 0.0, 0.015,
@@ -300,7 +321,7 @@ def paper_warehouse_slam(context):
                     f"{name} of the same seed on one thread")
     on_map = context.simulate("paper_warehouse_slam", "--seeds", "3", "--set",
                               f"navigation.map={folder / 'map.yaml'}", name="slam_on_map")
-    given = check_navigation(check_summary(on_map))
+    given = check_navigation(check_summary(on_map, "joint"))
     check_equal(given["mapping_s"], 0.0, "mapping_s with a map given")
     check_equal(given["goals"], 15, "goals of three seeds")
 
@@ -527,7 +548,8 @@ def report_twice_gives_the_same_bytes(context):
 
 def localize(context, folder, out):
     context.run_well("localize", folder / "reads.csv", "--poses", folder / "antenna_poses.csv",
-                     "--tag-heights", folder / "tag_heights.csv", "--out", out)
+                     "--tag-heights", folder / "tag_heights.csv", "--method", "hyperbola",
+                     "--out", out)
     return out
 
 
