@@ -550,7 +550,7 @@ def arguments(context):
     run = ["run", path, "--out", stranger(context)]
     localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
     for command, says in (
-            ([], "expected run, localize, report, check, explain, coverage or gazebo"),
+            ([], "expected run, localize, report, check, explain, coverage, bench or gazebo"),
             (["ran"], "ran"), (["frobnicate", path], "frobnicate"),
             (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),
