@@ -54,9 +54,10 @@ TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
                            {pose_at_x(1.0, 0.0), pose_at_x(3.0, 1.0)}, diagnostics);
   EXPECT_EQ(joined.at("t").at("a").size(), 1u);  // that at 1.0: 2.0 lies in a gap of 2 s
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
-  EXPECT_EQ(diagnostics.warnings()[0],
-            "antenna 'a': 3 of 4 reads have no pose at their stamp and are left out: reads are from "
-            "0.900 to 3.100 s, poses from 1.000 to 3.000 s");
+  EXPECT_EQ(
+      diagnostics.warnings()[0],
+      "antenna 'a': 3 of 4 reads have no pose at their stamp and are left out: reads are from "
+      "0.900 to 3.100 s, poses from 1.000 to 3.000 s");
 }
 
 TEST(Join, SaysHowFarTwoClocksAreApart) {
