@@ -82,17 +82,4 @@ Calibration read_calibration(const std::string& path) {
   return calibration;
 }
 
-std::map<std::string, Eigen::Vector3d> read_tag_places_csv(const std::string& path) {
-  const CsvTable table = read_csv(path);
-  const std::size_t tag = table.column("tag");
-  const auto columns = table.position_columns();
-  std::map<std::string, Eigen::Vector3d> places;
-  for (const CsvRow& row : table.rows) {
-    if (!places.emplace(table.text(row, tag), table.position(row, columns)).second) {
-      fail({path, row.line}, fmt::format("tag '{}' stands here twice", row.fields[tag]));
-    }
-  }
-  return places;
-}
-
 }  // namespace tagfield

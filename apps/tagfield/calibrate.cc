@@ -11,6 +11,7 @@
 #include "tagfield/stream/files.h"
 #include "tagfield/stream/poses_csv.h"
 #include "tagfield/stream/reads_csv.h"
+#include "tagfield/stream/tag_places_csv.h"
 
 namespace tagfield {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -49,6 +50,9 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
   if (!arguments.method.empty()) options.method = arguments.method;
+  if (arguments.stride_m && !std::isfinite(*arguments.stride_m)) {
+    throw Error("localize: --stride must be finite");
+  }
   if (arguments.stride_m) options.settings.hyperbola.stride_m = *arguments.stride_m;
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
