@@ -17,6 +17,14 @@ TagPhases without_known_offsets(TagPhases phases) {
   return phases;
 }
 
+/// Whether the antenna's places are so uncertain that whole cycles can't be told between stretches:
+/// a deviation of over λ/24 turns the phase by half a radian, and four of those by a third of a
+/// turn.
+bool loses_cycles(const TagPhases& phases) {
+  constexpr double kMost = 1.0 / 12.0;  // Of λ/2.
+  return phases.pose_error && phases.pose_error->sigma_m > kMost * phases.cycle.maxCoeff();
+}
+
 /// The best fit from any of the starts around `fit`.
 TagFit best_around(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
                    const Eigen::Matrix3d& covariance) {
@@ -60,8 +68,14 @@ TagEstimate locate_by_likelihood(const LocalizationProblem& problem, const std::
   const UnwrappedFit unwrapped = fit_unwrapped(problem, tag, samples);
   if (!unwrapped.why_not.empty()) return not_located(std::move(estimate), unwrapped.why_not);
   const TagPhases phases = wrapped_phases(problem, samples, unwrapped.antennas);
-  estimate.reads = static_cast<std::size_t>(phases.size());
-  estimate.candidates = make_candidates(phases, unwrapped.height, wrapped_fits(unwrapped, phases));
+  if (loses_cycles(phases)) {
+    estimate.reads = static_cast<std::size_t>(unwrapped.phases.size());
+    estimate.candidates = make_candidates(unwrapped.phases, unwrapped.height, unwrapped.fits);
+  } else {
+    estimate.reads = static_cast<std::size_t>(phases.size());
+    estimate.candidates =
+        make_candidates(phases, unwrapped.height, wrapped_fits(unwrapped, phases));
+  }
   judge(problem.limits, estimate);
   return estimate;
 }

@@ -62,6 +62,7 @@ TEST(NeighbourDifferences, TellTheNoiseUnderSlowErrors) {
   made::Noise noise;
   noise.phase_rad = 0.2;
   noise.pose_m = 0.03;
+  noise.pose_time = 60.0;
   const made::Hall hall = made::hall(made::s_curve(20.0, 0.02), 1, noise, rng);
   const Fitted of = fitted(hall);
   const auto errors = residuals_of(of.phases, of.height, of.fit);

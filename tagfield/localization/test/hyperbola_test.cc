@@ -265,8 +265,10 @@ TEST(Hyperbola, AnAntennaThatAlsoMovesUpAndDownLocates) {
 
 TEST(Hyperbola, WhatCannotBeLocatedSaysWhy) {
   Rng rng(14);
-  EXPECT_EQ(locate({}, 0.4).reason, "cannot localize: no reads");
-  EXPECT_EQ(locate({{"a", {}}}, 0.4).reason, "cannot localize: no reads");
+  EXPECT_EQ(locate({}, 0.4).reason,
+            "cannot localize: no reads that have an antenna pose and a phase");
+  EXPECT_EQ(locate({{"a", {}}}, 0.4).reason,
+            "cannot localize: no reads that have an antenna pose and a phase");
   const Path still(50, Eigen::Vector3d(1.0, 1.0, 0.4));
   const auto samples = read_along(still, {2.0, 2.0, 0.4}, Noise{}, rng);
   const TagEstimate estimate = locate({{"a", samples}}, 0.4);

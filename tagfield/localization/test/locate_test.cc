@@ -112,7 +112,7 @@ TEST(Locate, ATagWithoutPosesIsListedWithItsReason) {
   ASSERT_EQ(estimates.size(), 2u);
   EXPECT_EQ(estimates[1].tag, "zebra");
   EXPECT_EQ(estimates[1].verdict, Verdict::kNotLocated);
-  EXPECT_EQ(estimates[1].reason, "cannot localize: no reads");
+  EXPECT_EQ(estimates[1].reason, "cannot localize: no reads that have an antenna pose and a phase");
   EXPECT_EQ(diagnostics.warnings().size(), 1u);
 }
 

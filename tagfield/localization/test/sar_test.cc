@@ -242,8 +242,8 @@ TEST(Sar, WhatCannotBeLocatedSaysWhy) {
   const auto why = [](const SamplesOfTag& samples) {
     return locate_one(sar(), one_tag(samples, 0.4)).reason;
   };
-  EXPECT_EQ(why({}), "cannot localize: no reads");
-  EXPECT_EQ(why({{"a", {}}}), "cannot localize: no reads");
+  EXPECT_EQ(why({}), "cannot localize: no reads that have an antenna pose and a phase");
+  EXPECT_EQ(why({{"a", {}}}), "cannot localize: no reads that have an antenna pose and a phase");
   const auto still = read_along(Path(50, {1.0, 1.0, 0.4}), {2.0, 2.0, 0.4}, Noise{}, rng);
   EXPECT_EQ(why({{"a", still}}), "cannot localize: the antenna moved only 0.00 m");
   EXPECT_EQ(why({{"a", {still[0]}}}), "cannot localize: only 1 reads, at least 8 are needed");

@@ -112,7 +112,7 @@ TEST(Trilateration, SaysWhatIsMissing) {
   const auto why = [](const SamplesOfTag& samples) {
     return locate_one(trilateration_method({}), one_tag(samples, 0.4)).reason;
   };
-  EXPECT_EQ(why({}), "cannot localize: no reads");
+  EXPECT_EQ(why({}), "cannot localize: no reads that have an antenna pose");
   auto samples = read_with_rssi(straight(8.0, 0.02), {4.0, 2.0, 0.4}, {}, rng);
   for (PhaseSample& s : samples) s.rssi_dbm = kNoRssi;
   EXPECT_EQ(why({{"a", samples}}), "cannot localize: no read has an RSSI");
