@@ -108,7 +108,9 @@ TEST(RunSeeds, ReferenceTagsHaveNoError) {
   const auto runs = run_seeds(scenario, 1, 1, {}, diagnostics);
   for (const TagOutcome& outcome : runs[0].outcomes) {
     EXPECT_EQ(outcome.reference, outcome.estimate.tag == "near");
-    if (outcome.reference) EXPECT_FALSE(error_of(outcome));
+    if (outcome.reference) {
+      EXPECT_FALSE(error_of(outcome));
+    }
   }
 }
 

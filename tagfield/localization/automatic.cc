@@ -17,8 +17,9 @@ constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
 
+/// Of an even number the lesser: one odd tag of two is no sign of reflections.
 double median(std::vector<double> values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), half, values.end());
   return *half;
 }
