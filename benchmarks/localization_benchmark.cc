@@ -41,10 +41,12 @@ LocalizationProblem one_tag() {
 /// For those that need them: four reference tags around it, as well read.
 void add_reference_tags(LocalizationProblem& problem) {
   const std::vector<PhaseSample> samples = problem.samples.at("tag").at("antenna");
-  for (int k = 0; k < 4; ++k) {
-    const std::string id = "reference" + std::to_string(k);
-    problem.reference_tags[id] = {5.0 + k % 2, 2.0 + k / 2, 0.9};
-    problem.samples[id]["antenna"] = samples;
+  for (const double x : {5.0, 6.0}) {
+    for (const double y : {2.0, 3.0}) {
+      const std::string id = "reference" + std::to_string(problem.reference_tags.size());
+      problem.reference_tags[id] = {x, y, 0.9};
+      problem.samples[id]["antenna"] = samples;
+    }
   }
 }
 

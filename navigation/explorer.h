@@ -48,9 +48,9 @@ class Explorer {
   ExplorerOptions options_;
   PlanarPose start_M_;
   Stage stage_ = Stage::kFrontiers;
-  std::vector<Look> looks_;   ///< That were taken.
-  std::optional<Look> look_;  ///< On the way to it, or there.
-  int turns_ = 0;             ///< Taken at the present look.
+  std::vector<Viewpoint> looks_;   ///< That were taken.
+  std::optional<Viewpoint> look_;  ///< On the way to it, or there.
+  int turns_ = 0;                  ///< Taken at the present look.
 };
 
 }  // namespace tagfield

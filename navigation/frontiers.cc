@@ -202,32 +202,34 @@ double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vecto
   return length;
 }
 
-bool is_same(const Look& a, const Look& b) {
+bool is_same(const Viewpoint& a, const Viewpoint& b) {
   const bool same_place = (position_of(a.from_M) - position_of(b.from_M)).norm() < kSamePlace;
   const double turned = std::abs(wrap_to_pi(a.from_M.yaw - b.from_M.yaw));
   return (a.at_M - b.at_M).norm() < kSamePlace || (same_place && turned < kSameDirection);
 }
 
 /// From where to look at the frontier's cell `target`; none where that was done.
-std::optional<Look> new_look(const Reach& reach, const Eigen::Vector2i& target,
-                             const std::vector<Look>& looks) {
+std::optional<Viewpoint> new_look(const Reach& reach, const Eigen::Vector2i& target,
+                                  const std::vector<Viewpoint>& looks) {
   const OccupancyGrid& grid = reach.seen;
   const Eigen::Vector2d at = grid.centre_of(target.x(), target.y());
-  const auto was_there = [&](const Look& look) { return (look.at_M - at).norm() < kSamePlace; };
+  const auto was_there = [&](const Viewpoint& look) {
+    return (look.at_M - at).norm() < kSamePlace;
+  };
   if (std::any_of(looks.begin(), looks.end(), was_there)) return std::nullopt;
   const std::optional<Eigen::Vector2i> place = standing_place(reach, target);
   if (!place) return std::nullopt;
   const Eigen::Vector2d from = grid.centre_of(place->x(), place->y());
-  const Look look{{from.x(), from.y(), std::atan2(at.y() - from.y(), at.x() - from.x())}, at};
-  const auto is_known = [&](const Look& other) { return is_same(look, other); };
+  const Viewpoint look{{from.x(), from.y(), std::atan2(at.y() - from.y(), at.x() - from.x())}, at};
+  const auto is_known = [&](const Viewpoint& other) { return is_same(look, other); };
   if (std::any_of(looks.begin(), looks.end(), is_known)) return std::nullopt;
   return look;
 }
 
 std::optional<Frontier> frontier_of(const Reach& reach, const Cells& cells,
-                                    const std::vector<Look>& looks) {
+                                    const std::vector<Viewpoint>& looks) {
   const OccupancyGrid& grid = reach.seen;
-  std::optional<Look> look = new_look(reach, middle_of(cells), looks);
+  std::optional<Viewpoint> look = new_look(reach, middle_of(cells), looks);
   // Where its middle can't be seen, a part of it may.
   for (std::size_t i = 0; i < cells.size() && !look; i += kCellsBetweenTries) {
     look = new_look(reach, cells[i], looks);
@@ -264,7 +266,7 @@ bool has_frontier_near(const OccupancyGrid& map, const Eigen::Vector2d& p_M, dou
 }
 
 std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& drivable,
-                                const PlanarPose& pose_M, const std::vector<Look>& looks,
+                                const PlanarPose& pose_M, const std::vector<Viewpoint>& looks,
                                 const FrontierOptions& options) {
   if (map.width != drivable.width || map.height != drivable.height) {
     throw Error("a map and where to drive on it differ in size");

@@ -19,7 +19,7 @@ struct FrontierOptions {
 };
 
 /// A look at a place.
-struct Look {
+struct Viewpoint {
   PlanarPose from_M;     ///< Where to stand, with the place ahead.
   Eigen::Vector2d at_M;  ///< The place.
 };
@@ -27,7 +27,7 @@ struct Look {
 /// A frontier is a connected row of free cells beside unknown ones that the robot could see into
 /// (Yamauchi, 1997).
 struct Frontier {
-  Look look;            ///< At its middle, or a part that can be seen.
+  Viewpoint look;       ///< At its middle, or a part that can be seen.
   double size_m = 0.0;  ///< Its length.
   double way_m = 0.0;   ///< Length of the way to where to look from.
 };
@@ -38,7 +38,7 @@ struct Frontier {
 /// looks from where there was one in nearly the same direction: `looks` that did not close a
 /// frontier won't. Throws Error on maps of different size.
 std::vector<Frontier> frontiers(const OccupancyGrid& map, const OccupancyGrid& drivable,
-                                const PlanarPose& pose_M, const std::vector<Look>& looks,
+                                const PlanarPose& pose_M, const std::vector<Viewpoint>& looks,
                                 const FrontierOptions& options);
 
 /// Whether a free cell within `reach_m` along x and y of the finite `p_M` has an unknown neighbour.

@@ -14,7 +14,7 @@
 namespace tagfield {
 
 /// An antenna looked for tags then, and may have read some.
-struct AntennaUpdate {
+struct RecordedUpdate {
   Time stamp;
   std::string antenna;
   std::string frame;  ///< The antenna's, in tf; may be "".
@@ -32,7 +32,7 @@ struct StampedTransform {
 /// In the order of receipt.
 struct BagContent {
   std::vector<TagRead> reads;  ///< Phases as recorded.
-  std::vector<AntennaUpdate> updates;
+  std::vector<RecordedUpdate> updates;
   std::vector<StampedTransform> transforms;
   std::vector<AntennaPose> given_poses;  ///< Those that came with a TagArray's reads.
   Truth truth;

@@ -158,7 +158,7 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   }
   sort_by_stamp(content.updates);
   keep_first(content.updates,
-             [](const AntennaUpdate& update) { return std::tuple(update.stamp, update.antenna); });
+             [](const RecordedUpdate& update) { return std::tuple(update.stamp, update.antenna); });
   TransformedPoses found =
       poses_from_transforms(std::move(content.transforms), content.updates, options.frames);
   if (!found.poses.empty() && found.frame == recording.truth_frame) {

@@ -18,7 +18,7 @@ namespace {
 class TransformClock {
  public:
   TransformClock(const std::vector<StampedTransform>& transforms,
-                 const std::vector<AntennaUpdate>& updates) {
+                 const std::vector<RecordedUpdate>& updates) {
     Time first = Time::max();
     Time last = Time::min();
     const auto take = [&](Time stamp) {
@@ -28,7 +28,7 @@ class TransformClock {
     for (const StampedTransform& transform : transforms) {
       if (!transform.is_static) take(transform.stamp);
     }
-    for (const AntennaUpdate& update : updates) take(update.stamp);
+    for (const RecordedUpdate& update : updates) take(update.stamp);
     if (first > last) first = last = Time{};
     zero_ = first - std::chrono::seconds(1);
     span_s_ = std::chrono::duration_cast<std::chrono::seconds>(last - first).count();
@@ -174,7 +174,7 @@ TransformedPoses chosen(std::vector<TransformedPoses> in_frames, const Counts& u
 }  // namespace
 
 TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
-                                       const std::vector<AntennaUpdate>& updates,
+                                       const std::vector<RecordedUpdate>& updates,
                                        const std::vector<std::string>& frames) {
   const TransformClock clock(transforms, updates);
   RisingBuffer buffer(std::move(transforms), clock);
@@ -183,7 +183,7 @@ TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
     if (buffer.knows(frame)) in_frames.push_back({frame, "tf", {}});
   }
   Counts counts;
-  for (const AntennaUpdate& update : updates) {
+  for (const RecordedUpdate& update : updates) {
     if (!buffer.knows(update.frame)) continue;
     buffer.go_to(update.stamp);
     ++counts[update.antenna];

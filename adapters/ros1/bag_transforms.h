@@ -20,7 +20,7 @@ struct TransformedPoses {
 /// the first of `frames` that can express every antenna whose frame tf knows in half of its updates
 /// or more; where none can, in the one that can express most. `updates` must be in order of time.
 TransformedPoses poses_from_transforms(std::vector<StampedTransform> transforms,
-                                       const std::vector<AntennaUpdate>& updates,
+                                       const std::vector<RecordedUpdate>& updates,
                                        const std::vector<std::string>& frames);
 
 }  // namespace tagfield

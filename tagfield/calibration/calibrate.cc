@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/half_turns.h"
@@ -161,19 +162,10 @@ struct Fit {
   double cost = 0.0;
 };
 
-double median_size(const std::vector<double>& values) {
-  std::vector<double> sizes;
-  for (const double value : values) sizes.push_back(std::abs(value));
-  if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
-}
-
 double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
   const auto count = static_cast<double>(residuals.size());
   const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  return std::max(kLeastNoise, median_size(residuals) / 0.6745 * std::sqrt(count / freedom));
+  return std::max(kLeastNoise, sigma_by_median(residuals) * std::sqrt(count / freedom));
 }
 
 Fit fitted(Model model, const Fit& start) {

@@ -18,7 +18,7 @@ constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leave
 constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
 
 /// Of an even number the lesser: one odd tag of two is no sign of reflections.
-double median(std::vector<double> values) {
+double lesser_median(std::vector<double> values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), half, values.end());
   return *half;
@@ -100,7 +100,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
     if (look.misfit >= 0.0) misfits.push_back(look.misfit);
   }
   traits.reads_a_stretch = stretches > 0.0 ? reads / stretches : 0.0;
-  traits.misfit = misfits.empty() ? 0.0 : median(std::move(misfits));
+  traits.misfit = misfits.empty() ? 0.0 : lesser_median(std::move(misfits));
   return traits;
 }
 

@@ -186,7 +186,7 @@ std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& he
 std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& height,
                                  const FitData& layout, const std::vector<PlaceVector>& places,
                                  bool go_up) {
-  const std::vector<Maximum> starts = distinct(phases, height, places);
+  std::vector<Maximum> starts = distinct(phases, height, places);
   if (starts.empty()) return starts;
   const double least = kWorthWhile * starts.front().coherence;
   std::vector<PlaceVector> tops = finished(phases, height, places, least, go_up);
@@ -246,7 +246,7 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
                        const PlaceVector& place) {
   const TagFit fit = fit_at(phases, height, place);
-  return make_candidate(phases, height, fit, honest_covariance(phases, height, fit));
+  return make_candidate(phases, height, fit);
 }
 
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,

@@ -52,8 +52,10 @@ void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
   static_assert(kSide * kSide == kTile);
   for (int i = 0; i < kTile; ++i) {
     // One of the places is `p` itself.
-    x[i] = static_cast<float>(p.x() + spacing * (i % kSide - kSide / 2));
-    y[i] = static_cast<float>(p.y() + spacing * (i / kSide - kSide / 2));
+    const int column = i % kSide - kSide / 2;
+    const int row = i / kSide - kSide / 2;
+    x[i] = static_cast<float>(p.x() + spacing * column);
+    y[i] = static_cast<float>(p.y() + spacing * row);
   }
 }
 

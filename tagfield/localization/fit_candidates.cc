@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tagfield/base/median.h"
 #include "tagfield/localization/residuals.h"
 
 namespace tagfield {
@@ -14,15 +15,6 @@ namespace {
 constexpr double kAnything = 1e12;  // [m²]
 constexpr double kSame = 0.03;      ///< Fits nearer than this are one [m].
 constexpr std::size_t kMost = 8;    ///< Candidates of one tag.
-
-/// Only the spans matter to residuals.h besides the residuals.
-FitData spans_of(const TagPhases& phases) {
-  FitData data;
-  for (const TagPhases::Span& span : phases.spans) {
-    data.spans.push_back({span.begin, span.count, 0.0});
-  }
-  return data;
-}
 
 double mean_square_wavenumber(const TagPhases& phases) { return phases.wavenumber.square().mean(); }
 
@@ -124,6 +116,14 @@ Eigen::Matrix3d scatter_of(const std::vector<Pull>& pulls, const PoseErrorModel&
 
 }  // namespace
 
+FitData spans_of(const TagPhases& phases) {
+  FitData data;
+  for (const TagPhases::Span& span : phases.spans) {
+    data.spans.push_back({span.begin, span.count, 0.0});
+  }
+  return data;
+}
+
 std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::ArrayXd& errors) {
   std::vector<double> differences;
   for (const TagPhases::Span& span : phases.spans) {
@@ -137,9 +137,7 @@ std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::
 
 double noise_of_differences(std::vector<double> differences) {
   constexpr double kLeast = 1e-3;
-  const auto half = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), half, differences.end());
-  return std::max(*half / (0.6745 * std::sqrt(2.0)), kLeast);
+  return std::max(sigma_by_median(std::move(differences)) / std::sqrt(2.0), kLeast);
 }
 
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
@@ -166,14 +164,21 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
   return of_unknowns(height, noise * inverse_of(normal).value_or(anything));
 }
 
-Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
-                         const Eigen::Matrix3d& covariance) {
+Candidate make_candidate(const HeightModel& height, const PlaceVector& unknowns,
+                         const Eigen::Matrix3d& covariance, double rms_m) {
+  constexpr double kMostError = 1e6;  // [m]
   Candidate candidate;
-  candidate.p_WT = to_place(height, fit.unknowns);
-  candidate.rms_m = std::sqrt(residuals_of(phases, height, fit).square().mean());
-  candidate.covariance = to_place_covariance(height, fit.unknowns, covariance);
-  candidate.expected_error_m = std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), 1e6);
+  candidate.p_WT = to_place(height, unknowns);
+  candidate.rms_m = rms_m;
+  candidate.covariance = to_place_covariance(height, unknowns, covariance);
+  candidate.expected_error_m =
+      std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), kMostError);
   return candidate;
+}
+
+Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  const double rms_m = std::sqrt(residuals_of(phases, height, fit).square().mean());
+  return make_candidate(height, fit.unknowns, honest_covariance(phases, height, fit), rms_m);
 }
 
 std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightModel& height,
@@ -185,8 +190,7 @@ std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightMode
   for (const TagFit& fit : kept) {
     const bool is_first = candidates.empty();
     if (!is_first && tells_apart(data, best, residuals_of(phases, height, fit))) continue;
-    candidates.push_back(
-        make_candidate(phases, height, fit, honest_covariance(phases, height, fit)));
+    candidates.push_back(make_candidate(phases, height, fit));
   }
   return candidates;
 }

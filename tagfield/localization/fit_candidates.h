@@ -5,10 +5,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "tagfield/localization/segment_fit.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/localization/tag_fit.h"
 
 namespace tagfield {
+
+/// The spans alone, which is all that residuals.h takes besides the residuals.
+FitData spans_of(const TagPhases& phases);
 
 /// Covariance of the unknowns of a fit [m², q in m⁴]: σ² τ N⁻¹, with the residuals' variance σ² and
 /// their correlation factor τ (residuals.h). Rows of a known height are 0. Singular geometry gives
@@ -30,9 +34,12 @@ std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::
 /// the median magnitude is 0.6745 √2 σ.
 double noise_of_differences(std::vector<double> differences);
 
-/// A candidate of that place, with this covariance of the unknowns.
-Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit,
-                         const Eigen::Matrix3d& covariance);
+/// A candidate at `unknowns` with their covariance and the misfit `rms_m`.
+Candidate make_candidate(const HeightModel& height, const PlaceVector& unknowns,
+                         const Eigen::Matrix3d& covariance, double rms_m);
+
+/// A candidate of a fit, with its honest_covariance().
+Candidate make_candidate(const TagPhases& phases, const HeightModel& height, const TagFit& fit);
 
 /// The best fit and those that the data can't tell from it (tells_apart()), best first. `fits` must
 /// not be empty.

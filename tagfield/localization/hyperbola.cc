@@ -62,7 +62,7 @@ Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double
   TagFit fit;
   fit.unknowns = {p.x(), p.y(), 0.0};
   fit.offsets = offsets_at(phases, known, fit.unknowns);
-  return make_candidate(phases, known, fit, honest_covariance(phases, known, fit));
+  return make_candidate(phases, known, fit);
 }
 
 }  // namespace

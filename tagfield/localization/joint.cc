@@ -1,10 +1,5 @@
 #include "tagfield/localization/joint.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "tagfield/base/parallel.h"
-#include "tagfield/base/units.h"
 #include "tagfield/localization/internal/joint_state.h"
 #include "tagfield/localization/judgement.h"
 
@@ -17,14 +12,7 @@ TagEstimate estimate_of(const JointState& state, const JointCovariance& covarian
   TagEstimate estimate;
   estimate.tag = tag.id;
   estimate.reads = static_cast<std::size_t>(tag.phases.size());
-  if (tag.fixed) return reference_estimate(tag.id, to_place(tag.height, tag.fit.unknowns));
-  Candidate candidate;
-  candidate.p_WT = to_place(tag.height, tag.fit.unknowns);
-  candidate.rms_m = residual_rms(state.system, index);
-  const Eigen::Matrix3d& of_unknowns = covariance.of_tag[index];
-  candidate.covariance = to_place_covariance(tag.height, tag.fit.unknowns, of_unknowns);
-  candidate.expected_error_m = std::min(std::sqrt(of_unknowns.topLeftCorner<2, 2>().trace()), 1e6);
-  estimate.candidates = {candidate};
+  estimate.candidates = {candidate_of(state.system, index, covariance.of_tag[index])};
   for (const Candidate& other : state.alternatives[index]) estimate.candidates.push_back(other);
   judge(state.problem->limits, estimate);
   return estimate;
@@ -47,7 +35,7 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
     by_tag[state.system.tags[i].id] = estimate_of(state, covariance, i);
   }
   for (auto& [tag, estimate] : by_tag) {
-    // Also those whose phases could not be followed.
+    // Reference tags keep their place, also those whose phases could not be followed.
     const auto known = problem.reference_tags.find(tag);
     result.estimates.push_back(known == problem.reference_tags.end()
                                    ? std::move(estimate)

@@ -110,7 +110,7 @@ Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& t
 template <int D>
 void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int column,
                   const ReadNow& now, double weight, TagPart<D>& part) {
-  const Index before = (tag.knot[i] - tag.first_knot) * D;
+  const Index before = (tag.knot[i] - tag.first_knot) * Index{D};
   const Index after = before + D;
   const double w = tag.knot_weight[i];
   using Vector = Eigen::Matrix<double, D, 1>;
@@ -164,7 +164,7 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
   const Index m = part.layout.size;
   part.normal = Eigen::MatrixXd::Zero(m, m);
   part.gradient = Eigen::VectorXd::Zero(m);
-  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * D, m);
+  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * Index{D}, m);
   part.chain = empty_chain<D>(tag.knot_count);
   for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
     const TagPhases::Span& span = tag.phases.spans[s];
@@ -221,8 +221,8 @@ Linear<D> linearize(const JointSystem& system, int threads) {
                [&](std::size_t j) { linear.tags[j] = part_of<D>(system, system.tags[j]); });
   linear.chain = empty_chain<D>(system.knots.count());
   for (std::size_t j = 0; j < system.tags.size(); ++j) {
-    const Index begin = system.tags[j].first_knot * D;
-    const Index count = system.tags[j].knot_count * D;
+    const Index begin = system.tags[j].first_knot * Index{D};
+    const Index count = system.tags[j].knot_count * Index{D};
     const ChainPart<D>& part = linear.tags[j].chain;
     linear.chain.diagonal.middleCols(begin, count) += part.diagonal;
     linear.chain.next.middleCols(begin, count) += part.next;
@@ -390,7 +390,7 @@ KnotSystem reduce_to_knots(const JointSystem& system, const Linear<D>& linear) {
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
     const TagPart<D>& part = linear.tags[j];
     reduced.of_tag.emplace_back(part.normal);
-    const Index begin = system.tags[j].first_knot * D;
+    const Index begin = system.tags[j].first_knot * Index{D};
     const Index rows = part.coupling.rows();
     if (rows == 0) continue;
     const Eigen::MatrixXd root = reduced.of_tag.back().matrixL().solve(part.coupling.transpose());
@@ -410,7 +410,7 @@ Move solve_for_knots_first(const JointSystem& system, const Linear<D>& linear) {
   Move move{reduced.knots.solve(reduced.gradient), {}};
   for (std::size_t j = 0; j < linear.tags.size(); ++j) {
     const TagPart<D>& part = linear.tags[j];
-    const Index begin = system.tags[j].first_knot * system.knots.size;
+    const Index begin = system.tags[j].first_knot * Index{system.knots.size};
     move.of_tag.push_back(reduced.of_tag[j].solve(
         part.gradient - part.coupling.transpose() * move.u.segment(begin, part.coupling.rows())));
   }
@@ -501,7 +501,7 @@ JointCovariance covariance_by_knots(const JointSystem& system, const Linear<D>& 
   parallel_for(tags, threads, [&](std::size_t j) {
     const TagPart<D>& part = linear.tags[j];
     const Index m = part.layout.size;
-    const Index begin = system.tags[j].first_knot * system.knots.size;
+    const Index begin = system.tags[j].first_knot * Index{system.knots.size};
     // cov = T⁻¹ + W (S⁻¹) Wᵀ with W = T⁻¹ Cᵀ, of the place's rows only.
     const Eigen::MatrixXd columns =
         reduced.of_tag[j].solve(Eigen::MatrixXd::Identity(m, part.layout.place));

@@ -107,7 +107,7 @@ Eigen::Vector3f draw_place(const Search& search, const ParticleOptions& options,
     const double x = options.max_range_m * (2.0 * uniform(stream) - 1.0);
     const double y = options.max_range_m * (2.0 * uniform(stream) - 1.0);
     const double up = search.height.side * options.max_height_m * uniform(stream);
-    const Eigen::Vector3f place = Eigen::Vector3d(x, y, known ? 0.0 : up).cast<float>();
+    Eigen::Vector3f place = Eigen::Vector3d(x, y, known ? 0.0 : up).cast<float>();
     if (in_reach(search.phases, in_world(search, place), options.max_range_m)) return place;
   }
   return Eigen::Vector3f::Zero();

@@ -81,8 +81,8 @@ std::string why_without_pose(const std::string& antenna, const ReadCount& count,
   if (track == tracks.end()) return no_poses(antenna, tracks);
   const Time begin = track->second.X_WA.front().stamp;
   const Time end = track->second.X_WA.back().stamp;
-  const std::string ranges = fmt::format(
-      "reads are {}, poses {}", range_words(count.first, count.last), range_words(begin, end));
+  std::string ranges = fmt::format("reads are {}, poses {}", range_words(count.first, count.last),
+                                   range_words(begin, end));
   const Duration apart = std::max(begin - count.last, count.first - end);
   if (apart > Duration::zero()) {
     return fmt::format("{}, {:.3f} s apart: are they of one clock?", ranges, to_seconds(apart));

@@ -12,8 +12,6 @@ namespace {
 
 /// Antennas at heights that differ by less than this are at one height [m].
 constexpr double kLevel = 0.01;
-/// A tag of unknown height is at first taken to be so far from the antennas' height [m].
-constexpr double kLikelyOffset = 0.5;
 
 void resize(TagPhases& phases, Eigen::Index count) {
   const std::array<Eigen::ArrayXd*, 7> columns = {&phases.x,     &phases.y,     &phases.z,

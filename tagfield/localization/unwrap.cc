@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -27,12 +28,6 @@ bool is_even_triple(const PhaseSample& a, const PhaseSample& b, const PhaseSampl
          first + second < 0.5 * wavelength(b.frequency_hz);
 }
 
-double middle(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 }  // namespace
 
 double phase_noise(const std::vector<PhaseSample>& samples) {
@@ -40,12 +35,12 @@ double phase_noise(const std::vector<PhaseSample>& samples) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < samples.size(); ++i) {
     if (!is_even_triple(samples[i - 2], samples[i - 1], samples[i])) continue;
-    bends.push_back(std::abs(wrap_to_pi(samples[i].phase_rad - 2.0 * samples[i - 1].phase_rad +
-                                        samples[i - 2].phase_rad)));
+    bends.push_back(wrap_to_pi(samples[i].phase_rad - 2.0 * samples[i - 1].phase_rad +
+                               samples[i - 2].phase_rad));
   }
   if (bends.size() < kFewest) return 0.0;
-  // A normal variable's median magnitude is 0.6745 σ; a second difference has variance 6 σ².
-  return middle(bends) / (0.6745 * std::sqrt(6.0));
+  // A second difference has variance 6 σ².
+  return sigma_by_median(std::move(bends)) / std::sqrt(6.0);
 }
 
 double step_limit(double noise_rad, double max_step) {

@@ -88,7 +88,7 @@ Vector6d as_vector(const StraightMotion& motion) {
 
 struct FitInput {
   const Pass& pass;
-  const std::vector<Aperture>& apertures;
+  const std::vector<SubAperture>& apertures;
   const MotionPrior& prior;
   double weight = 1.0;
   bool fix_known = false;
@@ -97,7 +97,7 @@ struct FitInput {
 Normal normal_at(const FitInput& input, const StraightMotion& motion) {
   Normal normal;
   std::vector<Linearized> rows;
-  for (const Aperture& aperture : input.apertures) {
+  for (const SubAperture& aperture : input.apertures) {
     rows.clear();
     for (const std::size_t i : aperture) rows.push_back(linearize(input.pass.reads[i], motion));
     const bool known = input.fix_known && input.pass.reads[aperture.front()].offset_known;
@@ -116,8 +116,8 @@ StraightMotion moved(const StraightMotion& motion, const Vector6d& step) {
 
 }  // namespace
 
-std::vector<Aperture> sub_apertures(const Pass& pass, double length_s) {
-  std::vector<Aperture> apertures;
+std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s) {
+  std::vector<SubAperture> apertures;
   std::map<std::size_t, std::size_t> open;  // by group
   for (std::size_t i = 0; i < pass.reads.size(); ++i) {
     const PassRead& read = pass.reads[i];
@@ -156,8 +156,9 @@ MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
   return prior;
 }
 
-LineFit fit_line(const Pass& pass, const std::vector<Aperture>& apertures, const MotionPrior& prior,
-                 double noise_rad, bool fix_known, const StraightMotion& start) {
+LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
+                 const MotionPrior& prior, double noise_rad, bool fix_known,
+                 const StraightMotion& start) {
   const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
   LineFit fit;
   fit.motion = start;

@@ -17,10 +17,10 @@ struct StraightMotion {
 };
 
 /// Reads that share one phase offset: places in Pass::reads.
-using Aperture = std::vector<std::size_t>;
+using SubAperture = std::vector<std::size_t>;
 
 /// Cuts a pass into sub-apertures of up to `length_s`, each of one antenna and channel.
-std::vector<Aperture> sub_apertures(const Pass& pass, double length_s);
+std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s);
 
 /// Gaussian knowledge of a motion, as rows of A θ = b with weights: height, climb, lane.
 struct MotionPrior {
@@ -42,7 +42,8 @@ struct LineFit {
 /// Maximum likelihood on wrapped phases, each sub-aperture with a phase offset of its own unless
 /// `fix_known` and its antenna's is known: minimizes Σ (1 − cos(φ_i − k_i |p(t_i) − a_i| − ψ))/σ²
 /// by damped Gauss-Newton steps from `start`. `noise_rad` weighs the phases against the prior.
-LineFit fit_line(const Pass& pass, const std::vector<Aperture>& apertures, const MotionPrior& prior,
-                 double noise_rad, bool fix_known, const StraightMotion& start);
+LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
+                 const MotionPrior& prior, double noise_rad, bool fix_known,
+                 const StraightMotion& start);
 
 }  // namespace tagfield

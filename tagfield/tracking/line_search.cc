@@ -42,7 +42,7 @@ struct Scored {
   double score = 0.0;
 };
 
-RateTable table_of(const Pass& pass, const Aperture& aperture, double max_rate) {
+RateTable table_of(const Pass& pass, const SubAperture& aperture, double max_rate) {
   RateTable table;
   for (const std::size_t i : aperture) {
     table.t_s += pass.reads[i].t_s / static_cast<double>(aperture.size());
@@ -78,10 +78,10 @@ double look_up(const RateTable& table, double rate) {
 
 /// Evenly thinned to what the grid can bear.
 std::vector<RateTable> rate_tables(const Pass& pass, const TrackingOptions& options) {
-  std::vector<Aperture> apertures = sub_apertures(pass, kShortest);
+  std::vector<SubAperture> apertures = sub_apertures(pass, kShortest);
   apertures.erase(
       std::remove_if(apertures.begin(), apertures.end(),
-                     [](const Aperture& one) { return one.size() < kFewestInAperture; }),
+                     [](const SubAperture& one) { return one.size() < kFewestInAperture; }),
       apertures.end());
   double fastest_antenna = 0.0;
   for (const PassRead& read : pass.reads) {
@@ -111,6 +111,7 @@ double score_of(const std::vector<RateTable>& tables, const Eigen::Vector3d& pla
 std::vector<double> steps(double least, double most, double step) {
   std::vector<double> values;
   const int count = std::max(1, static_cast<int>(std::ceil((most - least) / step)) + 1);
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     values.push_back(count == 1 ? 0.5 * (least + most)
                                 : least + (most - least) * i / (count - 1.0));
@@ -211,7 +212,7 @@ void keep_best(std::vector<LineHypothesis>& hypotheses, std::size_t most) {
   hypotheses = std::move(kept);
 }
 
-LineHypothesis fitted(const Pass& pass, const std::vector<Aperture>& apertures,
+LineHypothesis fitted(const Pass& pass, const std::vector<SubAperture>& apertures,
                       const MotionPrior& prior, double noise_rad, double aperture_s,
                       const StraightMotion& start) {
   LineHypothesis one;
@@ -238,7 +239,7 @@ bool plausible(const TrackingOptions& options, const LineHypothesis& one) {
 std::vector<LineHypothesis> fit_all(const Pass& pass, const TrackingOptions& options,
                                     double aperture_s, double noise_rad,
                                     const std::vector<StraightMotion>& starts) {
-  const std::vector<Aperture> apertures = sub_apertures(pass, aperture_s);
+  const std::vector<SubAperture> apertures = sub_apertures(pass, aperture_s);
   const MotionPrior prior = motion_prior(pass, options);
   std::vector<LineHypothesis> hypotheses;
   for (const StraightMotion& start : starts) {

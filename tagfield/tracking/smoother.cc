@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -247,20 +248,11 @@ std::vector<double> residuals_of(const Pass& pass, const Slots& slots, const Smo
   return residuals;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// From the median, so that reads that belong nowhere don't count.
 double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
-  std::vector<double> sizes;
-  for (const double residual : residuals) sizes.push_back(std::abs(residual));
   const auto count = static_cast<double>(residuals.size());
   const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  return std::max(kLeastNoise, median(sizes) / 0.6745 * std::sqrt(count / freedom));
+  return std::max(kLeastNoise, sigma_by_median(residuals) * std::sqrt(count / freedom));
 }
 
 double circular_mean(const std::vector<double>& residuals, const std::vector<std::size_t>& series,

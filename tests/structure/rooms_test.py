@@ -44,6 +44,8 @@ QUIET = {
 QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints")}
 TRUTH_READERS = ("tagfield/report/", "simulator/", "bench/", "adapters/", "apps/")
 
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
+TYPE = re.compile(r"^(?:struct|class|union|enum class|enum) (\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
@@ -148,6 +150,28 @@ def header_faults(path, text):
         yield f"{path}:{line_at(text, match.start())}: using namespace in a header"
 
 
+def types_of(path, text):
+    """Types that a header defines for all who include it, with their namespace: what -> where."""
+    if not path.endswith(".h"):
+        return
+    space = NAMESPACE.search(text)
+    for match in TYPE.finditer(text):
+        name = match.group(1) or match.group(2)
+        if is_test(path) and match.group(2):
+            continue  # a short name for a few tests
+        yield f"{space.group(1)}::{name}" if space else name, f"{path}:{line_at(text, match.start())}"
+
+
+def repeated_types(files):
+    """Two types of one name are one to the linker, and to whoever reads of them."""
+    seen = {}
+    for path, text in files:
+        for name, place in types_of(path, text):
+            if name in seen:
+                yield f"{place}: defines {name}, as {seen[name]} does"
+            seen[name] = place
+
+
 def sources(root):
     """Every .h and .cc that belongs to the project, by path from its top."""
     for folder in [*FOLDERS, "tests"]:
@@ -165,6 +189,7 @@ def faults(root):
     for path, text in sources(root):
         for rule in (include_faults, word_faults, header_faults):
             found.extend(rule(path, text))
+    found.extend(repeated_types(sources(root)))
     return found
 
 
@@ -176,7 +201,11 @@ GOOD = {
                               '#include "tagfield/base/error.h"\n',
     "tagfield/stream/csv.cc": '#include "tagfield/base/error.h"\n// std::cout is not used here\n'
                               "void f(char* b) { snprintf(b, 1, \"\"); }\n",
-    "tagfield/report/truth.h": "/// @file\n/// The truth.\n#pragma once\n",
+    "tagfield/report/truth.h": "/// @file\n/// The truth.\n#pragma once\nnamespace tagfield {\n"
+                               "struct Truth {\n",
+    "tagfield/report/page.h": "/// @file\n/// A page.\n#pragma once\nnamespace tagfield::page {\n"
+                              "struct Truth {\n",
+    "tagfield/world/room.h": "/// @file\n/// A room.\n#pragma once\nnamespace tagfield {\nstruct Truth;\n",
     "tagfield/report/test/truth_test.cc": '#include "tagfield/report/truth.h"\n'
                                           "void g() { std::cout << 1; }\n",
     "simulator/run.cc": '#include "tagfield/report/truth.h"\n#include <chrono>\n'
@@ -227,6 +256,10 @@ PLANTED = (  # a file, its content, what must be said of it
     ("tagfield/world/a.cc", 'void f() { fmt::print("x"); }\n', "prints"),
     ("tagfield/world/a.cc", "auto t = std::chrono::system_clock::now();\n", "looks at a clock"),
     ("tagfield/world/a.cc", "std::random_device device;\n", "random numbers"),
+    ("simulator/a.h", "/// @file\n/// It.\n#pragma once\nnamespace tagfield {\nstruct Truth final {\n",
+     "defines tagfield::Truth, as tagfield/report/truth.h:5 does"),
+    ("simulator/a.h", "/// @file\n/// It.\n#pragma once\nnamespace tagfield {\nusing Truth = int;\n",
+     "defines tagfield::Truth, as tagfield/report/truth.h:5 does"),
     ("tagfield/kitchen/a.cc", "\n", "kitchen: is no room"),
 )
 

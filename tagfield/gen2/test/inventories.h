@@ -33,9 +33,9 @@ inline InventorySettings in_session(Session session) {
 }
 
 /// An inventory with tags of its own.
-struct Bench {
-  explicit Bench(const InventorySettings& settings, std::uint64_t seed = 1, std::uint64_t key = 1,
-                 const LinkSettings& link = {})
+struct InventoryBench {
+  explicit InventoryBench(const InventorySettings& settings, std::uint64_t seed = 1,
+                          std::uint64_t key = 1, const LinkSettings& link = {})
       : inventory(link, settings, memories, seed, key) {}
 
   /// The tags read up to `time`, in order.

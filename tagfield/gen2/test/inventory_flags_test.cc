@@ -15,7 +15,7 @@ namespace {
 using Tags = std::vector<std::uint32_t>;
 
 TEST(Inventory, InS2EachTagIsReadOnceUntilItsFlagFallsBack) {
-  Bench bench(in_session(Session::kS2));
+  InventoryBench bench(in_session(Session::kS2));
   bench.inventory.set_field(at(0.0), alike(200));
   bench.inventory.start(at(0.0));
   Tags read = bench.read_until(60.0);
@@ -32,7 +32,7 @@ TEST(Inventory, InS2EachTagIsReadOnceUntilItsFlagFallsBack) {
 }
 
 TEST(Inventory, InS1EachTagIsReadAgainOnceItsPersistenceIsOver) {
-  Bench bench(in_session(Session::kS1));
+  InventoryBench bench(in_session(Session::kS1));
   bench.inventory.set_field(at(0.0), alike(20));
   bench.inventory.start(at(0.0));
   std::vector<Singulation> out;
@@ -53,7 +53,7 @@ TEST(Inventory, InS1EachTagIsReadAgainOnceItsPersistenceIsOver) {
 TEST(Inventory, DualTargetReadsAllByTurns) {
   InventorySettings settings = in_session(Session::kS2);
   settings.target = Target::kAlternate;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(50));
   bench.inventory.start(at(0.0));
   const Tags read = bench.read_until(20.0);
@@ -67,7 +67,7 @@ TEST(Inventory, DualTargetReadsAllByTurns) {
 TEST(Inventory, TargetBAsksForThoseInB) {
   InventorySettings settings = in_session(Session::kS3);
   settings.target = Target::kB;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(5));
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(1.0).empty());
@@ -78,7 +78,7 @@ TEST(Inventory, TargetBAsksForThoseInB) {
 
 /// Tag 0 is read in the first second; how often in the next two when it is away for `away` seconds.
 std::size_t reads_after_absence(Session session, double away) {
-  Bench bench(in_session(session));
+  InventoryBench bench(in_session(session));
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   EXPECT_EQ(bench.read_until(1.0).size(), 1U);
@@ -99,7 +99,7 @@ TEST(Inventory, WhoComesBackIsReadAgainAsItsSessionRemembers) {
 TEST(Inventory, CarrierOffBetweenRoundsStartsS0Anew) {
   InventorySettings settings = fixed_q(0);
   settings.carrier_off_between_rounds = true;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   const double cycle = (1500.0 + 847.833333 + 3907.5) * 1e-6;
@@ -150,7 +150,7 @@ TEST(Inventory, InS0ASwitchForgetsUnlessAnotherAntennaGivesPower) {
 }
 
 TEST(Inventory, WhatIsOffReadsNothing) {
-  Bench bench(InventorySettings{});
+  InventoryBench bench(InventorySettings{});
   bench.inventory.set_field(at(0.0), alike(3));
   EXPECT_TRUE(bench.read_until(1.0).empty());
   EXPECT_FALSE(bench.memories.powered(0));

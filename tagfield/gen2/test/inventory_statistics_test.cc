@@ -15,7 +15,7 @@ namespace {
 InventoryCounts fresh_rounds(int q, int tags, int rounds, double decode_probability = 1.0) {
   InventorySettings settings = fixed_q(q);
   settings.round_overhead_s = 0.01;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(tags, decode_probability));
   bench.inventory.start(at(0.0));
   const std::int64_t wanted = std::int64_t{rounds} << static_cast<unsigned>(q);
@@ -70,7 +70,7 @@ TEST(Inventory, OneTagsSlotIsUniform) {
   // The number of empty slots before it in a frame of 8, over rounds.
   InventorySettings settings = fixed_q(3);
   settings.round_overhead_s = 0.01;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   std::vector<double> hits(8, 0.0);
@@ -94,7 +94,7 @@ TEST(Inventory, DecodeProbabilityIsTheShareOfReadsAmongRepliesAlone) {
 TEST(Inventory, AdaptiveQGoesWhereEmptySlotsAreAsManyAsLostOnes) {
   // 256 tags of which none is ever made out: nobody leaves, and e^-x = 1 - e^-x tags a slot
   // balance.
-  Bench bench(InventorySettings{});
+  InventoryBench bench(InventorySettings{});
   bench.inventory.set_field(at(0.0), alike(256, 0.0));
   bench.inventory.start(at(0.0));
   double sum = 0.0;
@@ -127,7 +127,7 @@ double best_time_per_read(const LinkSettings& link, Session session) {
 TEST(Inventory, AdaptiveQReadsNearlyAsFastAsCanBe) {
   InventorySettings settings;
   settings.session = Session::kS2;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(2000));
   bench.inventory.start(at(0.0));
   std::vector<Singulation> out;
@@ -146,7 +146,7 @@ TEST(Inventory, AdaptiveQFollowsThePopulation) {
   EXPECT_NEAR(std::exp(kBalance), 2.0 + kBalance, 1e-3);
   InventorySettings settings;
   settings.session = Session::kS2;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(2000));
   bench.inventory.start(at(0.0));
   std::size_t read = 0;
@@ -169,7 +169,7 @@ double rs500_rate(int q, int tags) {
   InventorySettings settings = fixed_q(q);
   settings.carrier_off_between_rounds = true;
   settings.slot_overhead_s = 3.05e-3;
-  Bench bench(settings, 1, 1, link);
+  InventoryBench bench(settings, 1, 1, link);
   bench.inventory.set_field(at(0.0), alike(tags));
   bench.inventory.start(at(0.0));
   return static_cast<double>(bench.read_until(200.0).size()) / 200.0;

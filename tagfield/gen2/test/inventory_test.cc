@@ -18,7 +18,7 @@ using Tags = std::vector<std::uint32_t>;
 TEST(Inventory, OneTagsFirstReadIsWhereTheStandardsTimesPutIt) {
   InventorySettings settings = fixed_q(0);
   settings.round_overhead_s = 3e-3;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(1.0));
   std::vector<Singulation> out;
@@ -38,7 +38,7 @@ TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
   settings.target = Target::kAlternate;
   settings.slot_overhead_s = 1e-3;
   settings.read_overhead_s = 2e-3;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   // A round that reads it, and one that finds nobody left; 847.833 a Query.
@@ -47,7 +47,7 @@ TEST(Inventory, DualTargetThroughputOfOneTagIsTheSumOfItsSlots) {
 }
 
 TEST(Inventory, ASlotIsFinishedAtItsEndAndBegunAfterItsBeginning) {
-  Bench bench(fixed_q(0));
+  InventoryBench bench(fixed_q(0));
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(1.5e-3).empty());
   bench.inventory.set_field(at(1.5e-3), alike(1));  // In time for the Query.
@@ -57,7 +57,7 @@ TEST(Inventory, ASlotIsFinishedAtItsEndAndBegunAfterItsBeginning) {
 }
 
 TEST(Inventory, AdaptiveQInAnEmptyFieldTakesTheTimeOfItsCommands) {
-  Bench bench(InventorySettings{});
+  InventoryBench bench(InventorySettings{});
   bench.inventory.start(at(0.0));
   bench.read_until(100.0);
   // Qfp falls from 4 by 0.2 a slot: 3 slots with Q 4, 5 with Q 3, and then a whole frame with Q 2,
@@ -72,7 +72,7 @@ TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
   const auto counts = [&](std::optional<double> capture_db) {
     InventorySettings settings = fixed_q(0);
     settings.capture_db = capture_db;
-    Bench bench(settings);
+    InventoryBench bench(settings);
     bench.inventory.set_field(at(0.0), tags);
     bench.inventory.start(at(0.0));
     const Tags read = bench.read_until(1.0);
@@ -86,7 +86,7 @@ TEST(Inventory, TheStrongestIsCapturedFromItsThresholdOn) {
 }
 
 TEST(Inventory, WithoutTagsAllSlotsAreEmpty) {
-  Bench bench(InventorySettings{});
+  InventoryBench bench(InventorySettings{});
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(1.0).empty());
   EXPECT_GT(bench.inventory.counts().empty, 1000);
@@ -96,7 +96,7 @@ TEST(Inventory, WithoutTagsAllSlotsAreEmpty) {
 // --- Tags that come and go within a round --------------------------------------------------------
 
 TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
-  Bench bench(fixed_q(0));
+  InventoryBench bench(fixed_q(0));
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(0.004).empty());  // Amid the first slot.
@@ -109,7 +109,7 @@ TEST(Inventory, AReadFailsWhoseTagGoesBeforeItsEnd) {
 TEST(Inventory, ACaptureFailsWhoseTagGoesBeforeItsEnd) {
   InventorySettings settings = fixed_q(0);
   settings.capture_db = 6.0;
-  Bench bench(settings);
+  InventoryBench bench(settings);
   bench.inventory.set_field(at(0.0), {{0, -50.0, 1.0}, {1, -60.0, 1.0}});
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(0.004).empty());
@@ -120,7 +120,7 @@ TEST(Inventory, ACaptureFailsWhoseTagGoesBeforeItsEnd) {
 }
 
 TEST(Inventory, ASlotThatIsCutOffComesToNothing) {
-  Bench bench(fixed_q(0));
+  InventoryBench bench(fixed_q(0));
   bench.inventory.set_field(at(0.0), alike(1));
   bench.inventory.start(at(0.0));
   EXPECT_TRUE(bench.read_until(0.004).empty());
@@ -132,7 +132,7 @@ TEST(Inventory, ASlotThatIsCutOffComesToNothing) {
 }
 
 TEST(Inventory, ANewcomerJoinsWithTheNextQuery) {
-  Bench bench(fixed_q(8));  // A frame of 256 slots, most of them empty.
+  InventoryBench bench(fixed_q(8));  // A frame of 256 slots, most of them empty.
   bench.inventory.start(at(0.0));
   bench.read_until(0.01);
   bench.inventory.set_field(at(0.01), alike(30));
@@ -143,7 +143,7 @@ TEST(Inventory, ANewcomerJoinsWithTheNextQuery) {
 }
 
 TEST(Inventory, ASlotsNextTagIsReadThoughTheOldOneWas) {
-  Bench bench(in_session(Session::kS2));
+  InventoryBench bench(in_session(Session::kS2));
   bench.inventory.set_field(at(0.0), alike(2));
   bench.inventory.start(at(0.0));
   EXPECT_EQ(bench.read_until(1.0).size(), 2U);
@@ -168,12 +168,12 @@ RC_GTEST_PROP(Inventory, PiecesOfTimeGiveWhatTheWholeGives, ()) {
   const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 30));
   const auto pieces = *rc::gen::container<std::vector<int>>(count, rc::gen::inRange(0, 200'000));
 
-  Bench whole(settings);
-  Bench parts(settings);
+  InventoryBench whole(settings);
+  InventoryBench parts(settings);
   std::vector<Singulation> expected;
   std::vector<Singulation> found;
   Time time{};
-  for (Bench* bench : {&whole, &parts}) {
+  for (InventoryBench* bench : {&whole, &parts}) {
     bench->inventory.set_field(time, tags);
     bench->inventory.start(time);
   }
@@ -189,7 +189,7 @@ RC_GTEST_PROP(Inventory, PiecesOfTimeGiveWhatTheWholeGives, ()) {
 }
 
 Tags reads_with(std::uint64_t seed, std::uint64_t key) {
-  Bench bench(in_session(Session::kS2), seed, key);
+  InventoryBench bench(in_session(Session::kS2), seed, key);
   bench.inventory.set_field(at(0.0), alike(100));
   bench.inventory.start(at(0.0));
   return bench.read_until(10.0);
@@ -202,7 +202,7 @@ TEST(Inventory, TheSameSeedAndKeyGiveTheSameReads) {
 }
 
 TEST(Inventory, TimeDoesNotGoBack) {
-  Bench bench(InventorySettings{});
+  InventoryBench bench(InventorySettings{});
   bench.inventory.start(at(2.0));
   const std::string back = "an inventory at 2 s cannot go back to 1 s";
   EXPECT_EQ(error_of([&] { bench.read_until(1.0); }), back);
@@ -211,10 +211,10 @@ TEST(Inventory, TimeDoesNotGoBack) {
 }
 
 TEST(Inventory, BadSettingsAreRefused) {
-  EXPECT_THROW(Bench(fixed_q(16)), Error);
+  EXPECT_THROW(InventoryBench(fixed_q(16)), Error);
   LinkSettings link;
   link.tari_s = 1.0;
-  EXPECT_THROW(Bench(fixed_q(4), 1, 1, link), Error);
+  EXPECT_THROW(InventoryBench(fixed_q(4), 1, 1, link), Error);
 }
 
 }  // namespace

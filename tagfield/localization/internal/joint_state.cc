@@ -1,9 +1,9 @@
 #include "tagfield/localization/internal/joint_state.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/fit_candidates.h"
@@ -18,7 +18,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int kRounds = 25;
 /// Where nothing is known of the pose error it is looked for from here.
 constexpr PoseErrorModel kFirstGuess{0.02, 0.02, 5.0};
 /// Knots a time constant: straight lines between them miss 2 % of the variance.
@@ -68,12 +67,6 @@ PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& mod
   return knots;
 }
 
-double median(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 /// From the phases before any fit; 0 where they don't tell.
 double first_noise(const LocalizationProblem& problem) {
   std::vector<double> of_series;
@@ -84,7 +77,7 @@ double first_noise(const LocalizationProblem& problem) {
     }
   }
   const double usual = problem.half_turns ? 0.2 : 0.1;
-  return of_series.empty() ? usual : std::max(median(of_series), 1e-3);
+  return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
 }
 
 JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
@@ -125,14 +118,6 @@ double noise_of_neighbours(const JointSystem& system) {
   return all.size() < kFewest ? system.noise_rad : noise_of_differences(std::move(all));
 }
 
-FitData spans_of(const TagPhases& phases) {
-  FitData data;
-  for (const TagPhases::Span& span : phases.spans) {
-    data.spans.push_back({span.begin, span.count, 0.0});
-  }
-  return data;
-}
-
 /// Tags whose residuals are far greater than noise (reflections, a tag that moves) count for less.
 void weigh(JointSystem& system) {
   constexpr double kTolerated = 2.0;
@@ -150,55 +135,12 @@ void weigh(JointSystem& system) {
   }
 }
 
-/// The same displacements in units of other scales.
-void rescale(JointSystem& system, const PoseKnots& knots) {
-  const int size = knots.size;
-  for (Index k = 0; k < knots.count(); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    u.head(size) = system.u.segment(k * size, size);
-    const Eigen::Vector3d error = system.knots.scale[at] * u;
-    Eigen::Matrix3d scale = knots.scale[at];
-    if (size == 2) scale(2, 2) = 1.0;
-    system.u.segment(k * size, size) = scale.triangularView<Eigen::Lower>().solve(error).head(size);
-  }
-  system.knots = knots;
-}
-
-/// A model of the pose error under trial.
-struct Trial {
-  double factor = 1.0;  ///< On the standard deviations.
-  double time_constant_s = 5.0;
-  double evidence = 0.0;
-  JointSystem system;
-};
-
-Trial tried(const JointSystem& from, const PoseKnots& knots, double factor, double time_constant_s,
-            int threads) {
-  Trial trial{factor, time_constant_s, 0.0, from};
-  PoseKnots changed = scaled(knots, factor);
-  changed.time_constant_s = time_constant_s;
-  rescale(trial.system, changed);
-  const double cost = minimize(trial.system, 6, threads);
-  trial.evidence =
-      evidence(trial.system, cost, covariance_of(trial.system, threads).log_determinant);
-  return trial;
-}
-
 /// The tag's samples and problem as if the corrected poses were the believed ones.
 UnwrappedFit fit_corrected(const JointState& state, std::size_t index) {
   const JointSystem& system = state.system;
   const SamplesOfTag corrected =
       corrected_samples(*state.problem, system.knots, system.u, *state.samples[index]);
   return fit_unwrapped(*state.problem, system.tags[index].id, corrected);
-}
-
-std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads) {
-  std::vector<UnwrappedFit> fits(state.system.tags.size());
-  parallel_for(fits.size(), threads, [&](std::size_t i) {
-    if (!state.system.tags[i].fixed) fits[i] = fit_corrected(state, i);
-  });
-  return fits;
 }
 
 /// The wrapped fit with corrected poses from where the tag stands.
@@ -231,80 +173,6 @@ bool fits_as_well(const JointTag& wrapped, const JointTag& unwrapped) {
       std::max(reads - static_cast<double>(unwrapped.phases.spans.size()), 0.5 * reads);
   return wrapped.fit.cost / static_cast<double>(wrapped.phases.size()) <
          kWorse * unwrapped.fit.cost / freedom;
-}
-
-/// The way of all antennas, and whether it is so straight that mirror images can't be told apart.
-struct Way {
-  FitData places;
-  bool is_straight = false;
-};
-
-Way way_of(const JointSystem& system) {
-  constexpr double kStraight = 0.3;  // [m]
-  Way way;
-  Index reads = 0;
-  for (const JointTag& tag : system.tags) reads += tag.phases.size();
-  way.places.x.resize(reads);
-  way.places.y.resize(reads);
-  Index at = 0;
-  for (const JointTag& tag : system.tags) {
-    way.places.x.segment(at, tag.phases.size()) = tag.phases.x;
-    way.places.y.segment(at, tag.phases.size()) = tag.phases.y;
-    at += tag.phases.size();
-  }
-  // The spread across the axis along which the places lie: the scatter's lesser eigenvector.
-  Eigen::MatrixX2d places(reads, 2);
-  places << way.places.x, way.places.y;
-  const Eigen::RowVector2d middle = places.colwise().mean();
-  places.rowwise() -= middle;
-  const Eigen::Matrix2d scatter = places.transpose() * places;
-  const Eigen::Vector2d across =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
-  const double farthest = (places * across).cwiseAbs().maxCoeff();
-  way.is_straight = farthest < kStraight;
-  return way;
-}
-
-/// Where each tag stands, as a further candidate.
-Candidate candidate_of(const JointSystem& system, std::size_t index,
-                       const Eigen::Matrix3d& covariance) {
-  const JointTag& tag = system.tags[index];
-  Candidate candidate;
-  candidate.p_WT = to_place(tag.height, tag.fit.unknowns);
-  candidate.rms_m = residual_rms(system, index);
-  candidate.covariance = to_place_covariance(tag.height, tag.fit.unknowns, covariance);
-  candidate.expected_error_m = std::min(std::sqrt(covariance.topLeftCorner<2, 2>().trace()), 1e6);
-  return candidate;
-}
-
-bool is_elsewhere(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
-  constexpr double kSame = 0.05;  // [m]
-  return (candidate.p_WT - p_WT).head<2>().norm() > kSame;
-}
-
-/// All tags mirrored and everything fitted again: the pose error's own mirror image is as likely.
-void add_mirrored(JointState& state, int threads) {
-  constexpr double kClearlyWorse = 25.0;
-  const Way way = way_of(state.system);
-  const bool any_fixed = std::any_of(state.system.tags.begin(), state.system.tags.end(),
-                                     [](const JointTag& tag) { return tag.fixed; });
-  if (!way.is_straight || any_fixed) return;
-  const double cost = cost_of(state.system);
-  JointSystem mirrored = state.system;
-  mirrored.u.setZero();
-  for (JointTag& tag : mirrored.tags) {
-    tag.fit.unknowns.head<2>() = mirror_image(way.places, tag.fit.unknowns.head<2>());
-    tag.fit.offsets = offsets_at(tag.phases, tag.height, tag.fit.unknowns);
-  }
-  if (minimize(mirrored, kRounds, threads) > cost + kClearlyWorse) return;
-  const JointCovariance covariance = covariance_of(mirrored, threads);
-  for (std::size_t i = 0; i < mirrored.tags.size(); ++i) {
-    const JointTag& tag = state.system.tags[i];
-    const Candidate candidate = candidate_of(mirrored, i, covariance.of_tag[i]);
-    if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
-      state.alternatives[i].push_back(candidate);
-    }
-  }
 }
 
 }  // namespace
@@ -344,39 +212,18 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
 
 void fit_unwrapped_jointly(JointState& state, int threads) {
   JointSystem& system = state.system;
-  minimize(system, kRounds, threads);
+  minimize(system, kMostRoundsOfJointFit, threads);
   system.noise_rad = noise_of_neighbours(system);
   weigh(system);
-  minimize(system, kRounds, threads);
+  minimize(system, kMostRoundsOfJointFit, threads);
 }
 
-void learn_pose_error(JointState& state, int threads) {
-  constexpr double kStep = 1.6;
-  constexpr int kMostTrials = 24;
-  const JointSystem& start = state.system;
-  if (start.knots.count() == 0) return;
-  const PoseKnots knots = start.knots;
-  Trial best = tried(start, knots, 1.0, knots.time_constant_s, threads);
-  int trials = 1;
-  // Each of the two is made greater or smaller as long as that is more likely.
-  for (bool any = true; any && trials < kMostTrials;) {
-    any = false;
-    for (const auto& [by, of_time] :
-         {std::pair{kStep, false}, {1.0 / kStep, false}, {kStep, true}, {1.0 / kStep, true}}) {
-      while (trials < kMostTrials) {
-        const double factor = of_time ? best.factor : best.factor * by;
-        const double time_constant = of_time ? best.time_constant_s * by : best.time_constant_s;
-        if (factor < 0.02 || factor > 20.0 || time_constant < 0.2 || time_constant > 200.0) break;
-        Trial next = tried(best.system, knots, factor, time_constant, threads);
-        ++trials;
-        if (!(next.evidence < best.evidence)) break;
-        best = std::move(next);
-        any = true;
-      }
-    }
-  }
-  state.system = std::move(best.system);
-  minimize(state.system, kRounds, threads);
+std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads) {
+  std::vector<UnwrappedFit> fits(state.system.tags.size());
+  parallel_for(fits.size(), threads, [&](std::size_t i) {
+    if (!state.system.tags[i].fixed) fits[i] = fit_corrected(state, i);
+  });
+  return fits;
 }
 
 void find_better_places(JointState& state, int threads) {
@@ -398,7 +245,7 @@ void find_better_places(JointState& state, int threads) {
     }
     if (!any) return;
     weigh(state.system);
-    minimize(state.system, kRounds, threads);
+    minimize(state.system, kMostRoundsOfJointFit, threads);
   }
 }
 
@@ -410,29 +257,17 @@ void fit_wrapped_jointly(JointState& state, int threads) {
   for (std::size_t i = 0; i < wrapped.size(); ++i) {
     if (fits_as_well(wrapped[i], system.tags[i])) system.tags[i] = std::move(wrapped[i]);
   }
-  minimize(system, kRounds, threads);
+  minimize(system, kMostRoundsOfJointFit, threads);
   system.noise_rad = noise_of_neighbours(system);
   weigh(system);
-  minimize(system, kRounds, threads);
+  minimize(system, kMostRoundsOfJointFit, threads);
 }
 
-void find_alternatives(JointState& state, int threads) {
-  const std::vector<UnwrappedFit> fits = fit_all_corrected(state, threads);
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const JointTag& tag = state.system.tags[i];
-    if (tag.fixed || fits[i].fits.empty()) continue;
-    for (const Candidate& candidate :
-         make_candidates(fits[i].phases, fits[i].height, fits[i].fits)) {
-      if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
-        state.alternatives[i].push_back(candidate);
-      }
-    }
-  }
-  add_mirrored(state, threads);
-}
-
-double residual_rms(const JointSystem& system, std::size_t tag) {
-  return std::sqrt(residuals_of(system, system.tags[tag]).square().mean());
+Candidate candidate_of(const JointSystem& system, std::size_t tag,
+                       const Eigen::Matrix3d& covariance) {
+  const JointTag& at = system.tags[tag];
+  const double rms_m = std::sqrt(residuals_of(system, at).square().mean());
+  return make_candidate(at.height, at.fit.unknowns, covariance, rms_m);
 }
 
 }  // namespace tagfield

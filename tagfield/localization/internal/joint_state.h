@@ -7,10 +7,14 @@
 #include <vector>
 
 #include "tagfield/localization/joint_system.h"
+#include "tagfield/localization/least_squares.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {
+
+/// Rounds of minimize() from a place that is far off.
+inline constexpr int kMostRoundsOfJointFit = 25;
 
 struct JointState {
   const LocalizationProblem* problem = nullptr;
@@ -29,6 +33,10 @@ void fit_unwrapped_jointly(JointState& state, int threads);
 /// Strength and time constant of the pose error by which the reads are most likely.
 void learn_pose_error(JointState& state, int threads);
 
+/// Each tag by itself on its unwrapped phase, as if the corrected poses were the believed ones; of
+/// reference tags nothing.
+std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads);
+
 /// Looks for each tag's place anew from the corrected poses, and goes on from better ones.
 void find_better_places(JointState& state, int threads);
 
@@ -39,7 +47,8 @@ void fit_wrapped_jointly(JointState& state, int threads);
 /// of all tags mirrored across a straight way.
 void find_alternatives(JointState& state, int threads);
 
-/// Root mean square of a tag's residuals [m].
-double residual_rms(const JointSystem& system, std::size_t tag);
+/// Where a tag stands, with the covariance of its unknowns.
+Candidate candidate_of(const JointSystem& system, std::size_t tag,
+                       const Eigen::Matrix3d& covariance);
 
 }  // namespace tagfield
