@@ -16,9 +16,13 @@ namespace {
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
+/// Misfit of the joint estimate over the noise: 0.7 to 0.9 with all sorts of pose errors, 2.6
+/// to 3.7 in a hall with reflections (docs/estimators.md).
+constexpr double kLeftOver = 1.6;
 
-/// Of an even number the lesser: one odd tag of two is no sign of reflections.
+/// Of an even number the lesser: one odd tag of two is no sign of reflections. 0 of none.
 double lesser_median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
   const auto half = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), half, values.end());
   return *half;
@@ -29,11 +33,11 @@ struct Look {
   double reads = 0.0;
   double stretches = 0.0;
   double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
+  double noise_m = 0.0;  ///< Of one read.
 };
 
-/// Root mean square misfit over that of neighbours' differences, which slow errors leave alone.
-double misfit_of(const UnwrappedFit& fit) {
-  const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
+/// Of one read [m], from the differences of neighbours, which slow errors leave alone.
+double noise_of(const UnwrappedFit& fit, const Eigen::ArrayXd& errors) {
   double differences = 0.0;
   double count = 0.0;
   for (const TagPhases::Span& span : fit.phases.spans) {
@@ -42,8 +46,7 @@ double misfit_of(const UnwrappedFit& fit) {
       count += 1.0;
     }
   }
-  const double noise = std::sqrt(0.5 * differences / std::max(count, 1.0));
-  return std::sqrt(errors.square().mean()) / std::max(noise, 1e-6);
+  return std::max(std::sqrt(0.5 * differences / std::max(count, 1.0)), 1e-6);
 }
 
 Look look_at(const LocalizationProblem& problem, const std::string& tag,
@@ -52,7 +55,10 @@ Look look_at(const LocalizationProblem& problem, const std::string& tag,
   Look look;
   look.reads = static_cast<double>(fit.reads_followed);
   look.stretches = static_cast<double>(fit.stretches);
-  if (fit.why_not.empty()) look.misfit = misfit_of(fit);
+  if (!fit.why_not.empty()) return look;
+  const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
+  look.noise_m = noise_of(fit, errors);
+  look.misfit = std::sqrt(errors.square().mean()) / look.noise_m;
   return look;
 }
 
@@ -78,6 +84,22 @@ void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
   traits.channels = carriers.size();
 }
 
+/// Misfit of the tags that were located, or nearly, over the noise.
+double misfit_left(const LocalizationResult& result, double noise_m) {
+  std::vector<double> misfits;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (!estimate.candidates.empty()) misfits.push_back(estimate.candidates.front().rms_m);
+  }
+  return noise_m > 0.0 ? lesser_median(std::move(misfits)) / noise_m : 0.0;
+}
+
+const Method& named(const std::vector<Method>& methods, const std::string& name) {
+  const auto found = std::find_if(methods.begin(), methods.end(),
+                                  [&](const Method& method) { return method.name == name; });
+  if (found == methods.end()) throw Error("there is no method '" + name + "'");
+  return *found;
+}
+
 }  // namespace
 
 DataTraits traits_of(const LocalizationProblem& problem, int threads) {
@@ -94,13 +116,17 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   double reads = 0.0;
   double stretches = 0.0;
   std::vector<double> misfits;
+  std::vector<double> noises;
   for (const Look& look : looks) {
     reads += look.reads;
     stretches += look.stretches;
-    if (look.misfit >= 0.0) misfits.push_back(look.misfit);
+    if (look.misfit < 0.0) continue;
+    misfits.push_back(look.misfit);
+    noises.push_back(look.noise_m);
   }
   traits.reads_a_stretch = stretches > 0.0 ? reads / stretches : 0.0;
-  traits.misfit = misfits.empty() ? 0.0 : lesser_median(std::move(misfits));
+  traits.misfit = lesser_median(std::move(misfits));
+  traits.noise_m = lesser_median(std::move(noises));
   return traits;
 }
 
@@ -131,12 +157,16 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
 Method automatic_method(std::vector<Method> methods) {
   const auto locate = [methods = std::move(methods)](const LocalizationProblem& problem,
                                                      int threads, Diagnostics& diagnostics) {
-    const Choice choice = choose_method(traits_of(problem, threads), problem.reference_tags.size());
-    const auto chosen = std::find_if(methods.begin(), methods.end(), [&](const Method& method) {
-      return method.name == choice.method;
-    });
-    if (chosen == methods.end()) throw Error("there is no method '" + choice.method + "'");
-    LocalizationResult result = chosen->locate(problem, threads, diagnostics);
+    const DataTraits traits = traits_of(problem, threads);
+    Choice choice = choose_method(traits, problem.reference_tags.size());
+    LocalizationResult result = named(methods, choice.method).locate(problem, threads, diagnostics);
+    const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
+    if (misfit > kLeftOver) {
+      choice = {"sar", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
+                                   "the noise, as reflections make it",
+                                   misfit)};
+      result = named(methods, choice.method).locate(problem, threads, diagnostics);
+    }
     result.why = choice.why;
     return result;
   };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 
+#include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/judgement.h"
@@ -21,6 +22,8 @@ constexpr double kSame = 0.03;  ///< Maxima nearer than this are one [m].
 constexpr double kWorthWhile = 0.4;
 constexpr std::size_t kMirrored = 3;    ///< Of so many best places the mirror images are tried.
 constexpr std::size_t kMostNamed = 16;  ///< Maxima that are looked at.
+constexpr double kNear = 0.3;           ///< Maxima nearer than this are lobes of one place [m].
+constexpr double kUnlikely = 4.0;       ///< A log-likelihood so much less is that of another place.
 
 /// S of one aperture.
 std::complex<double> sum_of(const TagPhases& phases, const Aperture& part,
@@ -196,13 +199,85 @@ std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& hei
   return distinct(phases, height, tops);
 }
 
+/// Concentration of von Mises noise whose mean cosine is `share`, within 1 % (Best and Fisher,
+/// Communications in Statistics B 10, 1981).
+double concentration_of(double share) {
+  if (share < 0.53) return share * (2.0 + share * share * (1.0 + share * share * 5.0 / 6.0));
+  if (share < 0.85) return -0.4 + 1.39 * share + 0.43 / (1.0 - share);
+  return 1.0 / (share * (share - 1.0) * (share - 3.0));
+}
+
+/// How much less log-likely maxima are than the best: κ ΔS, over the correlation factor of the
+/// residuals, as reads whose errors are one and the same are but one witness.
+struct Unlikelihood {
+  double best = 0.0;      ///< Coherence.
+  double per_wave = 0.0;  ///< κ over the factor.
+  double of(const Maximum& maximum) const { return per_wave * (best - maximum.coherence); }
+};
+
+Unlikelihood unlikelihood(const FitData& layout, const Maximum& best,
+                          const Eigen::ArrayXd& residuals) {
+  const double share =
+      best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
+  return {best.coherence,
+          concentration_of(std::clamp(share, 0.0, 0.99)) / correlation_factor(layout, residuals)};
+}
+
+/// Lets the covariance span the lobes near the place as well, as far as they are likely.
+void span_lobes(const HeightModel& height, const Unlikelihood& unlikely,
+                const std::vector<Maximum>& lobes, Candidate& candidate) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double weights = 1.0;
+  for (const Maximum& lobe : lobes) {
+    const double weight = std::exp(-std::max(0.0, unlikely.of(lobe)));
+    const Eigen::Vector3d apart = to_place(height, lobe.place) - candidate.p_WT;
+    spread += weight * apart * apart.transpose();
+    weights += weight;
+  }
+  spread /= weights;
+  if (candidate.covariance) *candidate.covariance += spread;
+  candidate.expected_error_m =
+      std::hypot(candidate.expected_error_m, std::sqrt(spread.topLeftCorner<2, 2>().trace()));
+}
+
 Candidate scaled(Candidate candidate, double factor) {
   candidate.expected_error_m *= factor;
   if (candidate.covariance) *candidate.covariance *= factor * factor;
   return candidate;
 }
 
+/// How much greater errors are than residuals tell: slow ones, which no told pose error explains,
+/// are taken for distance in part. Those of reflections, correlated over a metre or two of the way,
+/// were twice as great (docs/methods.md); white noise has no such part.
+double fitted_away(const TagPhases& phases, const FitData& layout, const Eigen::ArrayXd& errors) {
+  constexpr double kSlow = 3.0;  // Reads that are worth one; from there on errors are slow.
+  if (phases.pose_error) return 1.0;
+  return 1.0 + std::min(1.0, (correlation_factor(layout, errors) - 1.0) / (kSlow - 1.0));
+}
+
+/// Where phases are bent, residuals may tell of more than the told pose error does.
+Candidate careful_candidate(const TagPhases& phases, const FitData& layout,
+                            const HeightModel& height, const PlaceVector& place, bool bent) {
+  const Candidate honest = candidate_at(phases, height, place);
+  if (!bent) return honest;
+  const TagFit fit = fit_at(phases, height, place);
+  const double factor = fitted_away(phases, layout, residuals_of(phases, height, fit));
+  const Candidate by_residuals = scaled(
+      make_candidate(height, place, covariance_of(phases, height, fit), honest.rms_m), factor);
+  return by_residuals.expected_error_m > honest.expected_error_m ? by_residuals : honest;
+}
+
 }  // namespace
+
+void check_share(double min_share) {
+  if (!(min_share > 0.0 && min_share <= 1.0)) throw Error("min_share must be in (0, 1]");
+}
+
+double coherent_share(const TagPhases& phases, const HeightModel& height,
+                      const PlaceVector& place) {
+  const double waves = coherence(phases, apertures(phases, kWholeAperture), height, place);
+  return waves / static_cast<double>(std::max<Eigen::Index>(phases.size(), 1));
+}
 
 double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
                  const HeightModel& height, const PlaceVector& place) {
@@ -261,20 +336,33 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
     return residuals_of(phases, height, fit_at(phases, height, maximum.place));
   };
   const Eigen::ArrayXd best = residuals_at(maxima.front());
-  const double rms_rad = std::sqrt((best * phases.wavenumber).square().mean());
-  if (rms_rad > judgement.max_rms_rad) {
+  const double share = coherent_share(phases, height, maxima.front().place);
+  if (share < judgement.min_share) {
     return not_located(
         std::move(estimate),
-        fmt::format("the phase does not fit a tag at rest: misfit {:.2f} rad, limit {:.2f} rad",
-                    rms_rad, judgement.max_rms_rad));
+        fmt::format("the phase does not fit a tag at rest: {:.0f} % of its waves add up, at least "
+                    "{:.0f} % should",
+                    100.0 * share, 100.0 * judgement.min_share));
   }
-  for (const Maximum& maximum : maxima) {
-    const bool first = estimate.candidates.empty();
-    if (first || !is_worse(phases, layout, best, residuals_at(maximum))) {
-      estimate.candidates.push_back(
-          scaled(candidate_at(phases, height, maximum.place), judgement.error_factor));
+  const bool bent = judgement.at_maxima && share < kBentShare;
+  const Unlikelihood unlikely = unlikelihood(layout, maxima.front(), best);
+  std::vector<Maximum> lobes;
+  estimate.candidates.push_back(
+      careful_candidate(phases, layout, height, maxima.front().place, bent));
+  for (std::size_t i = 1; i < maxima.size(); ++i) {
+    if (bent && unlikely.of(maxima[i]) > kUnlikely) continue;
+    if (is_worse(phases, layout, best, residuals_at(maxima[i]))) continue;
+    const Candidate other = careful_candidate(phases, layout, height, maxima[i].place, bent);
+    const bool near = (other.p_WT - estimate.candidates.front().p_WT).norm() < kNear;
+    if (bent && near) {
+      lobes.push_back(maxima[i]);
+    } else {
+      estimate.candidates.push_back(scaled(other, judgement.error_factor));
     }
   }
+  Candidate& first = estimate.candidates.front();
+  first = scaled(first, judgement.error_factor);
+  span_lobes(height, unlikely, lobes, first);
   judge(limits, estimate);
   return estimate;
 }

@@ -26,18 +26,30 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
                        const PlaceVector& place);
 
+/// coherence() of whole apertures over the number of reads, in [0, 1].
+double coherent_share(const TagPhases& phases, const HeightModel& height, const PlaceVector& place);
+
+/// At a lesser coherent_share() the phases are not those of one wave with noise: reflections or
+/// pose errors bend them.
+inline constexpr double kBentShare = 0.97;
+
 /// What is done with places that a search found.
 struct CoherentJudgement {
-  /// A greater rms of the wrapped residuals [rad] is no tag at rest; phases that say nothing have
-  /// π/√3 = 1.81.
-  double max_rms_rad = 1.2;
+  /// A lesser coherent_share() is no tag at rest; that of phases that say nothing is about 0.1.
+  double min_share = 0.35;
   /// Expected errors are so many times those of the best use of the phases; at least 1.
   double error_factor = 1.0;
-  bool climb = true;  ///< Go from each place to the maximum of coherence() near it.
+  bool climb = true;      ///< Go from each place to the maximum of coherence() near it.
+  bool at_maxima = true;  ///< The places, climbed to or not, are about those maxima.
 };
 
+/// Throws Error where a smallest share is not in (0, 1].
+void check_share(double min_share);
+
 /// Finishes: climbs from the places and from mirror images of the best, and gives verdict,
-/// candidates (those that the data can't tell from the best) and covariances.
+/// candidates (those that the data can't tell from the best) and covariances. Where the phases are
+/// bent and the places are maxima, those that are e⁻⁴ less likely than the best are dropped, and
+/// lobes within 0.3 m of it widen its covariance.
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                          const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
                          const EstimateLimits& limits, TagEstimate estimate);

@@ -118,9 +118,10 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
   const std::vector<PlaceVector> places =
       finished(phases, height, search_places(phases, height, options.search, brightness), noise);
   CoherentJudgement judgement;
-  judgement.max_rms_rad = options.max_rms_rad;
+  judgement.min_share = options.min_share;
   judgement.error_factor = kErrorFactor;
   judgement.climb = false;
+  judgement.at_maxima = false;
   return judge_places(phases, height, places, judgement, problem.limits, std::move(estimate));
 }
 
@@ -147,7 +148,7 @@ Method dah_method(const DahOptions& options) {
   if (!(options.least_noise_rad > 0.0 && std::isfinite(options.least_noise_rad))) {
     throw Error("least_noise_rad must be finite and over 0");
   }
-  if (!(options.max_rms_rad > 0.0)) throw Error("max_rms_rad must be over 0");
+  check_share(options.min_share);
   const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
     LocalizationResult result;
     result.method = "dah";

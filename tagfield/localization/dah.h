@@ -13,7 +13,7 @@ namespace tagfield {
 struct DahOptions {
   SearchOptions search;
   double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
-  double max_rms_rad = 1.2;      ///< See CoherentJudgement; over 0.
+  double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
 };
 
 /// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kFirstAperture = 1.5;  ///< [λ]
 constexpr double kFinestCell = 0.1;     ///< [λ]
+constexpr double kThoroughCell = 0.16;  ///< Half of a lobe's width [λ].
 constexpr std::int64_t kSplit = 3;      ///< A cell is split into so many by so many.
 constexpr std::size_t kMostKept = 250;  ///< Cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
@@ -39,15 +40,14 @@ void require_positive(double value, const char* name) {
 }
 
 Cells all_cells(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
-                const SearchOptions& options) {
+                double max_range, double size) {
   Cells cells;
-  const auto reach = static_cast<std::int64_t>(options.max_range_m / options.cell_m) + 1;
+  const auto reach = static_cast<std::int64_t>(max_range / size) + 1;
   for (std::int64_t i = -reach; i <= reach; ++i) {
     for (std::int64_t j = -reach; j <= reach; ++j) {
       const Eigen::Vector2d p =
-          middle + options.cell_m * Eigen::Vector2d(static_cast<double>(i), static_cast<double>(j));
-      if (in_reach(phases, {p.x(), p.y(), height}, options.max_range_m))
-        cells.push_back({i, j, 0.0f});
+          middle + size * Eigen::Vector2d(static_cast<double>(i), static_cast<double>(j));
+      if (in_reach(phases, {p.x(), p.y(), height}, max_range)) cells.push_back({i, j, 0.0f});
     }
   }
   return cells;
@@ -160,11 +160,13 @@ Eigen::Vector2d middle_of(const TagPhases& phases) {
 
 bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range) {
   const Eigen::Index step = std::max<Eigen::Index>(1, phases.size() / kReachReads);
+  Eigen::Index within = 0;
+  Eigen::Index beyond = 0;
   for (Eigen::Index i = 0; i < phases.size(); i += step) {
     const Eigen::Vector3d p_WA(phases.x[i], phases.y[i], phases.z[i]);
-    if ((p - p_WA).squaredNorm() > max_range * max_range) return false;
+    ++((p - p_WA).squaredNorm() > max_range * max_range ? beyond : within);
   }
-  return true;
+  return within >= beyond;
 }
 
 TagPhases thinned(const TagPhases& phases, std::size_t count) {
@@ -238,11 +240,12 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
                                           const Brightness& brightness) {
   if (phases.size() == 0) return {};
   const double lambda = longest_wavelength(phases);
-  const TagPhases coarse = thinned(phases, options.reads);
+  const TagPhases coarse = thinned(phases, options.thorough ? options.reads / 2 : options.reads);
   const Eigen::Vector2d middle = middle_of(phases);
-  double size = options.cell_m;
-  double length = kFirstAperture * lambda;
-  Cells cells = all_cells(phases, height, middle, options);
+  double size =
+      options.thorough ? std::min(options.cell_m, kThoroughCell * lambda) : options.cell_m;
+  double length = options.thorough ? kWholeAperture : kFirstAperture * lambda;
+  Cells cells = all_cells(phases, height, middle, options.max_range_m, size);
   for (; size > kFinestCell * lambda; size /= static_cast<double>(kSplit), length *= 3.0) {
     illuminate(search_reads(coarse, length, height, middle), size, brightness, cells);
     cells = split(std::move(cells));

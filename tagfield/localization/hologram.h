@@ -66,10 +66,13 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
 
 struct SearchOptions {
-  double max_range_m = 12.0;  ///< No tag is read from further away; over 0.
+  double max_range_m = 12.0;  ///< Half of the reads are from nearer; over 0.
   double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
   std::size_t maxima = 12;    ///< So many are returned at most.
   std::size_t reads = 800;    ///< Coarse levels take so many at most, evenly thinned.
+  /// Whole apertures on all of the area at once: some ten times the work. Reflections bend the
+  /// phase over decimetres, so that short apertures are brightest elsewhere.
+  bool thorough = false;
 };
 
 /// Throws Error on options out of their range.
@@ -91,8 +94,8 @@ std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightMode
 /// Middle of the box around the antennas, seen from above [m]; phases must not be empty.
 Eigen::Vector2d middle_of(const TagPhases& phases);
 
-/// Whether a tag at `p` would be within `max_range` [m] of the antennas at all reads, of which
-/// about sixty are looked at.
+/// Whether a tag at `p` would be within `max_range` [m] of the antennas at half of the reads, of
+/// which about sixty are looked at. Strong readers and reflections carry some reads further.
 bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range);
 
 /// Every n-th read, so that about `count` are left at most.

@@ -294,7 +294,7 @@ TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::s
   RandomStream stream(options.seed, Purpose::kTagSearch, stream_key(tag));
   const Particles particles = spread_and_anneal(search, options, stream);
   CoherentJudgement judgement;
-  judgement.max_rms_rad = options.max_rms_rad;
+  judgement.min_share = options.min_share;
   judgement.climb = false;
   return judge_places(search.phases, height, clusters_of(search, particles), judgement,
                       problem.limits, std::move(estimate));
@@ -314,7 +314,7 @@ Method particle_method(const ParticleOptions& options) {
   require_positive(options.max_range_m, "max_range_m");
   require_positive(options.max_height_m, "max_height_m");
   require_positive(options.least_noise_rad, "least_noise_rad");
-  require_positive(options.max_rms_rad, "max_rms_rad");
+  check_share(options.min_share);
   const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
     LocalizationResult result;
     result.method = "particle";

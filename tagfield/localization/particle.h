@@ -13,10 +13,10 @@ namespace tagfield {
 
 struct ParticleOptions {
   std::size_t particles = 3000;  ///< From 100 to 1000000.
-  double max_range_m = 12.0;     ///< No tag is read from further away; over 0.
+  double max_range_m = 12.0;     ///< Half of the reads are from nearer; over 0.
   double max_height_m = 3.0;     ///< Above or below the antennas, where the height is unknown.
   double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
-  double max_rms_rad = 1.2;      ///< See CoherentJudgement; over 0.
+  double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
   std::uint64_t seed = 1;        ///< Streams are by seed and the tag's ID.
 };
 

@@ -1,12 +1,28 @@
 #include "tagfield/localization/sar.h"
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 #include "tagfield/base/error.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {
+
+/// From coarse to fine, and where that leads to no place that most waves agree on, thoroughly.
+std::vector<PlaceVector> brightest_places(const TagPhases& phases, const HeightModel& height,
+                                          SearchOptions options) {
+  constexpr double kMost = 0.85;
+  constexpr std::size_t kMoreMaxima = 3;  ///< Times as many, as reflections make many.
+  std::vector<PlaceVector> places = search_places(phases, height, options, coherent_brightness);
+  const bool agreed = std::any_of(places.begin(), places.end(), [&](const PlaceVector& place) {
+    return coherent_share(phases, height, place) > kMost;
+  });
+  if (agreed) return places;
+  options.thorough = true;
+  options.maxima *= kMoreMaxima;
+  return search_places(phases, height, options, coherent_brightness);
+}
 
 TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::string& tag,
                                const SamplesOfTag& samples, const SarOptions& options) {
@@ -21,9 +37,8 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
   if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
   const HeightModel height = height_model(problem, tag, phases);
   CoherentJudgement judgement;
-  judgement.max_rms_rad = options.max_rms_rad;
-  return judge_places(phases, height,
-                      search_places(phases, height, options.search, coherent_brightness), judgement,
+  judgement.min_share = options.min_share;
+  return judge_places(phases, height, brightest_places(phases, height, options.search), judgement,
                       problem.limits, std::move(estimate));
 }
 
@@ -31,7 +46,7 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
 
 Method sar_method(const SarOptions& options) {
   check(options.search);
-  if (!(options.max_rms_rad > 0.0)) throw Error("max_rms_rad must be over 0");
+  check_share(options.min_share);
   const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
     LocalizationResult result;
     result.method = "sar";

@@ -12,7 +12,7 @@ namespace tagfield {
 
 struct SarOptions {
   SearchOptions search;
-  double max_rms_rad = 1.2;  ///< See CoherentJudgement; over 0.
+  double min_share = 0.35;  ///< See CoherentJudgement; in (0, 1].
 };
 
 /// "sar": all tags, one by one. Throws Error on options out of their range.

@@ -4,6 +4,7 @@
 
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/test/problem_of.h"
+#include "tagfield/localization/test/reflections.h"
 
 namespace tagfield {
 namespace {
@@ -39,6 +40,18 @@ TEST(Automatic, SeesReflectionsWhereAnExactPoseDoesNotFit) {
   const Choice choice = choice_for(hall.problem);
   EXPECT_EQ(choice.method, "sar");
   EXPECT_NE(choice.why.find("reflections"), std::string::npos);
+}
+
+TEST(Automatic, SeesReflectionsWhereNoPoseErrorExplainsThem) {
+  made::Hall hall = moving_hall({});
+  made::reflect(made::walls(0.5), hall);
+  hall.problem.pose_error.reset();
+  EXPECT_EQ(choice_for(hall.problem).method, "joint");  // At first sight.
+  Diagnostics diagnostics;
+  const Method method = find_method(built_in_methods({}), "auto");
+  const LocalizationResult result = method.locate(hall.problem, 2, diagnostics);
+  EXPECT_EQ(result.method, "sar");
+  EXPECT_NE(result.why.find("even with the pose error estimated"), std::string::npos) << result.why;
 }
 
 TEST(Automatic, AddsUpWavesWhereTheCarrierHops) {

@@ -5,6 +5,7 @@
 
 #include "method_study.h"
 #include "tagfield/base/error.h"
+#include "tagfield/localization/test/reflections.h"
 
 namespace tagfield {
 namespace {
@@ -237,6 +238,26 @@ RC_GTEST_PROP(Hologram, WavesAreThoseOfTheAngle, ()) {
   RC_ASSERT(std::abs(static_cast<double>(sine[0]) - std::sin(exact)) < 5e-5);
 }
 
+TEST(Sar, ReflectionsShiftPlacesLittle) {
+  // Waves of half the amplitude bend phases by up to 1.05 rad, there and back.
+  int located = 0;
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
+    Rng rng(seed);
+    Hall hall = made::hall(aisles(0.02), 8, Noise{}, rng);
+    reflect(walls(0.5), hall);
+    Diagnostics diagnostics;
+    for (const TagEstimate& estimate : sar().locate(hall.problem, 2, diagnostics).estimates) {
+      if (estimate.verdict != Verdict::kLocated) continue;
+      ++located;
+      const Candidate& place = estimate.candidates.front();
+      const double error = (place.p_WT - hall.truth.at(estimate.tag)).norm();
+      EXPECT_LT(error, 0.15) << seed << " " << estimate.tag;
+      EXPECT_LT(error, 5.0 * place.expected_error_m) << seed << " " << estimate.tag;
+    }
+  }
+  EXPECT_GE(located, 36);
+}
+
 TEST(Sar, WhatCannotBeLocatedSaysWhy) {
   Rng rng(14);
   const auto why = [](const SamplesOfTag& samples) {
@@ -263,7 +284,7 @@ TEST(Sar, ATagNotAtRestIsNotLocated) {
   const Path path = aisles(0.02);
   const auto moving =
       read_along(path, path, {4.0, 2.0, 0.4}, Noise{}, rng, ReaderSetup{}, {0.05, 0.08, 0.0});
-  EXPECT_EQ(locate_one(sar(), one_tag({{"a", moving}}, 0.4)).verdict, Verdict::kNotLocated);
+  EXPECT_NE(locate_one(sar(), one_tag({{"a", moving}}, 0.4)).verdict, Verdict::kLocated);
 }
 
 TEST(Sar, BadOptionsAreErrors) {
@@ -274,7 +295,7 @@ TEST(Sar, BadOptionsAreErrors) {
   options.search.max_range_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(sar_method(options), Error);
   options = {};
-  options.max_rms_rad = 0.0;
+  options.min_share = 0.0;
   EXPECT_THROW(sar_method(options), Error);
 }
 

@@ -1,0 +1,49 @@
+/// @file
+/// Reflections for made reads: mirror images of the tag behind planes, whose waves add to the
+/// direct one on the way there and on the way back.
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/test/problem_of.h"
+
+namespace tagfield::made {
+
+/// A plane across an axis of the world at `at` [m], which reflects waves with `gain`.
+struct Mirror {
+  int axis = 0;
+  double at = 0.0;
+  double gain = 0.0;
+};
+
+/// The floor and two walls.
+inline std::vector<Mirror> walls(double gain) {
+  return {{2, 0.0, gain}, {0, -5.0, gain}, {1, 11.0, gain}};
+}
+
+/// The phases of an antenna at its believed place turned by the images of a tag at `p_WT`.
+inline void reflect(const std::vector<Mirror>& mirrors, const Eigen::Vector3d& p_WT,
+                    std::vector<PhaseSample>& samples) {
+  for (PhaseSample& sample : samples) {
+    const double direct = (p_WT - sample.p_WA).norm();
+    std::complex<double> waves = 1.0;
+    for (const Mirror& mirror : mirrors) {
+      Eigen::Vector3d image = p_WT;
+      image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
+      const double way = (image - sample.p_WA).norm();
+      const double late = kTwoPi / wavelength(sample.frequency_hz) * (way - direct);
+      waves -= mirror.gain * direct / way * std::polar(1.0, -late);
+    }
+    sample.phase_rad = wrap_to_two_pi(sample.phase_rad - 2.0 * std::arg(waves));
+  }
+}
+
+inline void reflect(const std::vector<Mirror>& mirrors, Hall& hall) {
+  for (auto& [tag, samples] : hall.problem.samples) {
+    for (auto& [antenna, series] : samples) reflect(mirrors, hall.truth.at(tag), series);
+  }
+}
+
+}  // namespace tagfield::made
