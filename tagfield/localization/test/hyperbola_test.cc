@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
-#include "made_reads.h"
+#include "method_study.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -12,103 +10,17 @@ namespace {
 
 using namespace made;
 
-double level_error(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
-  return (candidate.p_WT - p_WT).head<2>().norm();
-}
-
-/// Error of the nearest candidate [m].
-double nearest(const TagEstimate& estimate, const Eigen::Vector3d& p_WT) {
-  double best = 1e9;
-  for (const Candidate& c : estimate.candidates) best = std::min(best, level_error(c, p_WT));
-  return best;
-}
-
 TagEstimate locate(const SamplesOfTag& samples, double height,
                    const HyperbolaOptions& options = {}) {
   return locate_by_hyperbolae("t", samples, height, options, {});
 }
 
-/// Verdicts and errors over many tags.
-struct Tally {
-  std::vector<double> errors;  ///< Of those located [m], sorted by finish().
-  int ambiguous = 0;
-  int ambiguous_with_truth = 0;  ///< Some candidate within 0.1 m.
-  int not_located = 0;
-
-  void add(const TagEstimate& estimate, const Eigen::Vector3d& p_WT) {
-    if (estimate.verdict == Verdict::kLocated) {
-      errors.push_back(level_error(estimate.candidates.at(0), p_WT));
-    } else if (estimate.verdict == Verdict::kAmbiguous) {
-      ++ambiguous;
-      if (nearest(estimate, p_WT) < 0.1) ++ambiguous_with_truth;
-    } else {
-      ++not_located;
-    }
-  }
-  void finish() { std::sort(errors.begin(), errors.end()); }
-  [[nodiscard]] double mean() const {
-    double sum = 0.0;
-    for (const double error : errors) sum += error;
-    return sum / static_cast<double>(errors.size());
-  }
-  [[nodiscard]] double part(double fraction) const {
-    return errors.at(static_cast<std::size_t>(fraction * static_cast<double>(errors.size() - 1)));
-  }
-  [[nodiscard]] std::size_t worse_than(double limit) const {
-    return static_cast<std::size_t>(
-        std::count_if(errors.begin(), errors.end(), [=](double error) { return error > limit; }));
-  }
-};
-
-using MakePath = std::function<Path(Rng&)>;
-
-struct Study {
-  int seeds = 30;
-  Noise noise;
-  double nearest = 1.0;  ///< Tags beside the path, from ... to [m].
-  double farthest = 4.0;
-  double lowest = 0.4;  ///< Their heights, from ... to [m]; the antenna is at 0.4 m.
-  double highest = 0.4;
-};
-
-/// Ten tags for each seed.
 Tally run(const Study& study, const MakePath& make, const HyperbolaOptions& options = {}) {
-  Tally tally;
-  for (int seed = 0; seed < study.seeds; ++seed) {
-    Rng rng(static_cast<std::uint64_t>(100 + seed));
-    const Path path = make(rng);
-    const Path beliefs = believed(path, study.noise, 15.0, rng);
-    for (int k = 0; k < 10; ++k) {
-      const double away = uniform(rng, study.nearest, study.farthest);
-      const double z = uniform(rng, study.lowest, study.highest);
-      const Eigen::Vector3d p_WT = beside(path, away, z, rng);
-      const auto samples = read_along(path, beliefs, p_WT, study.noise, rng);
-      tally.add(locate({{"a", samples}}, z, options), p_WT);
-    }
-  }
-  tally.finish();
-  return tally;
+  return run(hyperbola_method(options), study, make);
 }
 
-const MakePath kAisles = [](Rng&) { return aisles(0.02); };
-const MakePath kStraight = [](Rng& rng) { return straight(10.0, 0.02, uniform(rng, 0.0, kTwoPi)); };
-/// Loops, S-curves, L-turns and rectangles of any size.
-const MakePath kAnyShape = [](Rng& rng) {
-  const double length = uniform(rng, 10.0, 25.0);
-  switch (static_cast<int>(uniform(rng, 0.0, 4.0))) {
-    case 0:
-      return s_curve(length, 0.02);
-    case 1:
-      return loop(length, 0.02);
-    case 2:
-      return l_turn(uniform(rng, 3.0, 8.0), uniform(rng, 3.0, 8.0), 0.02);
-    default:
-      return rectangle(uniform(rng, 1.0, 6.0), uniform(rng, 1.0, 4.0), length, 0.02);
-  }
-};
-
 TEST(Hyperbola, MeetsTheContractOnACurvedPath) {
-  const Tally tally = run({}, kAisles);
+  const Tally tally = run({}, make_aisles);
   EXPECT_EQ(tally.errors.size(), 300u);
   EXPECT_LT(tally.mean(), 0.004);       // contract: 15 mm
   EXPECT_LT(tally.part(0.95), 0.015);   // contract: 50 mm
@@ -119,7 +31,7 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
   Study study;
   study.lowest = 0.75;
   study.highest = 0.95;
-  const Tally tally = run(study, kAisles);
+  const Tally tally = run(study, make_aisles);
   EXPECT_EQ(tally.errors.size(), 300u);
   EXPECT_LT(tally.mean(), 0.005);  // contract: 20 mm
   EXPECT_LT(tally.errors.back(), 0.1);
@@ -128,16 +40,16 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
 TEST(Hyperbola, WithoutRefinementTheBestIntersectionIsGoodToo) {
   HyperbolaOptions options;
   options.refine = false;
-  const Tally tally = run({}, kAisles, options);
+  const Tally tally = run({}, make_aisles, options);
   EXPECT_GE(tally.errors.size(), 298u);
   EXPECT_LT(tally.mean(), 0.015);
-  EXPECT_GT(tally.mean(), run({}, kAisles).mean());
+  EXPECT_GT(tally.mean(), run({}, make_aisles).mean());
 }
 
 TEST(Hyperbola, APoseErrorOfACentimetreCostsCentimetres) {
   Study study;
   study.noise.pose_m = 0.01;
-  const Tally tally = run(study, kAisles);
+  const Tally tally = run(study, make_aisles);
   EXPECT_GE(tally.errors.size(), 290u);
   EXPECT_GT(tally.mean(), 0.010);
   EXPECT_LT(tally.mean(), 0.060);
@@ -147,7 +59,7 @@ TEST(Hyperbola, NoConfidentWrongAnswerOnAnyShape) {
   Study study;
   study.seeds = 110;
   study.farthest = 6.5;
-  const Tally tally = run(study, kAnyShape);
+  const Tally tally = run(study, make_any_shape);
   EXPECT_GT(tally.errors.size(), 1050u);
   EXPECT_EQ(tally.worse_than(0.3), 0u);
   EXPECT_EQ(tally.ambiguous_with_truth, tally.ambiguous);
@@ -157,12 +69,12 @@ TEST(Hyperbola, LostReadsAndNoiseCostAccuracyNotTruth) {
   Study lossy;
   lossy.seeds = 10;
   lossy.noise.lost = 0.3;
-  EXPECT_LT(run(lossy, kAisles).part(1.0), 0.1);
+  EXPECT_LT(run(lossy, make_aisles).part(1.0), 0.1);
   for (const double sigma : {0.3, 0.5}) {
     Study noisy;
     noisy.seeds = 10;
     noisy.noise.phase_rad = sigma;
-    const Tally tally = run(noisy, kAisles);
+    const Tally tally = run(noisy, make_aisles);
     EXPECT_LT(tally.mean(), 0.02) << sigma;
     EXPECT_EQ(tally.worse_than(0.3), 0u) << sigma;
   }
@@ -185,7 +97,7 @@ TEST(Hyperbola, AStraightPathLeavesTheMirrorImage) {
   for (const double jitter : {0.0, 0.003, 0.01}) {
     study.noise.pose_m = jitter;
     study.noise.pose_time = 0.0;
-    const Tally tally = run(study, kStraight);
+    const Tally tally = run(study, make_straight);
     EXPECT_EQ(tally.ambiguous, 300) << jitter;
     EXPECT_EQ(tally.ambiguous_with_truth, 300) << jitter;
   }
@@ -196,7 +108,7 @@ TEST(Hyperbola, AStraightPathWithADriftingPoseIsAmbiguousToo) {
   study.nearest = 0.5;
   study.farthest = 5.0;
   study.noise.pose_m = 0.01;
-  const Tally tally = run(study, kStraight);
+  const Tally tally = run(study, make_straight);
   EXPECT_EQ(tally.errors.size(), 0u);
   EXPECT_GE(tally.ambiguous_with_truth, 270);
 }
