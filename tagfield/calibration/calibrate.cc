@@ -11,6 +11,7 @@
 #include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
+#include "tagfield/localization/circular_fit.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
 
@@ -50,12 +51,8 @@ struct AntennaData {
 /// Samples that share an offset.
 using Stretch = std::vector<std::size_t>;
 
-struct Normal {
-  Matrix4 matrix = Matrix4::Zero();
-  Vector4 right = Vector4::Zero();
-  double cost = 0.0;
-  std::vector<double> residuals;
-};
+using Normal = CircularNormal<4>;
+using Row = CircularRow<4>;
 
 struct Model {
   const AntennaData& data;
@@ -71,12 +68,7 @@ double distance_at(const AntennaData& data, const Sample& sample, const Vector4&
   return (X_WA * Eigen::Vector3d(theta.head<3>()) - data.tags[sample.tag]).norm();
 }
 
-struct Linearized {
-  double angle = 0.0;
-  Vector4 slope;
-};
-
-Linearized linearize(const Model& model, const Sample& sample, const Vector4& theta) {
+Row linearize(const Model& model, const Sample& sample, const Vector4& theta) {
   const RigidTransform X_WA =
       held_pose_at(*model.data.X_WA, sample.stamp - duration_from_seconds(theta(3)));
   const Eigen::Vector3d away =
@@ -86,7 +78,7 @@ Linearized linearize(const Model& model, const Sample& sample, const Vector4& th
   Vector4 earlier = theta;
   later(3) -= kSlopeTime;
   earlier(3) += kSlopeTime;
-  Linearized one;
+  Row one;
   one.angle = model.sign * sample.phase_rad - sample.k * r;
   one.slope.head<3>() = sample.k / r * (X_WA.rotation.conjugate() * away);
   one.slope(3) =
@@ -94,39 +86,6 @@ Linearized linearize(const Model& model, const Sample& sample, const Vector4& th
       (distance_at(model.data, sample, earlier) - distance_at(model.data, sample, later)) /
       (2.0 * kSlopeTime);
   return one;
-}
-
-double circular_mean(const std::vector<Linearized>& rows) {
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (const Linearized& row : rows) {
-    cosine += std::cos(row.angle);
-    sine += std::sin(row.angle);
-  }
-  return std::atan2(sine, cosine);
-}
-
-/// With residual 2 sin(e/2), which is bounded, the stretch's offset eliminated.
-void add_stretch(const std::vector<Linearized>& rows, double weight, Normal& normal) {
-  const double offset = circular_mean(rows);
-  Vector4 sum = Vector4::Zero();
-  double weights = 0.0;
-  double residuals = 0.0;
-  for (const Linearized& row : rows) {
-    const double error = wrap_to_pi(row.angle - offset);
-    const double cosine = std::cos(error / 2.0);
-    const double residual = 2.0 * std::sin(error / 2.0);
-    normal.matrix += weight * cosine * cosine * row.slope * row.slope.transpose();
-    normal.right += weight * cosine * residual * row.slope;
-    normal.cost += 0.5 * weight * residual * residual;
-    normal.residuals.push_back(error);
-    sum += cosine * cosine * row.slope;
-    weights += cosine * cosine;
-    residuals += cosine * residual;
-  }
-  if (weights <= 1e-9) return;
-  normal.matrix -= weight / weights * sum * sum.transpose();
-  normal.right -= weight * residuals / weights * sum;
 }
 
 Vector4 prior_weights(const CalibrationOptions& options) {
@@ -138,14 +97,14 @@ Vector4 prior_weights(const CalibrationOptions& options) {
 
 Normal normal_at(const Model& model, const Vector4& theta) {
   Normal normal;
-  std::vector<Linearized> rows;
+  std::vector<Row> rows;
   const double weight = 1.0 / (model.noise_rad * model.noise_rad);
   for (const Stretch& stretch : model.stretches) {
     rows.clear();
     for (const std::size_t i : stretch) {
       rows.push_back(linearize(model, model.data.samples[i], theta));
     }
-    add_stretch(rows, weight, normal);
+    add_angles(rows, true, weight, normal);
   }
   const Vector4 prior = prior_weights(model.options);
   normal.matrix.diagonal() += prior;
@@ -287,7 +246,7 @@ std::vector<TagOffset> offsets_of(const AntennaData& data, const CalibrationOpti
   std::vector<TagOffset> offsets;
   const Model model{data, stretches, options, fit.sign, fit.noise_rad};
   for (const Stretch& stretch : stretches) {
-    std::vector<Linearized> rows;
+    std::vector<Row> rows;
     Vector4 mean = Vector4::Zero();
     for (const std::size_t i : stretch) {
       rows.push_back(linearize(model, data.samples[i], fit.theta));

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
-#include "tagfield/base/units.h"
+#include "tagfield/localization/circular_fit.h"
 
 namespace tagfield {
 namespace {
@@ -16,68 +17,18 @@ constexpr double kLeastNoise = 0.02;  ///< [rad]
 /// What is known of any motion at all, so that normal matrices have an inverse [m, m/s].
 constexpr double kAnywhere = 100.0;
 
-using Row6 = Eigen::Matrix<double, 1, 6>;
+using Normal = CircularNormal<6>;
+using Row = CircularRow<6>;
 
-/// Normal equations of one linearization, and the cost there.
-struct Normal {
-  Matrix6d matrix = Matrix6d::Zero();
-  Vector6d right = Vector6d::Zero();
-  double cost = 0.0;
-  double cosines = 0.0;
-  double squares = 0.0;
-};
-
-struct Linearized {
-  double angle = 0.0;  ///< φ − k r.
-  Row6 slope;          ///< Of the predicted phase.
-};
-
-Linearized linearize(const PassRead& read, const StraightMotion& motion) {
+/// Of φ − k r.
+Row linearize(const PassRead& read, const StraightMotion& motion) {
   const Eigen::Vector3d away = motion.p_WT + read.t_s * motion.v_WT - read.p_WA;
   const double r = std::max(away.norm(), kNearest);
-  Linearized one;
+  Row one;
   one.angle = read.phase_rad - read.k * r;
-  const Eigen::RowVector3d slope = read.k / r * away.transpose();
+  const Eigen::Vector3d slope = read.k / r * away;
   one.slope << slope, read.t_s * slope;
   return one;
-}
-
-/// Circular mean of the angles.
-double offset_of(const std::vector<Linearized>& rows) {
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (const Linearized& row : rows) {
-    cosine += std::cos(row.angle);
-    sine += std::sin(row.angle);
-  }
-  return std::atan2(sine, cosine);
-}
-
-/// With residual 2 sin(e/2), whose square is 2 (1 − cos e): the offset is eliminated.
-void add_aperture(const std::vector<Linearized>& rows, bool offset_free, double weight,
-                  Normal& normal) {
-  const double offset = offset_free ? offset_of(rows) : 0.0;
-  Row6 sum = Row6::Zero();
-  double weights = 0.0;
-  double residuals = 0.0;
-  for (const Linearized& row : rows) {
-    const double error = wrap_to_pi(row.angle - offset);
-    const double cosine = std::cos(error / 2.0);
-    const double residual = 2.0 * std::sin(error / 2.0);
-    const double w = cosine * cosine;
-    const double r = cosine * residual;
-    normal.matrix.noalias() += weight * w * row.slope.transpose() * row.slope;
-    normal.right += weight * r * row.slope.transpose();
-    sum += w * row.slope;
-    weights += w;
-    residuals += r;
-    normal.cost += 0.5 * weight * residual * residual;
-    normal.cosines += std::cos(error);
-    normal.squares += error * error;
-  }
-  if (!offset_free || weights <= 1e-9) return;
-  normal.matrix.noalias() -= weight / weights * sum.transpose() * sum;
-  normal.right -= weight * residuals / weights * sum.transpose();
 }
 
 Vector6d as_vector(const StraightMotion& motion) {
@@ -96,12 +47,12 @@ struct FitInput {
 
 Normal normal_at(const FitInput& input, const StraightMotion& motion) {
   Normal normal;
-  std::vector<Linearized> rows;
+  std::vector<Row> rows;
   for (const SubAperture& aperture : input.apertures) {
     rows.clear();
     for (const std::size_t i : aperture) rows.push_back(linearize(input.pass.reads[i], motion));
     const bool known = input.fix_known && input.pass.reads[aperture.front()].offset_known;
-    add_aperture(rows, !known, input.weight, normal);
+    add_angles(rows, !known, input.weight, normal);
   }
   const Eigen::VectorXd residual = input.prior.values - input.prior.rows * as_vector(motion);
   normal.matrix.noalias() += input.prior.rows.transpose() * input.prior.rows;
@@ -169,22 +120,24 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
     damped.diagonal() *= 1.0 + damping;
     const Vector6d change = damped.ldlt().solve(normal.right);
     const StraightMotion next = moved(fit.motion, change);
-    const Normal there = normal_at(input, next);
+    Normal there = normal_at(input, next);
     if (!std::isfinite(there.cost) || there.cost > normal.cost) {
       damping *= 10.0;
       continue;
     }
     const double gain = normal.cost - there.cost;
     fit.motion = next;
-    normal = there;
+    normal = std::move(there);
     damping = std::max(damping * 0.1, 1e-9);
     if (gain < 1e-6 * std::max(1.0, normal.cost)) break;
   }
   const auto count = static_cast<double>(std::max<std::size_t>(pass.reads.size(), 1));
   const auto free = static_cast<double>(apertures.size() + 4);
-  fit.coherence = normal.cosines / count;
+  const auto errors = Eigen::Map<const Eigen::ArrayXd>(
+      normal.residuals.data(), static_cast<Eigen::Index>(normal.residuals.size()));
+  fit.coherence = errors.cos().sum() / count;
   const double freedom = std::max(count - free, 1.0);
-  fit.noise_rad = std::max(std::sqrt(normal.squares / freedom), kLeastNoise);
+  fit.noise_rad = std::max(std::sqrt(errors.square().sum() / freedom), kLeastNoise);
   const Eigen::VectorXd residual = prior.values - prior.rows * as_vector(fit.motion);
   fit.prior_cost = 0.5 * residual.squaredNorm();
   fit.covariance = normal.matrix.ldlt().solve(Matrix6d::Identity());
