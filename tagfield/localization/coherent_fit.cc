@@ -258,7 +258,7 @@ double fitted_away(const TagPhases& phases, const FitData& layout, const Eigen::
 /// Where phases are bent, residuals may tell of more than the told pose error does.
 Candidate careful_candidate(const TagPhases& phases, const FitData& layout,
                             const HeightModel& height, const PlaceVector& place, bool bent) {
-  const Candidate honest = candidate_at(phases, height, place);
+  Candidate honest = candidate_at(phases, height, place);
   if (!bent) return honest;
   const TagFit fit = fit_at(phases, height, place);
   const double factor = fitted_away(phases, layout, residuals_of(phases, height, fit));
