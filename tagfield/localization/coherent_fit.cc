@@ -223,6 +223,33 @@ Unlikelihood unlikelihood(const FitData& layout, const Maximum& best,
           concentration_of(std::clamp(share, 0.0, 0.99)) / correlation_factor(layout, residuals)};
 }
 
+Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
+                            const Maximum& maximum) {
+  return residuals_of(phases, height, fit_at(phases, height, maximum.place));
+}
+
+/// Maxima that the data can't tell from the best.
+struct Rivals {
+  std::vector<Maximum> lobes;   ///< Near the best, of bent phases.
+  std::vector<Maximum> others;  ///< Other places.
+};
+
+/// `unlikely` is null where phases are not bent: then residuals alone judge.
+Rivals rivals_of(const TagPhases& phases, const FitData& layout, const HeightModel& height,
+                 const std::vector<Maximum>& maxima, const Unlikelihood* unlikely) {
+  const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
+  const Eigen::Vector3d p_WT = to_place(height, maxima.front().place);
+  Rivals rivals;
+  for (std::size_t i = 1; i < maxima.size(); ++i) {
+    const Maximum& maximum = maxima[i];
+    if (unlikely != nullptr && unlikely->of(maximum) > kUnlikely) continue;
+    if (is_worse(phases, layout, best, residuals_at(phases, height, maximum))) continue;
+    const bool near = (to_place(height, maximum.place) - p_WT).norm() < kNear;
+    (unlikely != nullptr && near ? rivals.lobes : rivals.others).push_back(maximum);
+  }
+  return rivals;
+}
+
 /// Lets the covariance span the lobes near the place as well, as far as they are likely.
 void span_lobes(const HeightModel& height, const Unlikelihood& unlikely,
                 const std::vector<Maximum>& lobes, Candidate& candidate) {
@@ -330,12 +357,9 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   const FitData layout = layout_of(phases);
   const std::vector<Maximum> maxima = maxima_near(phases, height, layout, places, judgement.climb);
   if (maxima.empty()) {
-    return not_located(std::move(estimate), "no place is in reach of all reads");
+    return not_located(std::move(estimate), "no place is in reach of most reads");
   }
-  const auto residuals_at = [&](const Maximum& maximum) {
-    return residuals_of(phases, height, fit_at(phases, height, maximum.place));
-  };
-  const Eigen::ArrayXd best = residuals_at(maxima.front());
+  const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
   const double share = coherent_share(phases, height, maxima.front().place);
   if (share < judgement.min_share) {
     return not_located(
@@ -346,23 +370,14 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   }
   const bool bent = judgement.at_maxima && share < kBentShare;
   const Unlikelihood unlikely = unlikelihood(layout, maxima.front(), best);
-  std::vector<Maximum> lobes;
-  estimate.candidates.push_back(
-      careful_candidate(phases, layout, height, maxima.front().place, bent));
-  for (std::size_t i = 1; i < maxima.size(); ++i) {
-    if (bent && unlikely.of(maxima[i]) > kUnlikely) continue;
-    if (is_worse(phases, layout, best, residuals_at(maxima[i]))) continue;
-    const Candidate other = careful_candidate(phases, layout, height, maxima[i].place, bent);
-    const bool near = (other.p_WT - estimate.candidates.front().p_WT).norm() < kNear;
-    if (bent && near) {
-      lobes.push_back(maxima[i]);
-    } else {
-      estimate.candidates.push_back(scaled(other, judgement.error_factor));
-    }
-  }
-  Candidate& first = estimate.candidates.front();
-  first = scaled(first, judgement.error_factor);
-  span_lobes(height, unlikely, lobes, first);
+  const Rivals rivals = rivals_of(phases, layout, height, maxima, bent ? &unlikely : nullptr);
+  const auto candidate_of = [&](const Maximum& maximum) {
+    return scaled(careful_candidate(phases, layout, height, maximum.place, bent),
+                  judgement.error_factor);
+  };
+  estimate.candidates.push_back(candidate_of(maxima.front()));
+  span_lobes(height, unlikely, rivals.lobes, estimate.candidates.front());
+  for (const Maximum& other : rivals.others) estimate.candidates.push_back(candidate_of(other));
   judge(limits, estimate);
   return estimate;
 }

@@ -176,19 +176,26 @@ TagPhases thinned(const TagPhases& phases, std::size_t count) {
   std::vector<Eigen::Index> kept;
   TagPhases thin;
   for (const TagPhases::Span& span : phases.spans) {
-    TagPhases::Span of_kept = span;
-    of_kept.begin = static_cast<Eigen::Index>(kept.size());
+    TagPhases::Span kept_span = span;
+    kept_span.begin = static_cast<Eigen::Index>(kept.size());
     for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
-    of_kept.count = static_cast<Eigen::Index>(kept.size()) - of_kept.begin;
-    thin.spans.push_back(of_kept);
+    kept_span.count = static_cast<Eigen::Index>(kept.size()) - kept_span.begin;
+    thin.spans.push_back(kept_span);
   }
-  thin.x = phases.x(kept);
-  thin.y = phases.y(kept);
-  thin.z = phases.z(kept);
-  thin.value = phases.value(kept);
-  thin.cycle = phases.cycle(kept);
-  thin.wavenumber = phases.wavenumber(kept);
-  thin.time_s = phases.time_s(kept);
+  const auto of_kept = [&](const Eigen::ArrayXd& column) {
+    Eigen::ArrayXd few(static_cast<Eigen::Index>(kept.size()));
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      few[static_cast<Eigen::Index>(k)] = column[kept[k]];
+    }
+    return few;
+  };
+  thin.x = of_kept(phases.x);
+  thin.y = of_kept(phases.y);
+  thin.z = of_kept(phases.z);
+  thin.value = of_kept(phases.value);
+  thin.cycle = of_kept(phases.cycle);
+  thin.wavenumber = of_kept(phases.wavenumber);
+  thin.time_s = of_kept(phases.time_s);
   return thin;
 }
 
