@@ -9,6 +9,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/least_squares.h"
+#include "tagfield/localization/locate.h"
 
 namespace tagfield {
 namespace {
@@ -93,13 +94,6 @@ double misfit_left(const LocalizationResult& result, double noise_m) {
   return noise_m > 0.0 ? lesser_median(std::move(misfits)) / noise_m : 0.0;
 }
 
-const Method& named(const std::vector<Method>& methods, const std::string& name) {
-  const auto found = std::find_if(methods.begin(), methods.end(),
-                                  [&](const Method& method) { return method.name == name; });
-  if (found == methods.end()) throw Error("there is no method '" + name + "'");
-  return *found;
-}
-
 }  // namespace
 
 DataTraits traits_of(const LocalizationProblem& problem, int threads) {
@@ -159,13 +153,14 @@ Method automatic_method(std::vector<Method> methods) {
                                                      int threads, Diagnostics& diagnostics) {
     const DataTraits traits = traits_of(problem, threads);
     Choice choice = choose_method(traits, problem.reference_tags.size());
-    LocalizationResult result = named(methods, choice.method).locate(problem, threads, diagnostics);
+    LocalizationResult result =
+        find_method(methods, choice.method).locate(problem, threads, diagnostics);
     const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
     if (misfit > kLeftOver) {
       choice = {"sar", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
                                    "the noise, as reflections make it",
                                    misfit)};
-      result = named(methods, choice.method).locate(problem, threads, diagnostics);
+      result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
     }
     result.why = choice.why;
     return result;

@@ -17,6 +17,7 @@ namespace {
 constexpr double kFirstAperture = 1.5;  ///< [λ]
 constexpr double kFinestCell = 0.1;     ///< [λ]
 constexpr double kThoroughCell = 0.16;  ///< Half of a lobe's width [λ].
+constexpr double kMostCells = 1000.0;   ///< From the middle to the edge of a grid.
 constexpr std::int64_t kSplit = 3;      ///< A cell is split into so many by so many.
 constexpr std::size_t kMostKept = 250;  ///< Cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
@@ -146,7 +147,7 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
 void check(const SearchOptions& options) {
   require_positive(options.max_range_m, "max_range_m");
   require_positive(options.cell_m, "cell_m");
-  if (options.max_range_m / options.cell_m > 1000.0) {
+  if (options.max_range_m / options.cell_m > kMostCells) {
     throw Error("cell_m must be at least a thousandth of max_range_m");
   }
   if (options.maxima < 1) throw Error("maxima must be at least 1");
@@ -247,10 +248,11 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
                                           const Brightness& brightness) {
   if (phases.size() == 0) return {};
   const double lambda = longest_wavelength(phases);
-  const TagPhases coarse = thinned(phases, options.thorough ? options.reads / 2 : options.reads);
+  const TagPhases coarse =
+      thinned(phases, options.thorough ? (options.reads + 1) / 2 : options.reads);
   const Eigen::Vector2d middle = middle_of(phases);
-  double size =
-      options.thorough ? std::min(options.cell_m, kThoroughCell * lambda) : options.cell_m;
+  const double whole_cell = std::max(kThoroughCell * lambda, options.max_range_m / kMostCells);
+  double size = options.thorough ? std::min(options.cell_m, whole_cell) : options.cell_m;
   double length = options.thorough ? kWholeAperture : kFirstAperture * lambda;
   Cells cells = all_cells(phases, height, middle, options.max_range_m, size);
   for (; size > kFinestCell * lambda; size /= static_cast<double>(kSplit), length *= 3.0) {

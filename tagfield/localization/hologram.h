@@ -70,7 +70,7 @@ struct SearchOptions {
   double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
   std::size_t maxima = 12;    ///< So many are returned at most.
   std::size_t reads = 800;    ///< Coarse levels take so many at most, evenly thinned.
-  /// Whole apertures on all of the area at once: some ten times the work. Reflections bend the
+  /// Whole apertures on all of the area at once: some twenty times the work. Reflections bend the
   /// phase over decimetres, so that short apertures are brightest elsewhere.
   bool thorough = false;
 };

@@ -45,7 +45,9 @@ QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints")}
 TRUTH_READERS = ("tagfield/report/", "simulator/", "bench/", "adapters/", "apps/")
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
-TYPE = re.compile(r"^(?:struct|class|union|enum class|enum) (\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =", re.MULTILINE)
+TYPE = re.compile(
+    r"^(?:struct|class|union|enum class|enum) (\w+)(?!::)[^;\n:]*(?:: [^\n]*)?\{|^using (\w+) =",
+    re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 

@@ -258,6 +258,20 @@ TEST(Sar, ReflectionsShiftPlacesLittle) {
   EXPECT_GE(located, 36);
 }
 
+TEST(Sar, ASearchByFewReadsAndFarAwayIsNoTroubleEither) {
+  Rng rng(1);
+  Hall hall = made::hall(aisles(0.02), 1, Noise{}, rng);
+  reflect(walls(0.5), hall);
+  SarOptions options;
+  options.search.reads = 1;
+  options.search.max_range_m = 100.0;
+  const TagEstimate estimate = locate_one(sar_method(options), hall.problem);
+  for (const Candidate& candidate : estimate.candidates) {
+    EXPECT_TRUE(candidate.p_WT.allFinite());
+    EXPECT_LT((candidate.p_WT - hall.truth.at("t0")).norm(), 200.0);
+  }
+}
+
 TEST(Sar, WhatCannotBeLocatedSaysWhy) {
   Rng rng(14);
   const auto why = [](const SamplesOfTag& samples) {
