@@ -11,7 +11,7 @@
 #include <string>
 
 #include "tagfield/base/units.h"
-#include "tagfield/reader/radio_air.h"
+#include "tagfield/field/radio_air.h"
 #include "tagfield/sdf/load_world.h"
 
 namespace tagfield {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "simulator/experiment.h"
-#include "simulator/scenario_yaml.h"
+#include "tagfield/experiment/experiment.h"
+#include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
 namespace {

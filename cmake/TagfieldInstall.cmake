@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 get_property(rooms GLOBAL PROPERTY TAGFIELD_ROOMS)
 install(TARGETS ${rooms} EXPORT tagfieldTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY tagfield navigation simulator bench DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(DIRECTORY tagfield DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN internal EXCLUDE PATTERN test EXCLUDE)
 install(EXPORT tagfieldTargets NAMESPACE tagfield::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)

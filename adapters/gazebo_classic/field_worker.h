@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "tagfield/reader/rfid_field.h"
+#include "tagfield/field/rfid_field.h"
 
 namespace tagfield {
 

@@ -17,7 +17,7 @@
 
 #include "adapters/gazebo_classic/field_worker.h"
 #include "adapters/gazebo_classic/static_scene.h"
-#include "tagfield/reader/rfid_field.h"
+#include "tagfield/field/rfid_field.h"
 
 namespace tagfield {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "tagfield/reader/field_picture.h"
+#include "tagfield/field/field_picture.h"
 
 namespace tagfield {
 

@@ -8,8 +8,8 @@
 
 #include "tagfield/base/time.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/tag_read.h"
+#include "tagfield/stream/truth.h"
 
 namespace tagfield {
 

@@ -9,8 +9,8 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/tag_read.h"
+#include "tagfield/stream/truth.h"
 
 namespace tagfield {
 

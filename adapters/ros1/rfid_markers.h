@@ -7,7 +7,7 @@
 #include <string>
 
 #include "adapters/ros1/ros_link.h"
-#include "tagfield/reader/field_picture.h"
+#include "tagfield/field/field_picture.h"
 
 namespace tagfield {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "adapters/ros1/ros_link.h"
-#include "tagfield/reader/rfid_field.h"
+#include "tagfield/field/rfid_field.h"
 
 namespace tagfield {
 

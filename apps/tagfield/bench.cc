@@ -6,14 +6,14 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
-#include "bench/bench_figures.h"
-#include "bench/bench_files.h"
-#include "bench/bench_page.h"
-#include "bench/bench_text.h"
-#include "bench/run_bench.h"
-#include "bench/suite_yaml.h"
+#include "tagfield/experiment/bench/bench_figures.h"
+#include "tagfield/experiment/bench/bench_files.h"
+#include "tagfield/experiment/bench/bench_page.h"
+#include "tagfield/experiment/bench/bench_text.h"
+#include "tagfield/experiment/bench/run_bench.h"
+#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "simulator/calibration_profile.h"
-#include "tagfield/stream/files.h"
-#include "tagfield/stream/poses_csv.h"
-#include "tagfield/stream/reads_csv.h"
-#include "tagfield/stream/tag_places_csv.h"
+#include "tagfield/files/files.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/scenario/calibration_profile.h"
 
 namespace tagfield {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "simulator/placements.h"
-#include "simulator/scenario_yaml.h"
-#include "simulator/simulation.h"
+#include "tagfield/scenario/placements.h"
+#include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"
+#include "tagfield/simulator/simulation.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {

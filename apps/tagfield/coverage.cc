@@ -7,10 +7,10 @@
 #include "apps/tagfield/coverage_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
-#include "simulator/moment.h"
+#include "tagfield/files/files.h"
+#include "tagfield/planning/moment.h"
 #include "tagfield/report/coverage_figure.h"
 #include "tagfield/report/coverage_page.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {

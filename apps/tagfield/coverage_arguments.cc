@@ -7,12 +7,12 @@
 #include <set>
 #include <sstream>
 
-#include "simulator/profile.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/map/top_view.h"
-#include "tagfield/reader/radio_settings.h"
+#include "tagfield/scenario/profile.h"
+#include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {
 namespace {

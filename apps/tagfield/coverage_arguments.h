@@ -8,7 +8,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/scenario_arguments.h"
-#include "simulator/coverage.h"
+#include "tagfield/planning/coverage.h"
 
 namespace tagfield {
 

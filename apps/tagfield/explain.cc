@@ -6,7 +6,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/explain_text.h"
 #include "apps/tagfield/scenario_arguments.h"
-#include "simulator/moment.h"
+#include "tagfield/planning/moment.h"
 
 namespace tagfield {
 namespace {

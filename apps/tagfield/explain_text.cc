@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "simulator/link_verdict.h"
 #include "tagfield/base/units.h"
+#include "tagfield/planning/link_verdict.h"
 
 namespace tagfield {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "simulator/link_explanation.h"
+#include "tagfield/planning/link_explanation.h"
 
 namespace tagfield {
 

@@ -8,11 +8,11 @@
 #include "adapters/gazebo_classic/world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "simulator/navigation_world.h"
-#include "simulator/scenario_yaml.h"
-#include "simulator/simulation.h"
+#include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
-#include "tagfield/stream/files.h"
+#include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/simulator/navigation_world.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/report/summary.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/truth.h"
 
 namespace tagfield {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <set>
 
-#include "simulator/known_beforehand.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
-#include "tagfield/stream/tag_heights_csv.h"
-#include "tagfield/stream/tag_places_csv.h"
+#include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/files/tag_heights_csv.h"
+#include "tagfield/files/tag_places_csv.h"
 
 namespace tagfield {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "apps/tagfield/localize.h"
-#include "simulator/scenario.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/scenario/scenario.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

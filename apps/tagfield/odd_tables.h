@@ -7,7 +7,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

@@ -8,9 +8,9 @@
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/progress_bar.h"
-#include "simulator/dataset_format.h"
-#include "tagfield/stream/poses_csv.h"
-#include "tagfield/stream/reads_csv.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/scenario/dataset_format.h"
 
 namespace tagfield {
 namespace {

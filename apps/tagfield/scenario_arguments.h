@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/scenario_yaml.h"
+#include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
 

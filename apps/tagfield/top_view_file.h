@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "simulator/scenario_yaml.h"
+#include "tagfield/files/files.h"
 #include "tagfield/map/top_view.h"
-#include "tagfield/stream/files.h"
+#include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
 

@@ -1,8 +1,8 @@
 // A program of one's own: tags come and go while a robot drives, and are located afterwards.
 #include <cstdio>
 
-#include "simulator/simulation.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace {
 

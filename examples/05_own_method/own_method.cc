@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bench/bench_text.h"
-#include "bench/run_bench.h"
+#include "tagfield/experiment/bench/bench_text.h"
+#include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/localization/locate.h"
 
 namespace {

@@ -16,7 +16,7 @@
 #include "tagfield/localization/sar.h"
 #include "tagfield/localization/trilateration.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

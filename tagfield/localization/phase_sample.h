@@ -10,7 +10,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/time.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

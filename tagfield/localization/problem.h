@@ -14,7 +14,7 @@
 #include "tagfield/localization/phase_sample.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

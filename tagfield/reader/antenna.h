@@ -10,7 +10,7 @@
 #include "tagfield/channel/paper_model.h"
 #include "tagfield/link/link_geometry.h"
 #include "tagfield/reader/radio_model.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 

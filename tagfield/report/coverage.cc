@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tagfield/stream/csv.h"
+#include "tagfield/files/csv.h"
 
 namespace tagfield {
 namespace {

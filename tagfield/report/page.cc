@@ -1,11 +1,11 @@
 #include "tagfield/report/page.h"
 
+#include "tagfield/files/files.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/report/style_sheet.h"
 #include "tagfield/report/tables.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {

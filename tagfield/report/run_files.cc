@@ -5,11 +5,12 @@
 #include <iterator>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/files.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/truth_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/text.h"
-#include "tagfield/stream/files.h"
-#include "tagfield/stream/poses_csv.h"
-#include "tagfield/stream/reads_csv.h"
 
 namespace tagfield {
 namespace {

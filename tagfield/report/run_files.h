@@ -10,9 +10,9 @@
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/map/top_view.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
 #include "tagfield/report/summary.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/tag_read.h"
+#include "tagfield/stream/truth.h"
 
 namespace tagfield {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tagfield/localization/tag_estimate.h"
-#include "tagfield/reader/tag_read.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/tag_read.h"
+#include "tagfield/stream/truth.h"
 
 namespace tagfield {
 

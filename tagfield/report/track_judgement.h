@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tagfield/report/summary.h"
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/truth.h"
 #include "tagfield/tracking/passing.h"
 #include "tagfield/tracking/track.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/report/truth.h"
+#include "tagfield/stream/truth.h"
 #include "tagfield/tracking/track.h"
 
 namespace tagfield {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
-#include "tagfield/stream/csv.h"
+#include "tagfield/files/csv.h"
 
 namespace tagfield {
 namespace {

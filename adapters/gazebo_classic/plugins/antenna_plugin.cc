@@ -9,7 +9,7 @@
 #include "adapters/gazebo_classic/plugins/shared_world.h"
 #include "adapters/gazebo_classic/sensor_context.h"
 #include "tagfield/base/error.h"
-#include "tagfield/reader/sensor_parameters.h"
+#include "tagfield/settings/sensor_parameters.h"
 
 namespace gazebo {
 namespace {

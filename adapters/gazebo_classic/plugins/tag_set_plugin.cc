@@ -9,9 +9,9 @@
 #include "adapters/gazebo_classic/plugin_elements.h"
 #include "adapters/gazebo_classic/plugins/shared_world.h"
 #include "tagfield/base/error.h"
-#include "tagfield/reader/sensor_parameters.h"
-#include "tagfield/reader/sensor_radio.h"
-#include "tagfield/stream/csv.h"
+#include "tagfield/files/csv.h"
+#include "tagfield/settings/sensor_parameters.h"
+#include "tagfield/settings/sensor_radio.h"
 
 namespace gazebo {
 namespace {

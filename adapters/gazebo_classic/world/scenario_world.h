@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/scenario.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield {

@@ -16,7 +16,7 @@
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
 #include "adapters/ros1/navigation/scan_source.h"
-#include "navigation/goal_driver.h"
+#include "tagfield/navigation/goal_driver.h"
 
 namespace tagfield {
 namespace {

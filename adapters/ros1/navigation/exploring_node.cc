@@ -15,7 +15,7 @@
 #include "adapters/ros1/navigation/navigation_messages.h"
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
-#include "navigation/explorer.h"
+#include "tagfield/navigation/explorer.h"
 
 namespace tagfield {
 namespace {

@@ -13,7 +13,7 @@
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
 #include "adapters/ros1/navigation/scan_source.h"
-#include "navigation/monte_carlo_localizer.h"
+#include "tagfield/navigation/monte_carlo_localizer.h"
 
 namespace tagfield {
 namespace {

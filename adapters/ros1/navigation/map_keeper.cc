@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "adapters/ros1/navigation/navigation_messages.h"
+#include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {

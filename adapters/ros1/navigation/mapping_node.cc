@@ -8,7 +8,7 @@
 #include "adapters/ros1/navigation/node_parameters.h"
 #include "adapters/ros1/navigation/nodes.h"
 #include "adapters/ros1/navigation/scan_source.h"
-#include "navigation/grid_mapper.h"
+#include "tagfield/navigation/grid_mapper.h"
 
 namespace tagfield {
 namespace {

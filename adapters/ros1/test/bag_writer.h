@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/reader/tag_read.h"
+#include "tagfield/stream/tag_read.h"
 
 namespace rosbag {
 class Bag;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tagfield/base/units.h"
+#include "tagfield/files/poses_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/page.h"
@@ -8,7 +9,6 @@
 #include "tagfield/report/tables.h"
 #include "tagfield/report/test/balanced_tags.h"
 #include "tagfield/report/test/run_folder.h"
-#include "tagfield/stream/poses_csv.h"
 
 namespace tagfield {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "tagfield/base/units.h"
-#include "tagfield/report/truth.h"
-#include "tagfield/stream/files.h"
-#include "tagfield/stream/poses_csv.h"
-#include "tagfield/stream/reads_csv.h"
+#include "tagfield/files/files.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/truth_csv.h"
 
 namespace tagfield {
 namespace {

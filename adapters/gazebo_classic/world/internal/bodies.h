@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "adapters/gazebo_classic/world/internal/xml.h"
-#include "simulator/scenario.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield::gazebo_world_internal {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "adapters/gazebo_classic/world/internal/xml.h"
-#include "simulator/scenario.h"
 #include "tagfield/base/raw_parameter.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield::gazebo_world_internal {
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "simulator/placements.h"
-#include "simulator/scenario_yaml.h"
 #include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/files/files.h"
+#include "tagfield/scenario/placements.h"
+#include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"
-#include "tagfield/stream/files.h"
 
 namespace tagfield {
 namespace {

@@ -1,0 +1,223 @@
+#include "tagfield/experiment/bench/bench_page.h"
+
+#include <fmt/format.h>
+
+#include "tagfield/experiment/bench/bench_figures.h"
+#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/report/page.h"
+#include "tagfield/report/page_text.h"
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostName = 28;
+constexpr const char* kErrorsText =
+    "<p class=\"muted\">The share of the tags that were located no further off than the value "
+    "below. "
+    "Where a line ends below 100 %, the rest was ambiguous or not located.</p>\n";
+
+std::string header(const Bench& bench) {
+  std::string html = "<header>\n<p class=\"kind\">Tagfield bench</p>\n<h1><bdi>" +
+                     escaped(bench.name) + "</bdi></h1>\n";
+  if (!bench.description.empty()) {
+    html += "<p class=\"muted\">" + escaped(bench.description) + "</p>\n";
+  }
+  if (!bench.complete) {
+    html +=
+        "<div class=\"note incomplete\"><p><strong>Incomplete.</strong> The bench was interrupted; "
+        "only runs that were done by then count.</p></div>\n";
+  }
+  return html + "</header>\n";
+}
+
+std::size_t count_runs(const Bench& bench) {
+  std::size_t runs = 0;
+  for (const BenchCondition& condition : bench.conditions) {
+    const std::vector<const BenchEntry*> entries = entries_of(bench, condition.name);
+    if (!entries.empty()) runs += entries.front()->runs.size();
+  }
+  return runs;
+}
+
+std::string big(const std::string& name, const std::string& value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
+}
+
+std::string numbers(const Bench& bench, Timing timing) {
+  std::string html = "<dl class=\"numbers\">\n" +
+                     big("Methods", grouped(method_names(bench).size())) +
+                     big("Conditions", grouped(bench.conditions.size())) +
+                     big("Runs simulated", grouped(count_runs(bench)));
+  if (timing == Timing::kWithTimes) {
+    html +=
+        big(fmt::format("Took, on {}", counted(static_cast<std::size_t>(bench.threads), "thread")),
+            fmt::format("{:.0f} s", bench.wall_s));
+  }
+  return html + "</dl>\n";
+}
+
+std::string warnings(const Bench& bench) {
+  if (bench.warnings.empty()) return "";
+  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
+  for (const std::string& warning : bench.warnings) html += "<li>" + escaped(warning) + "</li>\n";
+  return html + "</ul></div>\n";
+}
+
+std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
+
+std::string length_cell(const std::optional<ErrorStatistics>& errors,
+                        double ErrorStatistics::*property) {
+  return cell(errors ? fmt::format("{:.1f}", 1e3 * (*errors).*property) : "–");
+}
+
+std::string nees_cell(const std::optional<NeesSummary>& nees) {
+  if (!nees) return cell("–");
+  constexpr const char* kMarks[] = {"", " ▼", " ▲"};
+  return fmt::format("<td title=\"{}, 95 % band {:.2f} to {:.2f}\">{:.2f}{}</td>",
+                     to_string(nees->consistency), nees->band.low / nees->expected,
+                     nees->band.high / nees->expected, nees->mean / nees->expected,
+                     kMarks[static_cast<int>(nees->consistency)]);
+}
+
+/// Which columns there are.
+struct Columns {
+  bool height = false;
+  bool aligned = false;
+  bool times = false;
+
+  [[nodiscard]] int count() const {
+    return 11 + (height ? 1 : 0) + (aligned ? 1 : 0) + (times ? 1 : 0);
+  }
+};
+
+Columns columns_of(const Bench& bench, Timing timing) {
+  Columns columns;
+  columns.times = timing == Timing::kWithTimes;
+  for (const BenchEntry& entry : bench.entries) {
+    const EntryStatistics all = statistics_of(entry);
+    columns.height = columns.height || all.error_3d_m;
+    columns.aligned = columns.aligned || all.aligned_error_m;
+  }
+  return columns;
+}
+
+std::string head_of(const Columns& columns) {
+  std::string html =
+      "<thead><tr><th scope=\"col\">Method</th><th scope=\"col\">Located</th>"
+      "<th scope=\"col\">Ambi-<br>guous</th><th scope=\"col\">Not<br>located</th>"
+      "<th scope=\"col\">Wrong</th><th scope=\"col\">Mean<br>[mm]</th>"
+      "<th scope=\"col\">Median<br>[mm]</th><th scope=\"col\">95 %<br>[mm]</th>"
+      "<th scope=\"col\">Max<br>[mm]</th>";
+  if (columns.height) html += "<th scope=\"col\">Mean 3-D<br>[mm]</th>";
+  if (columns.aligned) html += "<th scope=\"col\">Aligned<br>[mm]</th>";
+  html += "<th scope=\"col\">Times<br>bound</th><th scope=\"col\">NEES<br>/dof</th>";
+  if (columns.times) html += "<th scope=\"col\">Time per<br>tag [ms]</th>";
+  return html + "</tr></thead>\n";
+}
+
+std::string ambiguous_cell(const EntryStatistics& all) {
+  if (all.ambiguous == 0) return cell("0");
+  return cell(fmt::format("{} ({})", all.ambiguous, all.candidate_hits));
+}
+
+std::string row_of(const BenchEntry& entry, const Columns& columns) {
+  const EntryStatistics all = statistics_of(entry);
+  std::string html = fmt::format(
+      "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td>{} of {}</td>",
+      escaped(entry.method), escaped(shortened(entry.name, kMostName)), all.located, all.tags);
+  html += ambiguous_cell(all) + cell(grouped(all.not_located)) + cell(grouped(all.wrong));
+  html += length_cell(all.error_m, &ErrorStatistics::mean);
+  html += length_cell(all.error_m, &ErrorStatistics::median);
+  html += length_cell(all.error_m, &ErrorStatistics::p95);
+  html += length_cell(all.error_m, &ErrorStatistics::max);
+  if (columns.height) html += length_cell(all.error_3d_m, &ErrorStatistics::mean);
+  if (columns.aligned) html += length_cell(all.aligned_error_m, &ErrorStatistics::mean);
+  html += cell(all.ratio ? fmt::format("{:.2f}", all.ratio->mean) : "–") + nees_cell(all.nees);
+  if (columns.times) {
+    html += cell(all.time_per_tag_ms ? fmt::format("{:.1f}", *all.time_per_tag_ms) : "–");
+  }
+  return html + "</tr>\n";
+}
+
+std::string title_of(const Bench& bench, const BenchCondition& condition) {
+  const std::vector<const BenchEntry*> entries = entries_of(bench, condition.name);
+  const std::size_t runs = entries.empty() ? 0 : entries.front()->runs.size();
+  return fmt::format("{} <span class=\"muted\">({}, pose: {})</span>", escaped(condition.name),
+                     counted(runs, "run"), escaped(condition.pose));
+}
+
+std::string table(const Bench& bench, Timing timing) {
+  const Columns columns = columns_of(bench, timing);
+  std::string html =
+      "<div class=\"table\" role=\"region\" aria-label=\"Results\" tabindex=\"0\"><table>\n" +
+      head_of(columns);
+  for (const BenchCondition& condition : bench.conditions) {
+    html += fmt::format(
+        "<tbody>\n<tr><th class=\"group\" scope=\"rowgroup\" colspan=\"{}\"><span>{}</span></th>"
+        "</tr>\n",
+        columns.count(), title_of(bench, condition));
+    for (const BenchEntry* entry : entries_of(bench, condition.name)) {
+      html += row_of(*entry, columns);
+    }
+    html += "</tbody>\n";
+  }
+  return html + "</table></div>\n";
+}
+
+/// What the bounds leave out, by condition.
+std::string bound_notes(const Bench& bench) {
+  std::string items;
+  for (const BenchCondition& condition : bench.conditions) {
+    const std::string name = "<li><bdi>" + escaped(condition.name) + "</bdi>: ";
+    if (!condition.no_bound.empty()) {
+      items += name + "no bound, as " + escaped(condition.no_bound) + "</li>\n";
+    } else if (!condition.bound_knows_pose_error) {
+      items +=
+          name +
+          "the bound takes the poses for exact, as nobody knows the law of their errors</li>\n";
+    }
+  }
+  return items.empty() ? "" : "<ul class=\"muted\">\n" + items + "</ul>\n";
+}
+
+std::string legend(const Columns& columns) {
+  std::string html =
+      "<p class=\"muted\">Errors are horizontal, of the tags that were located; wrong are those "
+      "over 0.3 m off. In brackets: ambiguous tags with a candidate within 0.1 m. Times bound: the "
+      "mean error over that of an efficient estimator (the "
+      "Cramér-Rao "
+      "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right, ▲ "
+      "beyond chance too bold, ▼ too cautious.";
+  if (columns.aligned) {
+    html +=
+        " Aligned: mean error after the shift and turn that brings a run’s tags closest to their "
+        "places, as a map may be off as a whole.";
+  }
+  return html + "</p>\n";
+}
+
+std::string figures_html(const std::vector<Figure>& figures, bool of_errors) {
+  std::string drawn;
+  std::string missing;
+  for (const Figure& figure : figures) {
+    if ((figure.name.rfind("errors_", 0) == 0) != of_errors) continue;
+    (figure.missing.empty() ? drawn : missing) += figure_html(figure);
+  }
+  return (drawn.empty() ? "" : "<div class=\"figures\">\n" + drawn + "</div>\n") + missing;
+}
+
+}  // namespace
+
+std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, Timing timing) {
+  return page_head(bench.name + " – Tagfield bench") + "<body>\n" + header(bench) + "<main>\n" +
+         numbers(bench, timing) + warnings(bench) + table(bench, timing) +
+         legend(columns_of(bench, timing)) + bound_notes(bench) + "<h2>Figures</h2>\n" +
+         figures_html(figures, false) + "<h2>Errors by condition</h2>\n" + kErrorsText +
+         figures_html(figures, true) +
+         "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv lie beside "
+         "this "
+         "page, the figures in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
+}
+
+}  // namespace tagfield

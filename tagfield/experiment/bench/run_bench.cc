@@ -1,0 +1,147 @@
+#include "tagfield/experiment/bench/run_bench.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <mutex>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/experiment/bench/condition_run.h"
+
+namespace tagfield {
+namespace {
+
+/// One condition with one seed, and what came of it.
+struct Job {
+  const PreparedCondition* condition = nullptr;
+  std::uint64_t seed = 0;
+  std::optional<std::vector<MethodRun>> runs;
+  Diagnostics warnings;
+};
+
+std::vector<Job> jobs_of(const PreparedSuite& prepared) {
+  std::vector<Job> jobs;
+  for (const PreparedCondition& condition : prepared.conditions) {
+    for (std::uint64_t i = 0; i < condition.runs; ++i) {
+      jobs.push_back({&condition, prepared.suite.first_seed + i, std::nullopt, {}});
+    }
+  }
+  return jobs;
+}
+
+/// Counts the jobs done.
+class Progress {
+ public:
+  Progress(const RunControl& control, std::size_t count) : control_(control), count_(count) {}
+
+  void add_one() {
+    const std::lock_guard lock(mutex_);
+    done_ += 1.0;
+    if (control_.on_progress) control_.on_progress(done_ / static_cast<double>(count_));
+  }
+
+ private:
+  const RunControl& control_;
+  std::size_t count_;
+  std::mutex mutex_;
+  double done_ = 0.0;
+};
+
+void run_all(std::vector<Job>& jobs, const RunControl& control) {
+  RunControl of_one;
+  of_one.stop = control.stop;
+  Progress progress(control, jobs.size());
+  parallel_for(jobs.size(), control.threads, [&](std::size_t i) {
+    if (stopped(control)) return;
+    Job& job = jobs[i];
+    try {
+      job.runs = run_condition(*job.condition, job.seed, of_one, job.warnings);
+    } catch (const Error& error) {
+      const Condition& condition = job.condition->condition;
+      fail(condition.location,
+           fmt::format("condition '{}', seed {}: {}", condition.name, job.seed, error.what()));
+    }
+    progress.add_one();
+  });
+}
+
+BenchCondition described(const PreparedCondition& prepared) {
+  BenchCondition condition;
+  condition.name = prepared.condition.name;
+  condition.scenario = prepared.scenario.name;
+  condition.pose = to_string(prepared.scenario.pose.source);
+  condition.runs_planned = prepared.runs;
+  condition.bound_knows_pose_error = true_pose_error(prepared.scenario).has_value();
+  condition.no_bound = prepared.no_bound;
+  return condition;
+}
+
+/// Conditions, and an entry without runs for each of their methods.
+Bench empty_bench(const PreparedSuite& prepared) {
+  Bench bench;
+  bench.name = prepared.suite.name;
+  bench.description = prepared.suite.description;
+  for (const PreparedCondition& condition : prepared.conditions) {
+    bench.conditions.push_back(described(condition));
+    for (const PreparedMethod& method : condition.methods) {
+      bench.entries.push_back({condition.condition.name, method.name, method.method.name, {}});
+    }
+  }
+  return bench;
+}
+
+void add_warnings(const Job& job, std::uint64_t first_seed, Diagnostics& diagnostics) {
+  if (job.seed != first_seed) return;
+  for (const std::string& warning : job.warnings.warnings()) {
+    diagnostics.warn(fmt::format("condition '{}', seed {}: {}", job.condition->condition.name,
+                                 job.seed, warning));
+  }
+}
+
+/// Deals the runs of the jobs out to their entries.
+void collect(const PreparedSuite& prepared, std::vector<Job>& jobs, Bench& bench) {
+  Diagnostics diagnostics;
+  std::size_t first_entry = 0;
+  const PreparedCondition* condition = jobs.empty() ? nullptr : jobs.front().condition;
+  for (Job& job : jobs) {
+    if (job.condition != condition) {
+      first_entry += condition->methods.size();
+      condition = job.condition;
+    }
+    add_warnings(job, prepared.suite.first_seed, diagnostics);
+    if (!job.runs) {
+      bench.complete = false;
+      continue;
+    }
+    for (std::size_t i = 0; i < job.runs->size(); ++i) {
+      bench.entries[first_entry + i].runs.push_back(std::move((*job.runs)[i]));
+    }
+  }
+  bench.warnings = diagnostics.warnings();
+}
+
+}  // namespace
+
+Bench run_bench(const PreparedSuite& prepared, const RunControl& control) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  std::vector<Job> jobs = jobs_of(prepared);
+  run_all(jobs, control);
+  Bench bench = empty_bench(prepared);
+  collect(prepared, jobs, bench);
+  bench.threads = control.threads;
+  bench.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  return bench;
+}
+
+Bench run_bench(const Suite& suite, const MethodFactory& methods, const RunControl& control) {
+  Diagnostics diagnostics;
+  const PreparedSuite prepared = prepare(suite, methods, diagnostics);
+  Bench bench = run_bench(prepared, control);
+  std::vector<std::string> warnings = diagnostics.warnings();
+  warnings.insert(warnings.end(), bench.warnings.begin(), bench.warnings.end());
+  bench.warnings = std::move(warnings);
+  return bench;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+/// @file
+/// The door of this room: runs methods in conditions with seeds, in parallel.
+#pragma once
+
+#include "tagfield/experiment/bench/bench.h"
+#include "tagfield/experiment/bench/prepared.h"
+#include "tagfield/experiment/bench/suite.h"
+#include "tagfield/simulator/run_control.h"
+
+namespace tagfield {
+
+/// Each condition with each seed is simulated once, and all its methods get the same problem. The
+/// result does not depend on the number of threads, times excepted. Runs that were not over when
+/// `control.stop` was set are left out. Warnings are those of each condition's first seed.
+Bench run_bench(const PreparedSuite& prepared, const RunControl& control);
+
+/// Reads scenarios, then runs. Throws Error as prepare() does.
+Bench run_bench(const Suite& suite, const MethodFactory& methods, const RunControl& control);
+
+}  // namespace tagfield

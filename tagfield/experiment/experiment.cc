@@ -1,0 +1,299 @@
+#include "tagfield/experiment/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/navigation_summary.h"
+#include "tagfield/motion/planar_pose.h"
+#include "tagfield/report/method_summary.h"
+
+namespace tagfield {
+namespace {
+
+TagEstimate never_read(const std::string& tag) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reason = "cannot localize: never read";
+  return estimate;
+}
+
+/// Estimates in the scenario's order, with those of tags that were never read.
+std::vector<TagEstimate> in_scenario_order(const Scenario& scenario,
+                                           std::vector<TagEstimate> estimates) {
+  std::map<std::string, TagEstimate> by_tag;
+  for (TagEstimate& estimate : estimates) {
+    std::string tag = estimate.tag;
+    by_tag.emplace(std::move(tag), std::move(estimate));
+  }
+  std::vector<TagEstimate> ordered;
+  for (const TagSpec& tag : scenario.tags) {
+    const auto found = by_tag.find(tag.id);
+    ordered.push_back(found == by_tag.end() ? never_read(tag.id) : std::move(found->second));
+  }
+  return ordered;
+}
+
+std::vector<TagOutcome> outcomes_of(const Scenario& scenario, const SeedRun& run,
+                                    const std::vector<TagEstimate>& estimates) {
+  std::vector<TagOutcome> outcomes;
+  std::map<std::string, std::size_t> counts = count_by_tag(run.recording.reads);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const TagSpec& tag = scenario.tags[i];
+    TagOutcome outcome;
+    outcome.seed = run.seed;
+    outcome.reads = counts[tag.id];
+    outcome.estimate = estimates[i];
+    outcome.moved = moves(tag);
+    const auto& references = scenario.localization.reference_tags;
+    outcome.reference = std::count(references.begin(), references.end(), tag.id) > 0;
+    if (!outcome.moved) outcome.truth_m = tag.motion.front().X_WB.translation;
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+std::vector<double> errors_of(const std::vector<TagOutcome>& outcomes) {
+  std::vector<double> errors;
+  for (const TagOutcome& outcome : outcomes) {
+    if (const auto error = error_of(outcome)) errors.push_back(*error);
+  }
+  return errors;
+}
+
+/// Horizontal rms distance between the believed and the true antenna poses [m].
+double position_rms(const Recording& recording) {
+  const std::vector<AntennaPose>& truth = recording.truth.antenna_poses;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    sum += (recording.believed_poses[i].X_WA.translation - truth[i].X_WA.translation)
+               .head<2>()
+               .squaredNorm();
+  }
+  return truth.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+PoseErrorSummary pose_error_of(const Scenario& scenario, const std::vector<SeedRun>& runs) {
+  PoseErrorSummary summary;
+  summary.sigma_m = scenario.pose.sigma_m;
+  summary.time_constant_s = scenario.pose.time_constant_s;
+  summary.yaw_sigma_rad = scenario.pose.yaw_sigma_rad;
+  summary.position_rms_m = position_rms(runs.front().recording);
+  std::vector<double> errors;
+  for (const SeedRun& run : runs) {
+    errors.insert(errors.end(), run.errors_with_true_pose_m.begin(),
+                  run.errors_with_true_pose_m.end());
+  }
+  summary.error_with_true_pose_m = statistics(errors);
+  const SeedRun& first = runs.front();
+  if (!first.corrected_poses.empty()) {
+    summary.corrected_rms_m =
+        position_rms(first.corrected_poses, first.recording.truth.antenna_poses);
+  }
+  return summary;
+}
+
+void finish(const Simulation& simulation, SeedRun& run) {
+  run.complete = simulation.finished();
+  run.simulated_s = to_seconds(simulation.now());
+  run.path_length_m = simulation.travelled_m();
+}
+
+SeedRun navigated(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                  const NavigationWorld& world) {
+  SeedRun run;
+  run.seed = seed;
+  NavigatedRun made = run_navigation(scenario, seed, control, world, run.recording);
+  run.complete = made.complete;
+  run.simulated_s = made.simulated_s;
+  run.path_length_m = made.path_length_m;
+  run.navigation = std::move(made.navigation);
+  return run;
+}
+
+std::vector<TagEstimate> located(const Scenario& scenario, const Recording& recording,
+                                 const std::vector<AntennaPose>& poses,
+                                 const LocalizationOptions& options, Diagnostics& diagnostics,
+                                 LocalizationResult& result) {
+  result = locate_tags(recording.reads, poses, options, diagnostics);
+  return in_scenario_order(scenario, std::move(result.estimates));
+}
+
+/// By the scenario's other methods, each once.
+std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& run,
+                                     LocalizationOptions options) {
+  std::vector<ComparedMethod> others;
+  std::set<std::string> done = {run.method};
+  for (const std::string& name : scenario.localization.compare) {
+    Diagnostics unheard;  // What there is to warn of, the run's own method has said.
+    LocalizationResult result;
+    options.method = name;
+    const auto estimates =
+        located(scenario, run.recording, run.recording.believed_poses, options, unheard, result);
+    if (!done.insert(result.method).second) continue;
+    others.push_back({result.method, outcomes_of(scenario, run, estimates)});
+  }
+  return others;
+}
+
+/// Of all seeds: the run's own method, then the others.
+std::vector<MethodSummary> compared_methods(const std::string& method, bool believed,
+                                            const std::vector<SeedRun>& runs,
+                                            const std::vector<TagOutcome>& own) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<TagOutcome>> by_method;
+  for (const SeedRun& run : runs) {
+    for (const ComparedMethod& other : run.compared) {
+      std::vector<TagOutcome>& outcomes = by_method[other.method];
+      if (outcomes.empty()) order.push_back(other.method);
+      outcomes.insert(outcomes.end(), other.outcomes.begin(), other.outcomes.end());
+    }
+  }
+  if (order.empty()) return {};
+  std::vector<MethodSummary> methods = {summary_of_method(method, own, believed)};
+  for (const std::string& name : order) {
+    methods.push_back(summary_of_method(name, by_method[name], believed));
+  }
+  return methods;
+}
+
+/// What was used, over all seeds, in the order in which it first was.
+std::string methods_of(const std::vector<SeedRun>& runs) {
+  std::string names;
+  std::set<std::string> done;
+  for (const SeedRun& run : runs) {
+    if (!done.insert(run.method).second) continue;
+    names += (names.empty() ? "" : ", ") + run.method;
+  }
+  return names;
+}
+
+/// Simulated time that went into the map.
+double mapping_s(const SeedRun& run) {
+  return run.navigation && run.navigation->survey ? run.navigation->survey->simulated_s : 0.0;
+}
+
+}  // namespace
+
+LocalizationOptions localization_options(const Scenario& scenario, int threads) {
+  LocalizationOptions options;
+  options.method = scenario.localization.method;
+  options.settings = scenario.localization.settings;
+  options.known = known_beforehand(scenario);
+  options.threads = threads;
+  return options;
+}
+
+SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                 const NavigationWorld* world) {
+  if (scenario.pose.source == PoseSource::kSlam) {
+    if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
+    return navigated(scenario, seed, control, *world);
+  }
+  SeedRun run;
+  run.seed = seed;
+  Simulation simulation(scenario, seed);
+  const Pace pace(scenario.real_time);
+  while (!simulation.finished() && !stopped(control)) {
+    simulation.step(run.recording);
+    if (control.on_progress) control.on_progress(simulation.progress());
+    pace.wait_for(simulation.now());
+  }
+  finish(simulation, run);
+  return run;
+}
+
+void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
+  const LocalizationOptions options = localization_options(scenario, threads);
+  const Recording& recording = run.recording;
+  LocalizationResult result;
+  run.estimates =
+      located(scenario, recording, recording.believed_poses, options, diagnostics, result);
+  run.method = result.method;
+  run.method_why = result.why;
+  run.corrected_poses = std::move(result.corrected_poses);
+  run.outcomes = outcomes_of(scenario, run, run.estimates);
+  run.compared = compared(scenario, run, options);
+  if (scenario.pose.source == PoseSource::kTrue) return;
+  LocalizationOptions exact = options;
+  exact.known.pose_error = PoseErrorModel{};
+  const std::vector<TagEstimate> with_truth =
+      located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics, result);
+  run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run, with_truth));
+}
+
+std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
+                               const RunControl& control, Diagnostics& diagnostics,
+                               const NavigationWorld* world) {
+  std::vector<SeedRun> runs(count);
+  std::vector<Diagnostics> warnings(count);
+  std::vector<char> begun(count, 0);
+  std::mutex progress_mutex;
+  double finished = 0.0;
+  // One seed alone shows how far it is; of several the finished ones are counted.
+  RunControl of_one = control;
+  if (count > 1) {
+    of_one.on_progress = nullptr;
+    of_one.threads = 1;
+  }
+  const int threads_inside = count > 1 ? 1 : control.threads;
+  parallel_for(count, control.threads, [&](std::size_t i) {
+    if (i > 0 && stopped(control)) return;
+    begun[i] = 1;
+    runs[i] = simulate(scenario, first + i, of_one, world);
+    localize(scenario, runs[i], threads_inside, warnings[i]);
+    if (i > 0) {
+      runs[i].recording = {};
+      runs[i].corrected_poses = {};
+    }
+    const std::lock_guard lock(progress_mutex);
+    finished += 1.0;
+    if (control.on_progress) control.on_progress(finished / static_cast<double>(count));
+  });
+  std::vector<SeedRun> kept;
+  for (std::size_t i = 0; i < count; ++i) {
+    // An interrupted seed would spoil the statistics of the whole ones.
+    if (begun[i] != 0 && (i == 0 || runs[i].complete)) kept.push_back(std::move(runs[i]));
+    for (const std::string& warning : warnings[i].warnings()) diagnostics.warn(warning);
+  }
+  return kept;
+}
+
+Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, double wall_s,
+                  const Diagnostics& diagnostics, const NavigationWorld* world) {
+  const SeedRun& first = runs.front();
+  Summary summary;
+  summary.scenario = scenario.name;
+  summary.description = scenario.description;
+  summary.method = methods_of(runs);
+  summary.method_asked = scenario.localization.method;
+  summary.method_why = first.method_why;
+  summary.pose = to_string(scenario.pose.source);
+  summary.path_length_m = first.path_length_m;
+  summary.reads = first.recording.reads.size();
+  summary.simulated_s = first.simulated_s;
+  summary.wall_s = wall_s;
+  double simulated_s = 0.0;
+  for (const SeedRun& run : runs) {
+    summary.seeds.push_back(run.seed);
+    summary.complete = summary.complete && run.complete;
+    simulated_s += run.simulated_s + mapping_s(run);
+    summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
+  }
+  const bool believed = scenario.pose.source != PoseSource::kTrue;
+  summary.compared_methods = compared_methods(summary.method, believed, runs, summary.tags);
+  summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
+  if (believed) {
+    summary.pose_error = pose_error_of(scenario, runs);
+  }
+  if (world != nullptr && first.navigation) summary.navigation = navigation_summary(runs, *world);
+  summary.warnings = diagnostics.warnings();
+  return summary;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,75 @@
+#include "tagfield/experiment/known_beforehand.h"
+
+#include <algorithm>
+
+namespace tagfield {
+namespace {
+
+TagHeights heights_of(const Scenario& scenario) {
+  const LocalizationSpec& spec = scenario.localization;
+  TagHeights heights;
+  if (spec.known_height == KnownHeight::kNumber) heights.of_all = spec.height_m;
+  if (spec.known_height == KnownHeight::kAbove) heights.estimated = HeightSide::kAbove;
+  if (spec.known_height == KnownHeight::kBelow) heights.estimated = HeightSide::kBelow;
+  if (spec.known_height != KnownHeight::kTag) return heights;
+  for (const TagSpec& tag : scenario.tags) {
+    if (!moves(tag)) heights.of_tag[tag.id] = tag.motion.front().X_WB.translation.z();
+  }
+  return heights;
+}
+
+std::map<std::string, Eigen::Vector3d> reference_tags_of(const Scenario& scenario) {
+  std::map<std::string, Eigen::Vector3d> places;
+  for (const std::string& id : scenario.localization.reference_tags) {
+    const auto tag = std::find_if(scenario.tags.begin(), scenario.tags.end(),
+                                  [&](const TagSpec& spec) { return spec.id == id; });
+    if (tag == scenario.tags.end())
+      throw Error("reference tag '" + id + "' is no tag of the scenario");
+    if (moves(*tag)) throw Error("reference tag '" + id + "' moves");
+    places[id] = tag->motion.front().X_WB.translation;
+  }
+  return places;
+}
+
+/// Those of the paper's model; readers of the physical models have offsets that nobody knows.
+std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
+  std::vector<KnownOffset> offsets;
+  if (!scenario.localization.offset_known) return offsets;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    const AntennaParameters& parameters = antenna.parameters;
+    if (parameters.radio) {
+      throw Error("antenna '" + parameters.name +
+                  "': localization.offset can be known with model: paper only");
+    }
+    offsets.push_back({parameters.name, std::nullopt, parameters.model.phase_offset_rad});
+  }
+  return offsets;
+}
+
+/// What the source of the pose says of itself; of odometry and laser nothing is known.
+std::optional<PoseErrorModel> pose_error_of(const Scenario& scenario) {
+  const PoseBelief& pose = scenario.pose;
+  if (scenario.localization.pose_error) return scenario.localization.pose_error;
+  if (pose.source == PoseSource::kTrue) return PoseErrorModel{};
+  if (pose.source != PoseSource::kNoisy) return std::nullopt;
+  return PoseErrorModel{pose.sigma_m, pose.yaw_sigma_rad, pose.time_constant_s};
+}
+
+}  // namespace
+
+KnownBeforehand known_beforehand(const Scenario& scenario) {
+  KnownBeforehand known;
+  known.heights = heights_of(scenario);
+  known.reference_tags = reference_tags_of(scenario);
+  known.offsets = offsets_of(scenario);
+  known.pose_error = pose_error_of(scenario);
+  known.half_turns = scenario.localization.half_turns;
+  known.limits = scenario.localization.limits;
+  // Between two updates an antenna's poses are as far apart as its rate says.
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    known.max_pose_gap_s = std::max(known.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);
+  }
+  return known;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,113 @@
+#include "tagfield/experiment/bench/record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tagfield {
+namespace {
+
+TagSpec tag_at(const std::string& id, const Eigen::Vector3d& p_WT) {
+  TagSpec tag;
+  tag.id = id;
+  tag.motion = {{Time{}, from_translation(p_WT)}};
+  return tag;
+}
+
+Scenario hall() {
+  Scenario scenario;
+  scenario.tags = {tag_at("a", {1, 2, 3}), tag_at("b", {4, 5, 1}), tag_at("moving", {0, 0, 0}),
+                   tag_at("known", {7, 7, 1}), tag_at("unread", {8, 8, 1})};
+  scenario.tags[2].motion.push_back({time_from_seconds(1.0), from_translation({1, 0, 0})});
+  return scenario;
+}
+
+TagEstimate estimate_at(const std::string& tag, const std::vector<Eigen::Vector3d>& places) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.verdict = places.size() > 1 ? Verdict::kAmbiguous : Verdict::kLocated;
+  for (const Eigen::Vector3d& p_WT : places) {
+    Candidate candidate;
+    candidate.p_WT = p_WT;
+    candidate.expected_error_m = 0.02;
+    candidate.covariance = Eigen::Vector3d(0.01, 0.01, 0.04).asDiagonal();
+    estimate.candidates.push_back(candidate);
+  }
+  return estimate;
+}
+
+const std::vector<TagEstimate> kEstimates = {
+    estimate_at("a", {{1.3, 2.4, 3.2}}), estimate_at("b", {{40, 50, 1}, {4, 5.1, 1}}),
+    estimate_at("moving", {{0, 0, 0}}), estimate_at("known", {{7, 7, 1}})};
+
+TEST(Records, PutEstimatesBesideTheTruth) {
+  LocalizationProblem problem;
+  problem.reference_tags["known"] = {7, 7, 1};
+  const std::vector<TagRecord> records = records_of(hall(), problem, {}, kEstimates);
+  ASSERT_EQ(records.size(), 4U);
+  EXPECT_EQ(records[0].tag, "a");
+  EXPECT_NEAR(records[0].error.value(), 0.5, 1e-12);
+  EXPECT_FALSE(records[0].error_3d);
+  EXPECT_NEAR(records[0].nees.value().value, 25.0, 1e-9);  // (0.3² + 0.4²) / 0.01
+  EXPECT_EQ(records[0].nees->dof, 2);
+  EXPECT_FALSE(records[1].error);
+  EXPECT_NEAR(records[1].nearest_candidate.value(), 0.1, 1e-12);
+  EXPECT_FALSE(records[1].nees);
+  EXPECT_EQ(records[2].verdict, Verdict::kLocated);
+  EXPECT_FALSE(records[2].truth);
+  EXPECT_FALSE(records[2].error);
+  EXPECT_EQ(records[3].verdict, Verdict::kNotLocated);
+  EXPECT_EQ(records[3].reason, "cannot localize: never read");
+}
+
+TEST(Records, CountHeightWhereItIsEstimated) {
+  LocalizationProblem problem;
+  problem.heights.estimated = HeightSide::kAbove;
+  const std::vector<TagRecord> records = records_of(hall(), problem, {}, kEstimates);
+  EXPECT_NEAR(records[0].error_3d.value(), std::sqrt(0.25 + 0.04), 1e-12);
+  EXPECT_NEAR(records[0].nees.value().value, 26.0, 1e-9);  // and 0.2² / 0.04
+  EXPECT_EQ(records[0].nees->dof, 3);
+}
+
+TEST(Records, AreJudgedByTheirBound) {
+  MethodRun run;
+  run.tags = records_of(hall(), {}, {}, kEstimates);
+  Bounds bounds;
+  bounds.tags = {"a", "unread"};
+  bounds.covariance = 0.0004 * Eigen::MatrixXd::Identity(6, 6);
+  judge_by(bounds, run);
+  ASSERT_TRUE(run.tags[0].bound);
+  EXPECT_NEAR(run.tags[0].bound->variance_m2, 0.0008, 1e-12);
+  // The mean of Rayleigh's distribution.
+  EXPECT_NEAR(run.tags[0].bound->mean_error_m, 0.02 * std::sqrt(std::acos(-1.0) / 2.0), 1e-9);
+  EXPECT_FALSE(run.tags[1].bound);
+  // "a" and the reference tag, which is none here.
+  EXPECT_NEAR(run.nees_correlation, 4.0, 1e-12);
+}
+
+TEST(Records, AreAlignedAsAWhole) {
+  const double yaw = 0.01;
+  std::vector<TagRecord> tags;
+  for (const Eigen::Vector3d& truth :
+       {Eigen::Vector3d(5, 1, 1), Eigen::Vector3d(-4, 2, 1), Eigen::Vector3d(0, -6, 1)}) {
+    TagRecord tag;
+    tag.truth = truth;
+    tag.estimate =
+        Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * truth + Eigen::Vector3d(0.1, -0.2, 0.0);
+    tag.error = (*tag.estimate - truth).head<2>().norm();
+    tags.push_back(tag);
+  }
+  tags.emplace_back();
+  add_aligned_errors(tags);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(tags[i].aligned_error.value(), 0.0, 1e-12);
+  EXPECT_FALSE(tags[3].aligned_error);
+  std::vector<TagRecord> two = {tags[0], tags[1]};
+  two[0].aligned_error.reset();
+  add_aligned_errors(two);
+  EXPECT_FALSE(two[0].aligned_error);
+}
+
+}  // namespace
+}  // namespace tagfield

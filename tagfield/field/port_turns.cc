@@ -1,0 +1,86 @@
+#include "tagfield/field/port_turns.h"
+
+#include <algorithm>
+#include <map>
+
+namespace tagfield {
+namespace {
+
+const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
+  if (!antenna.radio || !antenna.radio->gen2 || !antenna.radio->effects.inventory) return nullptr;
+  return &*antenna.radio->gen2;
+}
+
+void append(const AntennaParameters& antenna, PortCycle& cycle) {
+  const Duration begin = cycle.empty() ? Duration::zero() : cycle.back().end;
+  const double dwell_s = inventory_of(antenna)->port_dwell_s;
+  cycle.push_back({antenna.name, begin, begin + duration_from_seconds(dwell_s)});
+}
+
+/// How far into the cycle `time` is.
+Duration into(const PortCycle& cycle, Time time) {
+  const Duration period = cycle.back().end;
+  const Duration rest = time.time_since_epoch() % period;
+  return rest < Duration::zero() ? rest + period : rest;
+}
+
+PortCycle::const_iterator turn_at(const PortCycle& cycle, Duration within) {
+  return std::upper_bound(cycle.begin(), cycle.end(), within,
+                          [](Duration t, const PortTurn& turn) { return t < turn.end; });
+}
+
+}  // namespace
+
+std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antennas) {
+  std::map<std::string, PortCycle> of_reader;
+  PortCycle by_time;
+  for (const AntennaParameters& antenna : antennas) {
+    if (inventory_of(antenna) == nullptr) continue;
+    const bool in_common = antenna.radio->sharing == AirSharing::kTime;
+    append(antenna, in_common ? by_time : of_reader[antenna.reader]);
+  }
+  std::vector<PortCycle> cycles;
+  cycles.reserve(of_reader.size() + 1);
+  for (auto& [reader, cycle] : of_reader) cycles.push_back(std::move(cycle));
+  if (!by_time.empty()) cycles.push_back(std::move(by_time));
+  return cycles;
+}
+
+const std::string& antenna_on_turn(const PortCycle& cycle, Time time) {
+  return turn_at(cycle, into(cycle, time))->antenna;
+}
+
+std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna, Time time) {
+  const auto turn = std::find_if(cycle.begin(), cycle.end(), [&](const PortTurn& candidate) {
+    return candidate.antenna == antenna;
+  });
+  if (turn == cycle.end()) return std::nullopt;
+  const Duration within = into(cycle, time);
+  if (within < turn->begin) return time + (turn->begin - within);
+  if (within < turn->end) return time;
+  return time + (cycle.back().end - within) + turn->begin;
+}
+
+std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time) {
+  std::optional<Time> first;
+  for (const PortCycle& cycle : cycles) {
+    if (cycle.size() < 2) continue;
+    const Duration within = into(cycle, time);
+    const Time change = time + (turn_at(cycle, within)->end - within);
+    if (!first || change < *first) first = change;
+  }
+  return first;
+}
+
+std::size_t reader_number(const std::vector<AntennaParameters>& antennas,
+                          const std::string& reader) {
+  std::vector<std::string> readers;
+  for (const AntennaParameters& antenna : antennas) {
+    if (antenna.reader == reader) break;
+    const bool is_new = std::find(readers.begin(), readers.end(), antenna.reader) == readers.end();
+    if (is_new) readers.push_back(antenna.reader);
+  }
+  return readers.size();
+}
+
+}  // namespace tagfield

@@ -1,0 +1,352 @@
+#include "tagfield/field/radio_air.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "tagfield/base/error.h"
+#include "tagfield/field/radio_port.h"
+
+namespace tagfield {
+namespace {
+
+/// Readers that send at the same time go on in pieces of this, so that what one does to a tag's
+/// memory is known to the other about then.
+constexpr Duration kPiece = std::chrono::milliseconds(5);
+
+bool is_finite(const RigidTransform& X) {
+  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
+}
+
+/// Where `time` is between `before` (0) and `now` (1). Slots that began just before `before` are
+/// a little below 0.
+double share_at(Time time, Time before, Time now) {
+  if (now <= before) return 1.0;
+  return static_cast<double>((time - before).count()) / static_cast<double>((now - before).count());
+}
+
+double reach(const RadioModel& model, const TagPopulation& tags) {
+  double most_m = 0.0;
+  for (const auto& kind : tags.models()) most_m = std::max(most_m, most_range_m(model, *kind));
+  return most_m;
+}
+
+/// Of a tag that was not there.
+Eigen::Vector3d nowhere() {
+  return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Images of some thousand tags in a hall at order 2.
+constexpr std::size_t kMostImageBytes = std::size_t{512} << 20U;
+
+/// So few that their images are made sooner than an antenna's, update for update.
+constexpr std::size_t kFewTags = 64;
+
+bool takes_inventory(const RadioModel& model) { return model.gen2 && model.effects.inventory; }
+
+}  // namespace
+
+/// What is known of an antenna from one update to the next.
+struct AirAntenna {
+  /// A tag that was read since the last update, and where it was.
+  struct Pending {
+    std::uint32_t slot;
+    Time stamp;
+    RigidTransform X_WT;
+  };
+  AntennaParameters parameters;
+  RadioPort port;
+  std::unique_ptr<Inventory> inventory;
+  std::optional<Time> updated;  ///< Last,
+  RigidTransform X_WA;          ///< when it was here.
+  std::vector<Pending> pending;
+  std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
+  std::shared_ptr<const ImageSet> receiver_images;
+
+  [[nodiscard]] const RadioModel& model() const { return *parameters.radio; }
+  [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
+    if (!updated) return X_WA_now;
+    return interpolate(X_WA, X_WA_now, share_at(stamp, *updated, now));
+  }
+  [[nodiscard]] Eigen::Vector3d velocity(const RigidTransform& X_WA_now, Time now) const {
+    if (!updated || now <= *updated) return Eigen::Vector3d::Zero();
+    return (X_WA_now.translation - X_WA.translation) / to_seconds(now - *updated);
+  }
+};
+
+namespace {
+
+RadioView bare_view_of(const AirAntenna& antenna, const RadioWorld& world,
+                       const RigidTransform& X_WA, double frequency_hz) {
+  return bare_view(antenna.model(), world, X_WA, frequency_hz, antenna.port.antenna_key,
+                   antenna.port.seed);
+}
+
+/// `kept` if it is of this place, and is made anew otherwise.
+std::shared_ptr<const ImageSet> images_at(const RigidTransform& X, const RadioView& view,
+                                          std::shared_ptr<const ImageSet>& kept) {
+  if (!kept || kept->p_WA != X.translation) {
+    kept =
+        std::make_shared<const ImageSet>(images_of(view.world.scene, X.translation, view.tracing));
+  }
+  return kept;
+}
+
+void add_images(AirAntenna& antenna, RadioView& view) {
+  view.images = images_at(view.X_WA, view, antenna.images);
+  if (view.model.X_AR) view.receiver_images = images_at(view.X_WR, view, antenna.receiver_images);
+}
+
+/// Whether the antenna sends before its next update.
+bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycles, Time now) {
+  // One and a half, as updates of a recording come when they come.
+  const Duration interval = duration_from_seconds(1.5 / antenna.parameters.rate_hz);
+  const std::string& name = antenna.parameters.name;
+  return std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
+    const auto turn = next_turn(cycle, name, now);
+    return turn && *turn <= now + interval;
+  });
+}
+
+}  // namespace
+
+RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world, std::uint64_t seed)
+    : world_(std::move(world)),
+      seed_(seed),
+      memories_(std::make_unique<TagMemories>()),
+      tag_images_(kMostImageBytes) {}
+RadioAir::~RadioAir() = default;
+RadioAir::RadioAir(RadioAir&&) noexcept = default;
+RadioAir& RadioAir::operator=(RadioAir&&) noexcept = default;
+
+void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
+  world_ = std::move(world);
+  // Images are of the world that was.
+  tag_images_ = ImageCache(kMostImageBytes);
+  for (const auto& antenna : antennas_) {
+    antenna->images.reset();
+    antenna->receiver_images.reset();
+  }
+}
+
+AirAntenna& RadioAir::antenna_named(const std::string& name) {
+  for (const auto& antenna : antennas_) {
+    if (antenna->parameters.name == name) return *antenna;
+  }
+  throw Error(fmt::format("there is no antenna '{}' in the air", name));
+}
+
+void RadioAir::add(const AntennaParameters& parameters, std::optional<std::uint64_t> seed) {
+  auto antenna = std::make_unique<AirAntenna>();
+  antenna->parameters = parameters;
+  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0,
+                   seed.value_or(seed_)};
+  const RadioModel& model = antenna->model();
+  if (takes_inventory(model)) {
+    antenna->inventory =
+        std::make_unique<Inventory>(model.gen2->link, model.gen2->inventory, *memories_,
+                                    antenna->port.seed, antenna->port.antenna_key);
+  }
+  antennas_.push_back(std::move(antenna));
+  plan_turns();
+}
+
+void RadioAir::remove(const std::string& name) {
+  const auto found = std::find_if(antennas_.begin(), antennas_.end(), [&](const auto& antenna) {
+    return antenna->parameters.name == name;
+  });
+  if (found == antennas_.end()) return;
+  if ((*found)->inventory && (*found)->inventory->on()) (*found)->inventory->stop(*ran_to_);
+  antennas_.erase(found);
+  plan_turns();
+}
+
+/// Turns of ports, and each reader's number among all.
+void RadioAir::plan_turns() {
+  std::vector<AntennaParameters> all;
+  for (const auto& antenna : antennas_) all.push_back(antenna->parameters);
+  for (const auto& antenna : antennas_) {
+    antenna->port.turn = reader_number(all, antenna->parameters.reader);
+  }
+  cycles_ = port_cycles(all);
+}
+
+void RadioAir::forget_tag(std::uint32_t slot) {
+  for (const auto& antenna : antennas_) {
+    if (antenna->inventory) antenna->inventory->forget(slot);
+    auto& pending = antenna->pending;
+    pending.erase(std::remove_if(pending.begin(), pending.end(),
+                                 [&](const auto& read) { return read.slot == slot; }),
+                  pending.end());
+  }
+  memories_->forget(slot);
+  tag_images_.forget(slot);
+  for (auto* places : {&places_, &places_before_}) {
+    if (slot < places->size()) (*places)[slot] = nowhere();
+  }
+}
+
+std::optional<InventoryCounts> RadioAir::counts(const std::string& name) const {
+  for (const auto& antenna : antennas_) {
+    if (antenna->parameters.name == name && antenna->inventory) return antenna->inventory->counts();
+  }
+  return std::nullopt;
+}
+
+void RadioAir::update(const std::string& name, const RigidTransform& X_WA, Time now,
+                      const TagPopulation& tags, std::vector<TagReply>& replies) {
+  replies.clear();
+  AirAntenna& antenna = antenna_named(name);
+  if (!is_finite(X_WA)) return;
+  if (!ran_to_ || now > *ran_to_) {
+    remember_places(now, tags);
+    run_inventories(now, tags);
+  }
+  if (antenna.inventory) {
+    read_pending(antenna, X_WA, now, tags, replies);
+    refresh_field(antenna, X_WA, now, tags);
+  } else {
+    read_all(antenna, X_WA, now, tags, replies);
+  }
+  antenna.updated = now;
+  antenna.X_WA = X_WA;
+}
+
+void RadioAir::remember_places(Time now, const TagPopulation& tags) {
+  before_ = ran_to_.value_or(now);
+  places_before_.swap(places_);
+  places_.clear();
+  tags.for_each([&](std::uint32_t slot) {
+    if (slot >= places_.size()) places_.resize(slot + std::size_t{1}, nowhere());
+    places_[slot] = tags.position(slot);
+  });
+}
+
+RigidTransform RadioAir::tag_pose(std::uint32_t slot, Time stamp, const TagPopulation& tags) const {
+  RigidTransform X_WT = tags.pose(slot);
+  if (slot >= places_before_.size() || !places_before_[slot].allFinite()) return X_WT;
+  // Not by rounding errors off: whatever is at rest keeps its images.
+  if (places_before_[slot] == X_WT.translation) return X_WT;
+  const double share = share_at(stamp, before_, *ran_to_);
+  X_WT.translation = (1.0 - share) * places_before_[slot] + share * X_WT.translation;
+  return X_WT;
+}
+
+Eigen::Vector3d RadioAir::tag_velocity(std::uint32_t slot) const {
+  const bool is_known = slot < places_before_.size() && places_before_[slot].allFinite();
+  if (!is_known || *ran_to_ <= before_) return Eigen::Vector3d::Zero();
+  return (places_[slot] - places_before_[slot]) / to_seconds(*ran_to_ - before_);
+}
+
+void RadioAir::run_inventories(Time now, const TagPopulation& tags) {
+  Time begin = ran_to_.value_or(now);
+  ran_to_ = now;
+  while (begin < now) {
+    Time end = next_change(cycles_, begin).value_or(now);
+    if (cycles_.size() > 1) end = std::min(end, begin + kPiece);
+    end = std::min(end, now);
+    run_piece(begin, end, tags);
+    begin = end;
+  }
+}
+
+/// A stretch in which no port changes.
+void RadioAir::run_piece(Time begin, Time end, const TagPopulation& tags) {
+  std::set<std::string> senders;
+  for (const PortCycle& cycle : cycles_) senders.insert(antenna_on_turn(cycle, begin));
+  for (const auto& antenna : antennas_) {
+    if (antenna->inventory && senders.count(antenna->parameters.name) == 0) {
+      antenna->inventory->stop(begin);
+    }
+  }
+  for (const auto& antenna : antennas_) {
+    if (!antenna->inventory || senders.count(antenna->parameters.name) == 0) continue;
+    antenna->inventory->start(begin);
+    read_.clear();
+    antenna->inventory->run_until(end, read_);
+    for (const Singulation& read : read_) {
+      antenna->pending.push_back({read.tag, read.stamp, tag_pose(read.tag, read.stamp, tags)});
+    }
+  }
+}
+
+void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                            const TagPopulation& tags, std::vector<TagReply>& replies) {
+  const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
+  for (const AirAntenna::Pending& read : antenna.pending) {
+    const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
+    const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
+    RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz);
+    const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
+    if (images == nullptr) add_images(antenna, view);
+    const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
+    replies.push_back(report(antenna.model(), antenna.port, carrier, link_of(view, tag, paths_),
+                             tag, velocity - tag_velocity(read.slot), read.stamp));
+    replies.back().slot = read.slot;
+    replies.back().distance_m = (read.X_WT.translation - X_WA_then.translation).norm();
+  }
+  antenna.pending.clear();
+}
+
+/// The tag's own images, where it is at rest and in the same solids as the antenna: one tag is then
+/// traced without all the antenna's images. Null otherwise.
+const ImageSet* RadioAir::tag_images(const RadioView& view, std::uint32_t slot,
+                                     const RigidTransform& X_WT) {
+  const ImageSet* const images =
+      tag_images_.find(world_->scene, slot, X_WT.translation, view.tracing);
+  if (images == nullptr) return nullptr;
+  const auto fits = [&](const RigidTransform& X) {
+    return shells_around(world_->scene, X.translation) == images->around;
+  };
+  return fits(view.X_WA) && (!view.model.X_AR || fits(view.X_WR)) ? images : nullptr;
+}
+
+/// The tag where it is now. Of few tags each has images of its own, which an antenna that moves
+/// would have to make anew for every update; of many the antenna's serve all.
+TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
+                         RadioView& view) {
+  TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
+  if (tags.size() <= kFewTags) tag.images = tag_images(view, slot, tag.X_WT);
+  if (tag.images == nullptr && !view.images) add_images(antenna, view);
+  return tag;
+}
+
+void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                        const TagPopulation& tags, std::vector<TagReply>& replies) {
+  const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
+  const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
+  RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
+  tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
+  for (const std::uint32_t slot : slots_) {
+    const TagEnd tag = tag_end(antenna, slot, tags, view);
+    const RadioLink link = link_of(view, tag, paths_);
+    if (!is_heard(link, tag.model, antenna.model())) continue;
+    replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
+                             velocity - tag_velocity(slot), now));
+    replies.back().slot = slot;
+    replies.back().distance_m = (tag.X_WT.translation - X_WA.translation).norm();
+  }
+}
+
+/// Who has power until the next update.
+void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                             const TagPopulation& tags) {
+  field_.clear();
+  if (has_turn_soon(antenna, cycles_, now)) {
+    const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
+    RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
+    tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
+    for (const std::uint32_t slot : slots_) {
+      const TagEnd tag = tag_end(antenna, slot, tags, view);
+      std::optional<TagOnAir> powered = on_air(antenna.model(), link_of(view, tag, paths_), tag);
+      if (!powered) continue;
+      powered->tag = slot;
+      field_.push_back(*powered);
+    }
+  }
+  antenna.inventory->set_field(now, field_);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,90 @@
+/// @file
+/// All antennas of physical models, the air that they share, and what they read.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tagfield/field/image_cache.h"
+#include "tagfield/field/port_turns.h"
+#include "tagfield/field/radio_link.h"
+#include "tagfield/field/tag_population.h"
+#include "tagfield/gen2/inventory.h"
+#include "tagfield/gen2/tag_memories.h"
+
+namespace tagfield {
+
+struct AirAntenna;
+
+/// Makes reads of what antennas say of themselves update by update. Without an inventory an antenna
+/// reads all that it hears, once an update. With one, slots go on between the updates: what was
+/// read since the last one comes out with the next, each read with a stamp of its own, the ends'
+/// places interpolated at that. Not thread-safe.
+class RadioAir {
+ public:
+  /// `world` must not be null.
+  RadioAir(std::shared_ptr<const RadioWorld> world, std::uint64_t seed);
+  ~RadioAir();
+  RadioAir(RadioAir&&) noexcept;
+  RadioAir& operator=(RadioAir&&) noexcept;
+
+  /// From its next update on; `antenna.radio` must be set. Readers take their antennas' turns in
+  /// the order in which they came. Its draws come from `seed`, or from that of all.
+  void add(const AntennaParameters& antenna, std::optional<std::uint64_t> seed = std::nullopt);
+  /// Nothing where there is no such antenna.
+  void remove(const std::string& antenna);
+  /// The world is another one from now on; must not be null.
+  void set_world(std::shared_ptr<const RadioWorld> world);
+  /// Before the slot is another tag's.
+  void forget_tag(std::uint32_t slot);
+
+  /// The antenna is at `X_WA` at `now`, which must not go back: into `replies` (emptied first) what
+  /// it has read since its last update, in order of time. `tags` are where they are now. None, and
+  /// no update, where `X_WA` is not finite. Throws Error if the antenna is not there.
+  void update(const std::string& antenna, const RigidTransform& X_WA, Time now,
+              const TagPopulation& tags, std::vector<TagReply>& replies);
+
+  /// What the antenna's slots came to; none without an inventory.
+  [[nodiscard]] std::optional<InventoryCounts> counts(const std::string& antenna) const;
+
+ private:
+  AirAntenna& antenna_named(const std::string& name);
+  void plan_turns();
+  void run_inventories(Time now, const TagPopulation& tags);
+  void run_piece(Time begin, Time end, const TagPopulation& tags);
+  void remember_places(Time now, const TagPopulation& tags);
+  [[nodiscard]] RigidTransform tag_pose(std::uint32_t slot, Time stamp,
+                                        const TagPopulation& tags) const;
+  [[nodiscard]] Eigen::Vector3d tag_velocity(std::uint32_t slot) const;
+  void read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                    const TagPopulation& tags, std::vector<TagReply>& replies);
+  void read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                const TagPopulation& tags, std::vector<TagReply>& replies);
+  const ImageSet* tag_images(const RadioView& view, std::uint32_t slot, const RigidTransform& X_WT);
+  TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
+                 RadioView& view);
+  void refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                     const TagPopulation& tags);
+
+  std::shared_ptr<const RadioWorld> world_;
+  std::uint64_t seed_;
+  std::unique_ptr<TagMemories> memories_;  ///< Where inventories can go on pointing to it.
+  std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< As they came.
+  std::vector<PortCycle> cycles_;
+  Time before_{};                               ///< The last update but one at another time,
+  std::optional<Time> ran_to_;                  ///< and the last, as far as inventories have come.
+  std::vector<Eigen::Vector3d> places_before_;  ///< Where tags were, by slot; NaN where not known.
+  std::vector<Eigen::Vector3d> places_;
+  ImageCache tag_images_;
+  std::vector<RadioPath> paths_;  ///< Workspace, like these.
+  std::vector<std::uint32_t> slots_;
+  std::vector<TagOnAir> field_;
+  std::vector<Singulation> read_;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,162 @@
+#include "tagfield/field/radio_link.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Vector3d;
+
+/// Weaker than anything: no logarithm of zero comes out [dB].
+constexpr double kNothing_db = -400.0;
+
+double to_db(double power) {
+  return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
+}
+
+/// A one-way gain, and its logarithm's gradient with the antenna's place where it is of use.
+struct Gain {
+  Complex h = 0.0;
+  Eigen::Vector3cd gradient = Eigen::Vector3cd::Zero();  ///< ∂h/∂p_WA.
+  double power = 0.0;                                    ///< Σ |h_i|².
+
+  void add(Complex of_path, const Vector3d& departure_W, double wave_number) {
+    h += of_path;
+    power += std::norm(of_path);
+    // A step along the departure shortens the path: e^{−jkd} turns forward.
+    gradient += Complex(0.0, wave_number) * of_path * departure_W;
+  }
+};
+
+/// In [0, 1).
+double uniform(RandomStream& stream) { return static_cast<double>(stream() >> 11U) * 0x1.0p-53; }
+
+/// Evenly over the sphere.
+Vector3d any_direction(RandomStream& stream) {
+  const double z = 2.0 * uniform(stream) - 1.0;
+  const double around = kTwoPi * uniform(stream);
+  const double radius = std::sqrt(1.0 - z * z);
+  return {radius * std::cos(around), radius * std::sin(around), z};
+}
+
+/// Waves from everywhere, as many as it takes for a field that is nearly Gaussian.
+constexpr int kDiffuseWaves = 24;
+
+/// A sum of plane waves with random directions and phases (Clarke's model in space): of one
+/// antenna and tag always the same, so that the field is a function of both ends' places and is
+/// forgotten over about half a wavelength.
+void add_diffuse(const RadioView& view, const TagEnd& tag, const Vector3d& p_WA, Gain& gain) {
+  const double k_factor = std::pow(10.0, *view.model.diffuse_k_db / 10.0);
+  const double amplitude = std::sqrt(gain.power / (k_factor * kDiffuseWaves));
+  RandomStream stream(view.seed, Purpose::kDiffuse, view.diffuse_key, tag.key);
+  const double k = view.carrier.wave_number;
+  for (int i = 0; i < kDiffuseWaves; ++i) {
+    const Vector3d u = any_direction(stream);
+    const Vector3d from_tag = any_direction(stream);
+    const double phase =
+        kTwoPi * uniform(stream) + k * u.dot(p_WA) + k * from_tag.dot(tag.X_WT.translation);
+    gain.add(std::polar(amplitude, phase), u, k);
+  }
+}
+
+bool is_plain(const RadioView& view) { return !view.tracing.occlusion && view.tracing.order == 0; }
+
+/// Over the antenna's images, or the other way round over the tag's: gains are reciprocal.
+void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
+               const RadioEnd& antenna, const RadioEnd& at_tag, std::vector<RadioPath>& paths,
+               Gain& gain) {
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  const double k = view.carrier.wave_number;
+  if (tag.images != nullptr) {
+    trace_paths(view.world.scene, *tag.images, antenna.X_WA.translation, view.tracing, paths);
+    for (const RadioPath& path : paths) {
+      gain.add(path_gain(path, at_tag, antenna, view.world, view.carrier, effects), -path.arrival_W,
+               k);
+    }
+    return;
+  }
+  trace_paths(view.world.scene, *images, tag.X_WT.translation, view.tracing, paths);
+  for (const RadioPath& path : paths) {
+    gain.add(path_gain(path, antenna, at_tag, view.world, view.carrier, effects), path.departure_W,
+             k);
+  }
+}
+
+Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
+               const TagEnd& tag, std::vector<RadioPath>& paths) {
+  const RadioEnd antenna{view.model.antenna, X_WA};
+  const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  Gain gain;
+  if (is_plain(view)) {
+    const Vector3d way = tag.X_WT.translation - X_WA.translation;
+    const double length = way.norm();
+    if (!(length > 0.0)) return gain;
+    gain.add(free_space_gain(antenna, at_tag, view.carrier, effects), way / length,
+             view.carrier.wave_number);
+  } else {
+    add_paths(view, tag, images, antenna, at_tag, paths, gain);
+  }
+  const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db;
+  if (is_diffuse) add_diffuse(view, tag, X_WA.translation, gain);
+  return gain;
+}
+
+/// ∂ arg h / ∂p.
+Vector3d slope_of(const Gain& gain) {
+  if (!(std::norm(gain.h) > 0.0)) return Vector3d::Zero();
+  return (gain.gradient / gain.h).imag();
+}
+
+}  // namespace
+
+RadioView bare_view(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+                    double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed) {
+  TraceOptions tracing;
+  tracing.occlusion = model.effects.occlusion;
+  tracing.order = model.effects.reflections ? model.reflection_order : 0;
+  const RigidTransform X_WR = model.X_AR ? X_WA * *model.X_AR : X_WA;
+  return {
+      model,       world, carrier_in(world, frequency_hz), tracing, X_WA, X_WR, nullptr, nullptr,
+      diffuse_key, seed};
+}
+
+RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
+                    double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed) {
+  RadioView view = bare_view(model, world, X_WA, frequency_hz, diffuse_key, seed);
+  const auto images_at = [&](const RigidTransform& X) {
+    return std::make_shared<const ImageSet>(images_of(world.scene, X.translation, view.tracing));
+  };
+  view.images = images_at(view.X_WA);
+  if (model.X_AR) view.receiver_images = images_at(view.X_WR);
+  return view;
+}
+
+RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {
+  const RadioModel& model = view.model;
+  const Gain forward = gain_from(view, view.X_WA, view.images.get(), tag, paths);
+  const Gain backward =
+      model.X_AR ? gain_from(view, view.X_WR, view.receiver_images.get(), tag, paths) : forward;
+  RadioLink link;
+  link.forward = forward.h;
+  link.backward = backward.h;
+  link.tag_dbm = model.transmit_power_dbm - model.cable_loss_db + to_db(std::norm(forward.h)) -
+                 tag.model.detuning_db;
+  link.reply_dbm = link.tag_dbm + tag.model.modulation_db - tag.model.detuning_db +
+                   to_db(std::norm(backward.h)) - model.cable_loss_db;
+  link.phase_slope_W = -(slope_of(forward) + slope_of(backward));
+  return link;
+}
+
+Reply reply_of(const RadioLink& link, double phase_offset_rad, const Vector3d& v_AT_W) {
+  const double phase = phase_offset_rad - std::arg(link.forward) - std::arg(link.backward);
+  // Positive for an antenna that comes nearer: the phase falls.
+  return {phase, link.reply_dbm, -link.phase_slope_W.dot(v_AT_W) / kTwoPi};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,82 @@
+#include "tagfield/field/radio_port.h"
+
+#include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+/// RN16 and the reply with the EPC must both come through.
+constexpr int kRn16Bits = 16;
+/// PC and CRC beside the EPC.
+constexpr int kOverheadBits = 32;
+
+/// A phase in [0, 2π), of `key` and `number` for good.
+double drawn_offset(std::uint64_t seed, std::uint64_t key, std::uint64_t number) {
+  RandomStream stream(seed, Purpose::kHopping, key, number);
+  return kTwoPi * static_cast<double>(stream() >> 11U) * 0x1.0p-53;
+}
+
+/// Draws 0 of a reader's key are its hop order.
+double offset_of_channel(const RadioPort& port, std::size_t channel) {
+  return drawn_offset(port.seed, port.reader_key, 1 + channel);
+}
+
+double offset_of_port(const RadioPort& port) {
+  constexpr std::uint64_t kPort = ~std::uint64_t{0};
+  return drawn_offset(port.seed, port.antenna_key, kPort);
+}
+
+bool has_half_turns(const RadioModel& model) {
+  // Without an inventory it is the reader's usual Miller replies that are meant.
+  return model.effects.half_turns && (!model.gen2 || model.gen2->link.encoding != Encoding::kFm0);
+}
+
+}  // namespace
+
+CarrierNow carrier_at(const RadioModel& model, const RadioPort& port, Time time) {
+  CarrierNow now;
+  if (model.effects.hopping) {
+    // One order for all that share a plan, so that readers never meet on a channel.
+    now.channel = channel_at(model.plan, time, stream_key(model.plan.name), port.seed, port.turn);
+  }
+  now.frequency_hz = model.plan.carriers_hz[now.channel];
+  now.phase_offset_rad = model.phase_offset_rad;
+  if (model.effects.phase_offsets) {
+    now.phase_offset_rad += offset_of_channel(port, now.channel) + offset_of_port(port);
+  }
+  return now;
+}
+
+TagReply report(const RadioModel& model, const RadioPort& port, const CarrierNow& carrier,
+                const RadioLink& link, const TagEnd& tag, const Eigen::Vector3d& v_AT_W,
+                Time stamp) {
+  RandomStream noise(port.seed, Purpose::kMeasuring, port.antenna_key, tag.key,
+                     static_cast<std::uint64_t>(stamp.time_since_epoch().count()));
+  const ReceiverEffects effects{model.effects.noise, model.effects.quantization,
+                                has_half_turns(model)};
+  const Measured measured =
+      measure(model.hardware, effects, reply_of(link, carrier.phase_offset_rad, v_AT_W), noise);
+  TagReply reply;
+  reply.stamp = stamp;
+  reply.frequency_hz = carrier.frequency_hz;
+  reply.phase_rad = measured.phase_rad;
+  reply.rssi_dbm = measured.rssi_dbm;
+  reply.doppler_hz = measured.doppler_hz;
+  return reply;
+}
+
+std::optional<TagOnAir> on_air(const RadioModel& model, const RadioLink& link, const TagEnd& tag) {
+  if (tag_margin_db(link, tag.model) < 0.0) return std::nullopt;
+  TagOnAir on_air;
+  on_air.reply_dbm = link.reply_dbm;
+  on_air.decode_probability = 0.0;
+  if (reader_margin_db(link, model) >= 0.0) {
+    const int bits = kRn16Bits + kOverheadBits + model.gen2->link.epc_bits;
+    on_air.decode_probability =
+        model.effects.noise ? decode_probability(model.hardware, link.reply_dbm, bits) : 1.0;
+  }
+  return on_air;
+}
+
+}  // namespace tagfield

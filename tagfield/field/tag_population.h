@@ -1,0 +1,102 @@
+/// @file
+/// All tags that antennas can read, and the reads of one update.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/link/tag_index.h"
+#include "tagfield/reader/antenna.h"
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/stream/tag_read.h"
+
+namespace tagfield {
+
+/// Tags under slot numbers: their IDs and where they are now.
+class TagPopulation {
+ public:
+  /// `cell_m` > 0 as in TagIndex: half of the antennas' range serves well.
+  explicit TagPopulation(double cell_m) : index_(cell_m), models_{default_tag_model()} {}
+
+  /// Adds a tag at `p_WT` [m] and gives its slot; those of removed tags are used again. Throws
+  /// Error if the ID is present already or the position not finite.
+  std::uint32_t add(const std::string& id, const Eigen::Vector3d& p_WT);
+  /// Moves the tag in `slot`. Throws Error if the position is not finite.
+  void move(std::uint32_t slot, const Eigen::Vector3d& p_WT) { index_.place(slot, p_WT); }
+  /// Turns the tag in `slot`, which lies as the world does where it is not told.
+  void turn(std::uint32_t slot, const Eigen::Quaterniond& R_WT) { tags_[slot].R_WT = R_WT; }
+  /// Says what kind of tag is in `slot`; default_tag_model() where it is not told.
+  void set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model);
+  /// Takes out the tag in `slot`, which must hold one.
+  void remove(std::uint32_t slot);
+
+  /// Slot of the tag with this ID.
+  [[nodiscard]] std::optional<std::uint32_t> find(const std::string& id) const;
+  [[nodiscard]] const std::string& id(std::uint32_t slot) const { return tags_[slot].id; }
+  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
+    return index_.position(slot);
+  }
+  [[nodiscard]] RigidTransform pose(std::uint32_t slot) const {
+    return {tags_[slot].R_WT, index_.position(slot)};
+  }
+  [[nodiscard]] const TagModel& model(std::uint32_t slot) const { return *tags_[slot].model; }
+  /// All kinds of tags that were ever told of; the default one is the first.
+  [[nodiscard]] const std::vector<std::shared_ptr<const TagModel>>& models() const {
+    return models_;
+  }
+  /// stream_key() of the ID.
+  [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return tags_[slot].key; }
+  [[nodiscard]] const TagIndex& index() const { return index_; }
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  /// Calls `visit(slot)` for each tag, in rising order of slots.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::uint32_t slot = 0; slot < tags_.size(); ++slot) {
+      if (tags_[slot].present) visit(slot);
+    }
+  }
+
+ private:
+  struct Tag {
+    std::string id;
+    std::uint64_t key = 0;
+    bool present = false;
+    Eigen::Quaterniond R_WT = Eigen::Quaterniond::Identity();
+    const TagModel* model = nullptr;  ///< One of `models_`.
+  };
+  std::uint32_t free_slot();
+
+  TagIndex index_;
+  std::vector<std::shared_ptr<const TagModel>> models_;
+  std::vector<Tag> tags_;
+  std::vector<std::uint32_t> free_slots_;
+  std::unordered_map<std::string, std::uint32_t> slots_;
+};
+
+/// What an antenna sees of one tag: a TagRead without what all of an antenna have in common.
+struct TagReply {
+  std::uint32_t slot = 0;
+  Time stamp;                 ///< When the tag answered.
+  double frequency_hz = 0.0;  ///< Carrier.
+  double phase_rad = 0.0;     ///< In [0, 2π).
+  double rssi_dbm = 0.0;      ///< A whole number by the paper's model.
+  double distance_m = 0.0;    ///< The truth behind it.
+  std::optional<double> doppler_hz;
+};
+
+/// The reads of the antenna's update at `stamp` with the antenna at `p_WA` [m]: of all tags within
+/// perturbed_range(), in rising order of slots, into `replies` (emptied first). Each is what
+/// read_tag() gives for that tag. None where `p_WA` is not finite.
+void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
+               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies);
+
+/// The whole record of a reply.
+TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply);
+
+}  // namespace tagfield

@@ -1,0 +1,68 @@
+#include "tagfield/field/port_turns.h"
+
+#include <gtest/gtest.h>
+
+namespace tagfield {
+namespace {
+
+AntennaParameters antenna(const std::string& reader, const std::string& name, double dwell_s,
+                          AirSharing sharing = AirSharing::kChannel) {
+  auto radio = std::make_shared<RadioModel>();
+  radio->gen2 = Gen2Reader{};
+  radio->gen2->port_dwell_s = dwell_s;
+  radio->sharing = sharing;
+  AntennaParameters parameters;
+  parameters.reader = reader;
+  parameters.name = name;
+  parameters.radio = radio;
+  return parameters;
+}
+
+Time at(double seconds) { return time_from_seconds(seconds); }
+
+TEST(PortCycles, LetEachReadersPortsTakeTurns) {
+  const auto cycles =
+      port_cycles({antenna("r", "a", 0.2), antenna("q", "z", 1.0), antenna("r", "b", 0.3)});
+  ASSERT_EQ(cycles.size(), 2U);
+  const PortCycle& of_r = cycles[1];
+  EXPECT_EQ(antenna_on_turn(cycles[0], at(5.5)), "z");
+  EXPECT_EQ(antenna_on_turn(of_r, at(0.0)), "a");
+  EXPECT_EQ(antenna_on_turn(of_r, at(0.2)), "b");
+  EXPECT_EQ(antenna_on_turn(of_r, at(0.499999)), "b");
+  EXPECT_EQ(antenna_on_turn(of_r, at(0.5)), "a");
+  EXPECT_EQ(antenna_on_turn(of_r, at(-0.1)), "b");
+}
+
+TEST(PortCycles, LetReadersThatShareTimeTakeTurnsTogether) {
+  const auto cycles = port_cycles(
+      {antenna("r", "a", 0.2, AirSharing::kTime), antenna("q", "z", 0.2, AirSharing::kTime)});
+  ASSERT_EQ(cycles.size(), 1U);
+  EXPECT_EQ(antenna_on_turn(cycles[0], at(0.1)), "a");
+  EXPECT_EQ(antenna_on_turn(cycles[0], at(0.3)), "z");
+}
+
+TEST(PortCycles, PassOverAntennasWithoutInventory) {
+  AntennaParameters plain;
+  plain.name = "plain";
+  EXPECT_TRUE(port_cycles({plain}).empty());
+  EXPECT_FALSE(next_change({}, at(1.0)));
+}
+
+TEST(NextTurn, IsNowWhileItLastsAndElseWhenItBegins) {
+  const PortCycle cycle = port_cycles({antenna("r", "a", 0.2), antenna("r", "b", 0.3)}).front();
+  EXPECT_EQ(next_turn(cycle, "b", at(0.05)), at(0.2));
+  EXPECT_EQ(next_turn(cycle, "b", at(0.3)), at(0.3));
+  EXPECT_EQ(next_turn(cycle, "a", at(0.3)), at(0.5));
+  EXPECT_FALSE(next_turn(cycle, "c", at(0.3)));
+}
+
+TEST(NextChange, IsTheFirstEndOfAnyTurn) {
+  const auto cycles = port_cycles({antenna("r", "a", 0.2), antenna("r", "b", 0.3),
+                                   antenna("q", "x", 0.15), antenna("q", "y", 0.15)});
+  EXPECT_EQ(next_change(cycles, at(0.0)), at(0.15));
+  EXPECT_EQ(next_change(cycles, at(0.15)), at(0.2));
+  EXPECT_EQ(next_change(cycles, at(0.2)), at(0.3));
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,237 @@
+#include "tagfield/field/radio_air.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFrequency = 865.7e6;
+
+std::shared_ptr<const RadioWorld> free_space() {
+  Diagnostics diagnostics;
+  return std::make_shared<const RadioWorld>(radio_world(Scene{}, {}, diagnostics));
+}
+
+/// Isotropic ends in free space, without noise; what is read is then known in closed form.
+RadioModel plain_model() {
+  RadioModel model;
+  model.effects = no_effects();
+  model.plan = fixed_plan(kFrequency);
+  model.transmit_power_dbm = 30.0;
+  return model;
+}
+
+RadioModel gen2_model(Session session = Session::kS0) {
+  RadioModel model = plain_model();
+  model.effects.inventory = true;
+  model.gen2 = Gen2Reader{};
+  model.gen2->inventory.session = session;
+  model.gen2->inventory.target = session == Session::kS0 ? Target::kAlternate : Target::kA;
+  return model;
+}
+
+AntennaParameters antenna(const std::string& reader, const std::string& name,
+                          const RadioModel& model) {
+  AntennaParameters parameters;
+  parameters.reader = reader;
+  parameters.name = name;
+  parameters.rate_hz = 15.0;
+  parameters.radio = std::make_shared<const RadioModel>(model);
+  return parameters;
+}
+
+std::shared_ptr<const TagModel> isotropic_tag() {
+  TagModel tag;
+  tag.sensitivity_dbm = -15.0;
+  return std::make_shared<const TagModel>(tag);
+}
+
+TagPopulation row_of_tags(int count, double spacing_m) {
+  TagPopulation tags(3.0);
+  const auto kind = isotropic_tag();
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t slot = tags.add("tag" + std::to_string(i), {2.0, spacing_m * i, 0.0});
+    tags.set_model(slot, kind);
+  }
+  return tags;
+}
+
+Time at_update(int number) { return time_from_seconds(number / 15.0); }
+
+/// Distance at which −15 dBm come in of 30 dBm: 20 log10(4πd/λ) = 45.
+double range_of_plain_link() {
+  return wavelength(kFrequency) / (4.0 * kPi) * std::pow(10.0, 45.0 / 20.0);
+}
+
+TEST(RadioAir, WithoutInventoryReadsAllThatAnswersOnceAnUpdate) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", plain_model()));
+  const TagPopulation tags = row_of_tags(20, 0.5);
+  std::vector<TagReply> replies;
+  air.update("a", {}, at_update(0), tags, replies);
+  std::size_t expected = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (std::hypot(2.0, 0.5 * i) <= range_of_plain_link()) ++expected;
+  }
+  ASSERT_EQ(replies.size(), expected);
+  EXPECT_LT(expected, 20U);
+  for (const TagReply& reply : replies) {
+    const double d = tags.position(reply.slot).norm();
+    EXPECT_EQ(reply.stamp, at_update(0));
+    EXPECT_EQ(reply.frequency_hz, kFrequency);
+    EXPECT_NEAR(wrap_to_pi(reply.phase_rad - 4.0 * kPi * d / wavelength(kFrequency)), 0.0, 1e-9);
+    EXPECT_NEAR(reply.distance_m, d, 1e-12);
+  }
+}
+
+TEST(RadioAir, InventoryStampsEachReadAndMeasuresItWhereTheAntennaWasThen) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", gen2_model()));
+  TagPopulation tags = row_of_tags(5, 0.2);
+  const Vector3d antenna_speed(0.0, 0.6, 0.0);
+  const Vector3d tag_speed(-0.3, 0.0, 0.1);
+  const auto tag_at = [&](std::uint32_t slot, double t) -> Vector3d {
+    const Vector3d start(2.0, 0.2 * slot, 0.0);
+    return slot == 3 ? Vector3d(start + tag_speed * t) : start;
+  };
+  std::vector<TagReply> replies;
+  std::set<Time> stamps;
+  std::set<std::uint32_t> seen;
+  for (int i = 0; i < 30; ++i) {
+    const double now = to_seconds(at_update(i));
+    tags.move(3, tag_at(3, now));
+    air.update("a", from_translation(antenna_speed * now), at_update(i), tags, replies);
+    for (const TagReply& reply : replies) {
+      const double t = to_seconds(reply.stamp);
+      const double d = (tag_at(reply.slot, t) - antenna_speed * t).norm();
+      EXPECT_NEAR(wrap_to_pi(reply.phase_rad - 4.0 * kPi * d / wavelength(kFrequency)), 0.0, 1e-6);
+      const Vector3d way = (tag_at(reply.slot, t) - antenna_speed * t) / d;
+      const Vector3d closing = antenna_speed - (reply.slot == 3 ? tag_speed : Vector3d::Zero());
+      EXPECT_NEAR(*reply.doppler_hz, 2.0 * way.dot(closing) / wavelength(kFrequency), 1e-3);
+      EXPECT_LE(reply.stamp, at_update(i));
+      stamps.insert(reply.stamp);
+      seen.insert(reply.slot);
+    }
+    if (i > 0) {
+      EXPECT_GT(replies.size(), 1U) << i;
+    }
+  }
+  EXPECT_EQ(seen.size(), 5U);
+  EXPECT_GT(stamps.size(), 150U);  // No two reads at once.
+}
+
+TEST(RadioAir, TagsThatAreOutOfPowerAreNotRead) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", gen2_model()));
+  const TagPopulation tags = row_of_tags(20, 0.5);
+  std::vector<TagReply> replies;
+  for (int i = 0; i < 30; ++i) {
+    air.update("a", {}, at_update(i), tags, replies);
+    for (const TagReply& reply : replies) EXPECT_LE(reply.distance_m, range_of_plain_link());
+  }
+  EXPECT_GT(air.counts("a")->rounds, 10);
+  EXPECT_FALSE(air.counts("b"));
+}
+
+TEST(RadioAir, PortsReadInTheirTurnsOnly) {
+  RadioAir air(free_space(), 1);
+  RadioModel model = gen2_model();
+  model.gen2->port_dwell_s = 0.25;
+  air.add(antenna("r", "a", model));
+  air.add(antenna("r", "b", model));
+  const TagPopulation tags = row_of_tags(3, 0.3);
+  std::vector<TagReply> replies;
+  std::map<std::string, int> reads;
+  for (int i = 0; i < 60; ++i) {
+    for (const std::string name : {"a", "b"}) {
+      air.update(name, {}, at_update(i), tags, replies);
+      for (const TagReply& reply : replies) {
+        const double into = std::fmod(to_seconds(reply.stamp), 0.5);
+        EXPECT_EQ(into < 0.25, name == "a") << name << ' ' << to_seconds(reply.stamp);
+        ++reads[name];
+      }
+    }
+  }
+  EXPECT_GT(reads["a"], 50);
+  EXPECT_GT(reads["b"], 50);
+}
+
+TEST(RadioAir, TagsRememberInASessionWhoeverAsks) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", gen2_model(Session::kS2)));
+  air.add(antenna("q", "z", gen2_model(Session::kS2)));
+  const TagPopulation tags = row_of_tags(10, 0.3);
+  std::vector<TagReply> replies;
+  std::multiset<std::uint32_t> read;
+  for (int i = 0; i < 60; ++i) {
+    for (const std::string name : {"a", "z"}) {
+      air.update(name, {}, at_update(i), tags, replies);
+      for (const TagReply& reply : replies) read.insert(reply.slot);
+    }
+  }
+  for (std::uint32_t slot = 0; slot < 10; ++slot) EXPECT_EQ(read.count(slot), 1U) << slot;
+}
+
+TEST(RadioAir, TagInAFreedSlotIsAnother) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", gen2_model(Session::kS2)));
+  TagPopulation tags = row_of_tags(1, 0.3);
+  std::vector<TagReply> replies;
+  int reads = 0;
+  for (int i = 0; i < 40; ++i) {
+    if (i == 20) {
+      air.forget_tag(0);
+      tags.remove(0);
+      tags.set_model(tags.add("new", {2.0, 0.1, 0.0}), isotropic_tag());
+    }
+    air.update("a", {}, at_update(i), tags, replies);
+    reads += static_cast<int>(replies.size());
+    EXPECT_EQ(reads, i < 1 ? 0 : (i <= 20 ? 1 : 2)) << i;
+  }
+}
+
+TEST(RadioAir, GivesTheSameReadsForTheSameSeedAndOthersForAnother) {
+  const auto run = [](std::uint64_t seed) {
+    RadioModel model = gen2_model();
+    model.effects = {};
+    model.plan = known_plan("etsi_low");
+    RadioAir air(free_space(), seed);
+    air.add(antenna("r", "a", model));
+    const TagPopulation tags = row_of_tags(6, 0.3);
+    std::vector<TagReply> replies;
+    std::string all;
+    for (int i = 0; i < 100; ++i) {
+      air.update("a", from_translation({0.0, 0.02 * i, 0.0}), at_update(i), tags, replies);
+      for (const TagReply& reply : replies) {
+        all += std::to_string(reply.slot) + ' ' + format_stamp(reply.stamp) + ' ' +
+               std::to_string(reply.phase_rad) + ' ' + std::to_string(reply.frequency_hz) + '\n';
+      }
+    }
+    return all;
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1), run(2));
+  EXPECT_GT(run(1).size(), 1000U);
+}
+
+TEST(RadioAir, AntennaThatIsNowhereReadsNothing) {
+  RadioAir air(free_space(), 1);
+  air.add(antenna("r", "a", gen2_model()));
+  const TagPopulation tags = row_of_tags(3, 0.3);
+  std::vector<TagReply> replies(3);
+  air.update("a", from_translation(Vector3d::Constant(std::nan(""))), at_update(0), tags, replies);
+  EXPECT_TRUE(replies.empty());
+  EXPECT_THROW(air.update("b", {}, at_update(0), tags, replies), Error);
+  air.remove("a");
+  EXPECT_THROW(air.update("a", {}, at_update(0), tags, replies), Error);
+}
+
+}  // namespace
+}  // namespace tagfield

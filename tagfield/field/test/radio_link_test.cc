@@ -1,0 +1,188 @@
+#include "tagfield/field/radio_link.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tagfield/base/units.h"
+#include "tagfield/channel/paper_model.h"
+#include "tagfield/field/radio_port.h"
+
+namespace tagfield {
+namespace {
+
+using Eigen::Vector3d;
+
+RadioWorld free_space() {
+  Diagnostics diagnostics;
+  return radio_world(Scene{}, {}, diagnostics);
+}
+
+/// An antenna of 6 dBi that radiates `eirp_dbm`, circular, and no other effect.
+RadioModel antenna(double eirp_dbm, double frequency_hz) {
+  RadioModel model;
+  model.effects = no_effects();
+  model.effects.polarization = true;
+  model.antenna.gain_dbi = 6.0;
+  model.antenna.polarization = PolarizationKind::kRightCircular;
+  model.transmit_power_dbm = eirp_dbm - 6.0;
+  model.plan = fixed_plan(frequency_hz);
+  return model;
+}
+
+TagModel tag(double gain_dbi, double sensitivity_dbm) {
+  TagModel model;
+  model.antenna.gain_dbi = gain_dbi;
+  model.sensitivity_dbm = sensitivity_dbm;
+  return model;
+}
+
+RadioLink link_at(const RadioModel& model, const TagModel& kind, const RadioWorld& world,
+                  double distance_m) {
+  const RadioView view = view_from(model, world, {}, model.plan.carriers_hz.front(), 0, 1);
+  std::vector<RadioPath> paths;
+  return link_of(view, {kind, from_xyz_rpy({distance_m, 0, 0}, {0, 0, kPi}), 7}, paths);
+}
+
+struct RangeCase {
+  double frequency_hz;
+  double eirp_dbm;
+  double range_m;
+};
+
+class PublishedRange : public testing::TestWithParam<RangeCase> {};
+
+TEST_P(PublishedRange, IsWhereTheChipGetsItsSensitivity) {
+  const auto [frequency, eirp, range] = GetParam();
+  const RadioWorld world = free_space();
+  const RadioModel model = antenna(eirp, frequency);
+  const TagModel kind = tag(2.0, -20.0);
+  // The figures are for a polarization loss of 3 dB, which is 10 log10 2 here: 0.12 % of the range.
+  EXPECT_GE(tag_margin_db(link_at(model, kind, world, range - 0.025), kind), 0.0);
+  EXPECT_LT(tag_margin_db(link_at(model, kind, world, range + 0.01), kind), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(EtsiAndFcc, PublishedRange,
+                         testing::Values(RangeCase{865.7e6, 35.15, 14.05},
+                                         RangeCase{915e6, 36.0, 14.66}));
+
+TEST(Reply, IsAsStrongAsTheBudgetOnPaperSays) {
+  const RadioWorld world = free_space();
+  const RadioModel model = antenna(35.15, 865.7e6);
+  const TagModel kind = tag(2.0, -20.0);
+  // Rounded to 0.1 dB, and for twice 3 dB of polarization loss instead of 20 log10 2.
+  constexpr double kRounding = 0.05 + 0.021;
+  EXPECT_NEAR(link_at(model, kind, world, 1.0).reply_dbm, -28.2, kRounding);
+  EXPECT_NEAR(link_at(model, kind, world, 2.0).reply_dbm, -40.3, kRounding);
+  EXPECT_NEAR(link_at(model, kind, world, 5.0).reply_dbm, -56.2, kRounding);
+}
+
+TEST(Reply, PhaseGrowsByTheRoundTrip) {
+  const RadioWorld world = free_space();
+  for (const auto& [frequency, slope] : {std::pair{865.7e6, 36.287}, std::pair{915e6, 38.354}}) {
+    const RadioModel model = antenna(35.15, frequency);
+    const auto phase = [&](double d) {
+      return reply_of(link_at(model, tag(2.0, -20.0), world, d), 0.0, Vector3d::Zero()).phase_rad;
+    };
+    EXPECT_NEAR(wrap_to_pi(phase(3.01) - phase(3.0)), 0.01 * slope, 1e-5);
+    EXPECT_NEAR(wrap_to_pi(phase(3.0) - 4.0 * kPi * 3.0 / wavelength(frequency)), 0.0, 1e-9);
+  }
+}
+
+TEST(Reply, WithoutEffectsHasThePapersMean) {
+  // Eq. (5) with gain G is 40 log10(Gλ/(4πD)): a power of 40 log10 G over the plain link.
+  const RadioWorld world = free_space();
+  RadioModel model = antenna(0.0, 865.7e6);
+  model.effects = no_effects();
+  model.antenna = {};
+  constexpr double kGain = 3.0;
+  model.transmit_power_dbm = 40.0 * std::log10(kGain);
+  TagModel kind = tag(0.0, -90.0);
+  kind.modulation_db = 0.0;
+  PaperModel paper;
+  paper.communication_gain = kGain;
+  for (double d = 0.3; d < 7.0; d += 0.1) {
+    const RadioLink link = link_at(model, kind, world, d);
+    EXPECT_EQ(std::round(link.reply_dbm), paper_rssi_dbm(paper, d, 0.0)) << d;
+    const Reply reply = reply_of(link, 0.0, Vector3d::Zero());
+    EXPECT_NEAR(wrap_to_pi(reply.phase_rad - paper_phase(paper, d, 0.0)), 0.0, 1e-9) << d;
+  }
+}
+
+TEST(Doppler, IsTwiceTheRadialSpeedOverTheWavelength) {
+  const RadioWorld world = free_space();
+  const RadioModel model = antenna(35.15, 865.7e6);
+  const RadioLink link = link_at(model, tag(2.0, -20.0), world, 3.0);
+  const Vector3d nearer(1.5, 0.3, 0.0);
+  EXPECT_NEAR(reply_of(link, 0.0, nearer).doppler_hz, 2.0 * 1.5 / wavelength(865.7e6), 1e-9);
+}
+
+TEST(Doppler, IsThePhasesRateOfChangeAmongManyPaths) {
+  Scene scene;
+  scene.collisions.push_back({"hall", Box{{8.0, 6.0, 3.0}}, from_translation({3.0, 1.0, 1.0})});
+  Diagnostics diagnostics;
+  const RadioWorld world = radio_world(scene, {}, diagnostics);
+  RadioModel model = antenna(35.15, 865.7e6);
+  model.effects.reflections = model.effects.occlusion = model.effects.patterns = true;
+  model.effects.diffuse = true;
+  model.diffuse_k_db = 6.0;
+  model.reflection_order = 2;
+  const TagModel kind = tag(2.0, -20.0);
+  const auto link_from = [&](const Vector3d& p) {
+    const RadioView view = view_from(model, world, from_translation(p), 865.7e6, 3, 1);
+    std::vector<RadioPath> paths;
+    return link_of(view, {kind, from_xyz_rpy({3.0, 0.5, 0.4}, {0.2, 0, 2.0}), 7}, paths);
+  };
+  const Vector3d v(0.3, -0.2, 0.1);
+  constexpr double kShort = 1e-5;
+  const double before = reply_of(link_from(-kShort * v), 0.0, v).phase_rad;
+  const double after = reply_of(link_from(kShort * v), 0.0, v).phase_rad;
+  const double by_difference = -wrap_to_pi(after - before) / (2.0 * kShort) / kTwoPi;
+  // Patterns and polarization turn a little with the direction, which the slope leaves out.
+  EXPECT_NEAR(reply_of(link_from(Vector3d::Zero()), 0.0, v).doppler_hz, by_difference, 0.15);
+}
+
+TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
+  const RadioWorld world = free_space();
+  RadioModel model = antenna(35.15, 865.7e6);
+  model.antenna.polarization = PolarizationKind::kLinear;  // The same towards both places.
+  model.X_AR = from_translation({0.0, 1.0, 0.0});
+  const RadioLink link = link_at(model, tag(2.0, -20.0), world, 2.0);
+  const double lambda = wavelength(865.7e6);
+  EXPECT_NEAR(std::abs(link.forward) / std::abs(link.backward), std::sqrt(5.0) / 2.0, 1e-3);
+  const double expected = -kTwoPi / lambda * (2.0 + std::sqrt(5.0));
+  EXPECT_NEAR(wrap_to_pi(std::arg(link.forward * link.backward) - expected), 0.0, 0.02);
+}
+
+TEST(Diffuse, HasThePowerOfItsKFactor) {
+  const RadioWorld world = free_space();
+  RadioModel model = antenna(35.15, 865.7e6);
+  model.effects.diffuse = true;
+  model.diffuse_k_db = 3.0;
+  const TagModel kind = tag(2.0, -20.0);
+  double direct = 0.0;
+  double rest = 0.0;
+  std::vector<RadioPath> paths;
+  constexpr int kTags = 4000;
+  for (std::uint64_t key = 0; key < kTags; ++key) {
+    const RadioView view = view_from(model, world, {}, 865.7e6, 3, 1);
+    const std::complex<double> h =
+        link_of(view, {kind, from_xyz_rpy({3, 0, 0}, {0, 0, kPi}), key}, paths).forward;
+    RadioModel still = model;
+    still.effects.diffuse = false;
+    const RadioView plain = view_from(still, world, {}, 865.7e6, 3, 1);
+    const std::complex<double> alone =
+        link_of(plain, {kind, from_xyz_rpy({3, 0, 0}, {0, 0, kPi}), key}, paths).forward;
+    direct += std::norm(alone);
+    rest += std::norm(h - alone);
+  }
+  // Relative error of a mean of so many exponential draws: 1.6 %; five of those.
+  EXPECT_NEAR(rest / direct, std::pow(10.0, -0.3), 0.08 * std::pow(10.0, -0.3));
+}
+
+TEST(MostRange, IsTheFreeSpaceRange) {
+  EXPECT_NEAR(most_range_m(antenna(35.15, 865.7e6), tag(2.0, -20.0)), 14.05 * std::sqrt(2.0), 0.05);
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,269 @@
+#include "tagfield/field/rfid_field.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tagfield/base/test/error_text.h"
+#include "tagfield/settings/radio_settings.h"
+
+namespace tagfield {
+namespace {
+
+/// Writes down what it hears.
+struct Log {
+  std::vector<std::string> events;
+  std::map<std::string, std::vector<TagRead>> reads;  ///< Of the last update, by antenna.
+  std::map<std::string, Eigen::Vector3d> places;      ///< As told by changes and moves.
+  std::map<std::string, std::string> labels;
+};
+
+class Listener final : public FieldListener {
+ public:
+  explicit Listener(Log& log) : log_(log) {}
+  void tags_changed(Time, const FieldTags& tags) override {
+    log_.events.emplace_back("changed");
+    log_.places.clear();
+    log_.labels.clear();
+    tags.population.for_each([&](std::uint32_t slot) {
+      log_.places[tags.population.id(slot)] = tags.population.position(slot);
+      log_.labels[tags.population.id(slot)] = tags.labels[slot];
+    });
+  }
+  void tags_moved(Time, const std::vector<std::uint32_t>& slots, const FieldTags& tags) override {
+    log_.events.emplace_back("moved");
+    for (const std::uint32_t slot : slots) {
+      log_.places[tags.population.id(slot)] = tags.population.position(slot);
+    }
+  }
+  void antenna_updated(const AntennaUpdate& update) override {
+    const std::string& name = update.antenna.parameters.name;
+    log_.events.push_back("updated " + name);
+    log_.reads[name].clear();
+    for (const TagReply& reply : update.replies) {
+      log_.reads[name].push_back(
+          to_read(update.antenna.parameters, update.tags.population.id(reply.slot), reply));
+    }
+  }
+  void antenna_added(const FieldAntenna& antenna) override {
+    log_.events.push_back("added " + antenna.parameters.name);
+  }
+  void antenna_removed(const std::string& antenna) override {
+    log_.events.push_back("removed " + antenna);
+  }
+
+ private:
+  Log& log_;
+};
+
+RfidField field_with(Log& log) {
+  std::vector<std::unique_ptr<FieldListener>> listeners;
+  listeners.push_back(std::make_unique<Listener>(log));
+  return RfidField(std::move(listeners));
+}
+
+AntennaDue antenna_at(const Eigen::Vector3d& p_WA, const std::string& name = "gate") {
+  auto antenna = std::make_shared<FieldAntenna>();
+  antenna->parameters.name = name;
+  antenna->seed = 5;
+  return {antenna, from_translation(p_WA), std::nullopt};
+}
+
+RigidTransform at(double x, double y, double z) { return from_translation({x, y, z}); }
+
+FieldStep step_at(double seconds) {
+  FieldStep step;
+  step.stamp = time_from_seconds(seconds);
+  return step;
+}
+
+TEST(RfidField, TellsChangesBeforeUpdates) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.1);
+  step.added = {{0, "A", "shelf::a", at(1.0, 0.0, 0.0)}, {1, "B", "shelf::b", at(2.0, 0.0, 0.0)}};
+  step.moved = {{1, at(3.0, 0.0, 0.0)}};
+  step.due = {antenna_at({0.0, 0.0, 0.0})};
+  step.antennas_removed = {"old"};
+  step.antennas_added = {step.due[0].antenna};
+  field.step(step);
+  EXPECT_EQ(log.events, (std::vector<std::string>{"removed old", "added gate", "changed", "moved",
+                                                  "updated gate"}));
+  EXPECT_EQ(log.labels.at("A"), "shelf::a");
+  EXPECT_EQ(log.places.at("B"), Eigen::Vector3d(3.0, 0.0, 0.0));
+  ASSERT_EQ(log.reads.at("gate").size(), 2U);
+}
+
+TEST(RfidField, ReadsAsReadTagDoes) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.25);
+  step.added = {{0, "A", "a", at(1.0, 2.0, 2.0)}};
+  const AntennaDue due = antenna_at({0.0, 0.0, 0.0});
+  step.due = {due};
+  field.step(step);
+  const TagRead expected = read_tag(due.antenna->parameters, "A", {3.0}, step.stamp, 5);
+  ASSERT_EQ(log.reads.at("gate").size(), 1U);
+  EXPECT_EQ(log.reads.at("gate")[0].phase_rad, expected.phase_rad);
+  EXPECT_EQ(log.reads.at("gate")[0].rssi_dbm, expected.rssi_dbm);
+}
+
+TEST(RfidField, LeavesOutWhatIsNowhere) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.1);
+  step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
+  step.moved = {{0, at(std::nan(""), 0.0, 0.0)}};
+  step.due = {antenna_at({std::nan(""), 0.0, 0.0}, "lost"), antenna_at({0.0, 0.0, 0.0})};
+  field.step(step);
+  EXPECT_EQ(log.events, (std::vector<std::string>{"changed", "updated gate"}));
+  EXPECT_EQ(log.reads.at("gate").size(), 1U);
+}
+
+TEST(RfidField, RefusesTagsThatAreThereOrNot) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.1);
+  step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
+  field.step(step);
+  FieldStep again = step_at(0.2);
+  again.added = {{1, "A", "a", at(1.0, 0.0, 0.0)}};
+  EXPECT_TRUE(contains(error_of([&] { field.step(again); }), "'A'"));
+  again.added = {{0, "B", "b", at(1.0, 0.0, 0.0)}};
+  EXPECT_TRUE(contains(error_of([&] { field.step(again); }), "number 0"));
+  FieldStep gone = step_at(0.3);
+  gone.removed = {7};
+  EXPECT_TRUE(contains(error_of([&] { field.step(gone); }), "number 7"));
+}
+
+/// A hall with one metal wall at x = 2 m.
+std::shared_ptr<const FieldWorld> walled_world() {
+  auto world = std::make_shared<FieldWorld>();
+  world->scene.collisions = {{"wall::link::box", Box{{0.1, 20.0, 20.0}}, at(2.0, 0.0, 0.0)}};
+  world->materials.rules = {{"wall", find_material(known_materials(), "metal"), {}}};
+  return world;
+}
+
+AntennaDue physical_antenna(const std::string& name, const std::vector<RawParameter>& settings) {
+  Diagnostics diagnostics;
+  auto antenna = std::make_shared<FieldAntenna>();
+  antenna->parameters.name = name;
+  antenna->parameters.radio =
+      radio_model_from(PropagationModel::kLinkBudget, settings, {}, diagnostics);
+  antenna->seed = 5;
+  return {antenna, at(0.0, 0.0, 0.0), std::nullopt};
+}
+
+TEST(RfidField, LetsWavesMeetTheWorld) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.0);
+  step.due = {physical_antenna("gate", {})};
+  step.antennas_added = {step.due[0].antenna};
+  step.added = {{0, "near", "", at(1.5, 0.0, 0.0)}, {1, "behind", "", at(3.0, 0.0, 0.0)}};
+  field.step(step);
+  EXPECT_EQ(log.reads.at("gate").size(), 2U);
+  FieldStep walled = step_at(0.1);
+  walled.due = step.due;
+  walled.world = walled_world();
+  field.step(walled);
+  ASSERT_EQ(log.reads.at("gate").size(), 1U);
+  EXPECT_EQ(log.reads.at("gate")[0].tag, "near");
+  EXPECT_TRUE(field.take_warnings().empty());
+}
+
+TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
+  Log log;
+  RfidField field = field_with(log);
+  FieldStep step = step_at(0.0);
+  auto broken = std::make_shared<FieldWorld>();
+  broken->scene.collisions = {{"wall::link::box", Box{{1.0, 1.0, 1.0}}, at(1e12, 0.0, 0.0)}};
+  step.world = broken;
+  field.step(step);
+  const std::vector<std::string> warnings = field.take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_TRUE(contains(warnings.back(), "wall::link::box"));
+  EXPECT_TRUE(field.take_warnings().empty());
+}
+
+/// Two seconds of inventory among three tags, beginning at 0; the reads of all updates.
+std::vector<TagRead> inventory_run(RfidField& field, Log& log, const AntennaDue& antenna) {
+  std::vector<TagRead> reads;
+  for (int n = 0; n <= 30; ++n) {
+    FieldStep step = step_at(n / 15.0);
+    step.due = {antenna};
+    for (std::uint32_t number = 0; number < 3; ++number) {
+      step.moved.push_back({number, at(1.0 + number, 0.01 * n, 0.0)});
+    }
+    field.step(step);
+    const std::vector<TagRead>& more = log.reads.at("gate");
+    reads.insert(reads.end(), more.begin(), more.end());
+  }
+  return reads;
+}
+
+TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
+  Log log;
+  RfidField field = field_with(log);
+  const AntennaDue antenna =
+      physical_antenna("gate", {{"inventory", "gen2", {}}, {"target", "alternate", {}}});
+  FieldStep begin = step_at(0.0);
+  begin.antennas_added = {antenna.antenna};
+  begin.added = {{0, "a", "", at(1, 0, 0)}, {1, "b", "", at(2, 0, 0)}, {2, "c", "", at(3, 0, 0)}};
+  field.step(begin);
+  const std::vector<TagRead> first = inventory_run(field, log, antenna);
+  const std::vector<TagRead> second = inventory_run(field, log, antenna);
+  ASSERT_GT(first.size(), 30U);
+  ASSERT_EQ(second.size(), first.size());
+  bool between_updates = false;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(second[i].stamp, first[i].stamp);
+    EXPECT_EQ(second[i].phase_rad, first[i].phase_rad);
+    EXPECT_TRUE(first[i].doppler_hz);
+    between_updates = between_updates ||
+                      first[i].stamp != update_stamp(antenna.antenna->parameters,
+                                                     first_update_at(antenna.antenna->parameters,
+                                                                     first[i].stamp));
+  }
+  EXPECT_TRUE(between_updates);
+}
+
+// Any sequence of tags that come, go and move: the antenna, whose range is not perturbed here
+// beyond the tags' reach, reads exactly the set that a plain map holds.
+RC_GTEST_PROP(RfidField, ReadsExactlyTheTagsThatAreThere, ()) {
+  Log log;
+  RfidField field = field_with(log);
+  std::map<std::uint32_t, std::string> present;
+  int made = 0;
+  for (int n = 1; n <= 20; ++n) {
+    FieldStep step = step_at(n * 0.1);
+    for (std::uint32_t number = 0; number < 12; ++number) {
+      const int what = *rc::gen::inRange(0, 4);
+      const RigidTransform place = at(0.1 * number, 0.1 * n, 0.0);
+      if (what == 0 && present.count(number) != 0) {
+        step.removed.push_back(number);
+        present.erase(number);
+      }
+      if (what <= 1 && present.count(number) == 0) {  // A number may go and come in one step.
+        present[number] = "tag" + std::to_string(made++);
+        step.added.push_back({number, present[number], "", place});
+      } else if (what == 2 && present.count(number) != 0) {
+        step.moved.push_back({number, place});
+      }
+    }
+    step.due = {antenna_at({0.0, 0.0, 0.0})};
+    field.step(step);
+    std::set<std::string> expected;
+    for (const auto& [number, id] : present) expected.insert(id);
+    std::set<std::string> read;
+    for (const TagRead& one : log.reads["gate"]) read.insert(one.tag);
+    RC_ASSERT(read == expected);
+    RC_ASSERT(log.places.size() == expected.size());
+  }
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,107 @@
+#include "tagfield/field/tag_population.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "tagfield/base/test/error_text.h"
+
+namespace tagfield {
+namespace {
+
+const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
+
+AntennaParameters antenna() {
+  AntennaParameters antenna;
+  antenna.name = "gate";
+  antenna.reader = "reader_1";
+  return antenna;
+}
+
+TEST(TagPopulation, FindsTagsByTheirId) {
+  TagPopulation tags(3.5);
+  const std::uint32_t a = tags.add("A", {1.0, 2.0, 3.0});
+  const std::uint32_t b = tags.add("B", kOrigin);
+  EXPECT_EQ(tags.find("A"), a);
+  EXPECT_EQ(tags.find("B"), b);
+  EXPECT_EQ(tags.find("C"), std::nullopt);
+  EXPECT_EQ(tags.id(a), "A");
+  EXPECT_EQ(tags.position(a), Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(tags.size(), 2U);
+}
+
+TEST(TagPopulation, RefusesASecondTagOfTheSameId) {
+  TagPopulation tags(3.5);
+  tags.add("A", kOrigin);
+  EXPECT_EQ(error_of([&] { tags.add("A", kOrigin); }), "there is a tag with the ID 'A' already");
+  EXPECT_EQ(tags.size(), 1U);
+}
+
+TEST(TagPopulation, RefusesAPlaceThatIsNowhereAndStaysWhole) {
+  TagPopulation tags(3.5);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(contains(error_of([&] { tags.add("A", {nan, 0.0, 0.0}); }), "finite"));
+  EXPECT_EQ(tags.size(), 0U);
+  EXPECT_EQ(tags.add("A", kOrigin), 0U);
+}
+
+// Against a map: whatever is added, moved and removed, the population holds what the map holds, and
+// an antenna reads exactly those within its range, each as read_tag() alone would.
+RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
+  TagPopulation tags(3.5);
+  std::map<std::string, Eigen::Vector3d> expected;
+  const auto any_place = [] {
+    return Eigen::Vector3d(0.01 * (*rc::gen::inRange(-1200, 1200)),
+                           0.01 * (*rc::gen::inRange(-1200, 1200)),
+                           0.01 * (*rc::gen::inRange(0, 300)));
+  };
+  for (const int what : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 90))) {
+    const std::string id = "tag" + std::to_string(what / 3);
+    const Eigen::Vector3d place = any_place();
+    const std::optional<std::uint32_t> slot = tags.find(id);
+    if (!slot) {
+      tags.add(id, place);
+      expected[id] = place;
+    } else if (what % 3 == 0) {
+      tags.remove(*slot);
+      expected.erase(id);
+    } else {
+      tags.move(*slot, place);
+      expected[id] = place;
+    }
+  }
+  RC_ASSERT(tags.size() == expected.size());
+  const Eigen::Vector3d p_WA = any_place();
+  const Time stamp{Duration(*rc::gen::inRange<std::int64_t>(0, 1'000'000'000))};
+  std::vector<TagReply> replies;
+  read_tags(antenna(), p_WA, stamp, 7, tags, replies);
+
+  const double range = perturbed_range(antenna(), stamp, 7);
+  std::size_t in_range = 0;
+  for (const auto& [id, place] : expected) in_range += (place - p_WA).norm() <= range ? 1U : 0U;
+  RC_ASSERT(replies.size() == in_range);
+  for (std::size_t i = 0; i < replies.size(); ++i) {
+    const std::string& id = tags.id(replies[i].slot);
+    RC_ASSERT(i == 0 || replies[i - 1].slot < replies[i].slot);
+    const TagRead read = to_read(antenna(), id, replies[i]);
+    const LinkGeometry link = link_between(p_WA, expected.at(id));
+    const TagRead alone = read_tag(antenna(), id, link, stamp, 7);
+    RC_ASSERT(read.phase_rad == alone.phase_rad && read.rssi_dbm == alone.rssi_dbm);
+    RC_ASSERT(read.tag == id && read.antenna == "gate" && read.reader == "reader_1");
+    RC_ASSERT(replies[i].distance_m == link.distance_m);
+  }
+}
+
+TEST(ReadTags, GiveNothingForAnAntennaThatIsNowhere) {
+  TagPopulation tags(3.5);
+  tags.add("A", kOrigin);
+  std::vector<TagReply> replies(3);
+  read_tags(antenna(), {std::nan(""), 0.0, 0.0}, Time{}, 1, tags, replies);
+  EXPECT_TRUE(replies.empty());
+}
+
+}  // namespace
+}  // namespace tagfield

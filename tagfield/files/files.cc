@@ -1,0 +1,116 @@
+#include "tagfield/files/files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+namespace fs = std::filesystem;
+namespace {
+
+void write_through(const fs::path& path, const std::string& text, const fs::path& named) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) fail({named.string(), 0}, "can't be written (no permission, or the disk is full?)");
+}
+
+void rename_over(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) fail({to.string(), 0}, fmt::format("can't be replaced: {}", error.message()));
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    fail({folder.string(), 0},
+         fmt::format("can't be made a folder{}", error ? ": " + error.message() : ""));
+  }
+}
+
+}  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail({path, 0}, "no such file");
+  if (fs::is_directory(status)) fail({path, 0}, "is a folder, expected a file");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  // An empty file sets failbit on `text`, not badbit on `file`.
+  if (!file.is_open() || file.bad()) fail({path, 0}, "can't be read");
+  return text.str();
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const fs::path beside = fmt::format("{}.{}.partial", path, getpid());
+  try {
+    write_through(beside, text, path);
+    rename_over(beside, path);
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    throw;
+  }
+}
+
+StagedFolder::StagedFolder(const fs::path& folder)
+    : folder_(folder), staging_(folder / fmt::format(".staging-{}", getpid())) {
+  make_folder(folder_);
+  std::error_code error;
+  fs::create_directory(staging_, error);
+  if (error) fail({folder_.string(), 0}, fmt::format("can't be written to: {}", error.message()));
+}
+
+StagedFolder::~StagedFolder() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+void StagedFolder::add(const fs::path& name, const std::string& text) {
+  const fs::path place = staging_ / name;
+  make_folder(place.parent_path());
+  write_through(place, text, folder_ / name);
+  names_.push_back(name);
+}
+
+void StagedFolder::commit(const std::vector<fs::path>& stale) {
+  for (const fs::path& name : names_) {
+    make_folder((folder_ / name).parent_path());
+    rename_over(staging_ / name, folder_ / name);
+  }
+  for (const fs::path& name : stale) remove_stale(name);
+  names_.clear();
+}
+
+/// Removes what stands under `name`, except what was added there.
+void StagedFolder::remove_stale(const fs::path& name) {
+  const auto is_new = [&](const fs::path& file) {
+    return std::find(names_.begin(), names_.end(), file.lexically_relative(folder_)) !=
+           names_.end();
+  };
+  std::error_code ignored;
+  const fs::path place = folder_ / name;
+  if (!fs::is_directory(place, ignored)) {
+    if (!is_new(place)) fs::remove(place, ignored);
+    return;
+  }
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::recursive_directory_iterator(place, ignored)) {
+    if (!entry.is_directory() && !is_new(entry.path())) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, ignored);
+  // Removes only an empty folder.
+  fs::remove(place, ignored);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,105 @@
+#include "tagfield/files/poses_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+
+#include "tagfield/files/csv.h"
+
+namespace tagfield {
+namespace {
+
+Eigen::Quaterniond quaternion_of(const CsvTable& table, const CsvRow& row,
+                                 const std::array<std::size_t, 4>& columns) {
+  const Eigen::Quaterniond rotation(table.number(row, columns[3]), table.number(row, columns[0]),
+                                    table.number(row, columns[1]), table.number(row, columns[2]));
+  const auto unit = as_rotation(rotation);
+  if (!unit) {
+    fail({table.file, row.line},
+         fmt::format("qx,qy,qz,qw has length {:.3g}, expected 1", rotation.norm()));
+  }
+  return *unit;
+}
+
+/// Of x, y and yaw, row by row; the rest follows by symmetry.
+constexpr std::array<const char*, 6> kCovariance = {"cov_xx", "cov_xy",   "cov_xyaw",
+                                                    "cov_yy", "cov_yyaw", "cov_yawyaw"};
+constexpr std::array<std::array<int, 2>, 6> kPlaces = {
+    {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+
+/// All six columns, or none of them.
+std::optional<std::array<std::size_t, 6>> covariance_columns(const CsvTable& table) {
+  if (!table.has_column(kCovariance[0])) return std::nullopt;
+  std::array<std::size_t, 6> columns{};
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = table.column(kCovariance[i]);
+  return columns;
+}
+
+/// None where the row leaves all six empty.
+std::optional<Eigen::Matrix3d> covariance_of(const CsvTable& table, const CsvRow& row,
+                                             const std::array<std::size_t, 6>& columns) {
+  if (row.fields[columns[0]].empty()) return std::nullopt;
+  Eigen::Matrix3d covariance;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto [r, c] = kPlaces[i];
+    covariance(r, c) = table.number(row, columns[i]);
+    covariance(c, r) = covariance(r, c);
+  }
+  if (covariance.diagonal().minCoeff() < 0.0) {
+    fail({table.file, row.line},
+         "cov_xx, cov_yy and cov_yawyaw are variances: expected at least 0");
+  }
+  return covariance;
+}
+
+std::string covariance_fields(const AntennaPose& pose) {
+  std::string text;
+  for (const auto& [r, c] : kPlaces) {
+    text += pose.covariance ? fmt::format(",{}", (*pose.covariance)(r, c)) : ",";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::string& who) {
+  const bool any_covariance = std::any_of(poses.begin(), poses.end(), [](const AntennaPose& pose) {
+    return pose.covariance.has_value();
+  });
+  std::string text = fmt::format("stamp_s,{},x_m,y_m,z_m,qx,qy,qz,qw", who);
+  for (const char* name : kCovariance) text += any_covariance ? fmt::format(",{}", name) : "";
+  text += '\n';
+  const auto out = std::back_inserter(text);
+  for (const AntennaPose& pose : poses) {
+    const Eigen::Vector3d& p = pose.X_WA.translation;
+    const Eigen::Quaterniond& q = pose.X_WA.rotation;
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}{}\n", format_stamp(pose.stamp),
+                   csv_field(pose.antenna), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
+                   any_covariance ? covariance_fields(pose) : "");
+  }
+  return text;
+}
+
+std::vector<AntennaPose> read_poses_csv(const std::string& path, const std::string& who) {
+  const CsvTable table = read_csv(path);
+  const std::size_t stamp = table.column("stamp_s");
+  const std::size_t name = table.column(who);
+  const auto xyz = table.position_columns();
+  const std::array<std::size_t, 4> q = {table.column("qx"), table.column("qy"), table.column("qz"),
+                                        table.column("qw")};
+  const auto covariance = covariance_columns(table);
+  std::vector<AntennaPose> poses;
+  poses.reserve(table.rows.size());
+  for (const CsvRow& row : table.rows) {
+    poses.push_back({table.stamp(row, stamp),
+                     table.text(row, name),
+                     {quaternion_of(table, row, q), table.position(row, xyz)},
+                     covariance ? covariance_of(table, row, *covariance) : std::nullopt});
+  }
+  return poses;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,21 @@
+/// @file
+/// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`, and
+/// `doppler_hz` where a read tells it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/stream/tag_read.h"
+
+namespace tagfield {
+
+/// Text of the table, a row a read in the order given. Stamps are exact, phase has six decimals.
+std::string reads_to_csv(const std::vector<TagRead>& reads);
+
+/// Reads the table from a file, a simulated or a real reader's. A phase outside [0, 2π) is
+/// wrapped. `reader` may be missing. Throws Error "FILE:LINE: …" on a missing column, text where a
+/// number belongs, a frequency that is not positive.
+std::vector<TagRead> read_reads_csv(const std::string& path);
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+/// @file
+/// The truth of a run as CSV files, in a folder of their own.
+#pragma once
+
+#include <string>
+
+#include "tagfield/files/files.h"
+#include "tagfield/stream/truth.h"
+
+namespace tagfield {
+
+/// Adds truth/antenna_poses.csv, truth/robot_poses.csv, truth/tags.csv (`stamp_s,tag,x_m,y_m,z_m`)
+/// and truth/distances.csv (`stamp_s,antenna,tag,distance_m`).
+void stage_truth(const Truth& truth, StagedFolder& folder);
+
+/// Reads them from a run's folder, distances excepted (nothing judges by them). Throws Error if one
+/// is missing or malformed.
+Truth read_truth(const std::string& run_folder);
+
+}  // namespace tagfield

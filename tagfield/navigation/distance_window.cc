@@ -1,0 +1,48 @@
+#include "tagfield/navigation/distance_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/navigation/near_distances.h"
+
+namespace tagfield {
+
+DistanceWindow::DistanceWindow(const OccupancyGrid& map,
+                               const std::vector<Eigen::Vector2d>& points_M,
+                               const Eigen::Vector2d& centre_M, double half_m, double most_m) {
+  const Eigen::Vector2i low = map.cell_of(centre_M - Eigen::Vector2d(half_m, half_m));
+  window_.resolution_m = map.resolution_m;
+  window_.width = static_cast<int>(std::ceil(2.0 * half_m / map.resolution_m)) + 1;
+  window_.height = window_.width;
+  window_.origin = map.origin + map.resolution_m * low.cast<double>();
+  std::vector<std::uint8_t> sources(static_cast<std::size_t>(window_.width) *
+                                    static_cast<std::size_t>(window_.height));
+  for (int y = 0; y < window_.height; ++y) {
+    for (int x = 0; x < window_.width; ++x) {
+      sources[window_.index(x, y)] = is_occupied(map.at(low.x() + x, low.y() + y)) ? 1 : 0;
+    }
+  }
+  for (const Eigen::Vector2d& point : points_M) {
+    const Eigen::Vector2i cell = window_.cell_of(point);
+    if (window_.contains(cell.x(), cell.y())) sources[window_.index(cell.x(), cell.y())] = 1;
+  }
+  distances_ = near_distances(sources, window_.width, cells_for(most_m, window_.resolution_m));
+}
+
+double DistanceWindow::at(const Eigen::Vector2d& p_M) const {
+  const Eigen::Vector2d place =
+      (p_M - window_.origin) / window_.resolution_m - Eigen::Vector2d(0.5, 0.5);
+  if (!(place.minCoeff() >= 0.0) || !(place.x() < window_.width - 1) ||
+      !(place.y() < window_.height - 1)) {
+    return 0.0;
+  }
+  const int x = static_cast<int>(place.x());
+  const int y = static_cast<int>(place.y());
+  const double u = place.x() - x;
+  const double v = place.y() - y;
+  const auto d = [&](int i, int j) { return static_cast<double>(distances_[window_.index(i, j)]); };
+  return window_.resolution_m * ((1.0 - v) * ((1.0 - u) * d(x, y) + u * d(x + 1, y)) +
+                                 v * ((1.0 - u) * d(x, y + 1) + u * d(x + 1, y + 1)));
+}
+
+}  // namespace tagfield

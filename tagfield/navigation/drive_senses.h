@@ -1,0 +1,66 @@
+/// @file
+/// All that a driving robot knows of its surroundings: the map, what its laser saw, where it was.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/navigation/local_planner.h"
+#include "tagfield/navigation/moving_obstacles.h"
+#include "tagfield/navigation/scan_memory.h"
+
+namespace tagfield {
+
+class DriveSenses {
+ public:
+  /// `radius_m` is of the robot's outline.
+  DriveSenses(const RigidTransform& X_RL, double radius_m) : X_RL_(X_RL), radius_m_(radius_m) {}
+
+  /// Throws Error on a map that is empty or malformed.
+  void set_map(const OccupancyGrid& map);
+  [[nodiscard]] const OccupancyGrid& map() const { return map_; }
+
+  /// Takes a scan; one that is older than the last makes all that was seen before forgotten.
+  void see(const LaserScan& scan, const PlanarPose& pose_M);
+  /// Where the robot is now, and how fast.
+  void be_at(const PlanarPose& pose_M, const BodyVelocity& velocity);
+  /// Forgets all but the map.
+  void forget();
+
+  /// Why there is nothing to go by at `now`, in words; "" where there is a scan.
+  [[nodiscard]] std::string blindness(Time now) const;
+  /// The standing obstacles around `pose_M`.
+  [[nodiscard]] DistanceWindow window(const PlanarPose& pose_M, double half_m, double most_m) const;
+  /// What rollouts from `pose_M` must keep clear of; refers to `window` and to this.
+  [[nodiscard]] Surroundings surroundings(const DistanceWindow& window, const PlanarPose& pose_M,
+                                          Time now) const;
+  /// What stands and is not on the map.
+  [[nodiscard]] std::vector<Eigen::Vector2d> not_on_map() const { return memory_.not_on_map(); }
+  /// Distance from `p_M` to the nearest occupied cell's centre, at most kMostToMap [m].
+  [[nodiscard]] double distance_to_map(const Eigen::Vector2d& p_M) const;
+
+  static constexpr double kMostToMap = 1.0;
+
+ private:
+  [[nodiscard]] bool is_known_free(const Eigen::Vector2d& p_M) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> points_around(const Eigen::Vector2d& p_M,
+                                                           double reach_m) const;
+  [[nodiscard]] double clear_at(const Eigen::Vector2d& p_M) const;
+
+  RigidTransform X_RL_;
+  double radius_m_;
+  OccupancyGrid map_;
+  std::vector<float> to_occupied_;
+  ScanMemory memory_;
+  ObstacleTracker tracker_;
+  std::optional<Time> last_scan_;
+  double valid_share_ = 0.0;
+  std::vector<Eigen::Vector2d> may_be_M_;
+  BodyVelocity velocity_;
+  std::deque<Eigen::Vector2d> trail_M_;
+};
+
+}  // namespace tagfield

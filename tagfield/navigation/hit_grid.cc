@@ -1,0 +1,198 @@
+#include "tagfield/navigation/hit_grid.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "tagfield/motion/planar_pose.h"
+
+namespace tagfield {
+namespace {
+
+/// Place of a cell within its patch.
+template <int kBits>
+std::size_t place_in_patch(int x, int y) {
+  constexpr int kMask = (1 << kBits) - 1;
+  return static_cast<std::size_t>(((y & kMask) << kBits) | (x & kMask));
+}
+
+/// Place of a patch in a table that is `width` patches wide.
+std::size_t place_of(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(x);
+}
+
+/// How a ray walks over the cells along one axis (Amanatides and Woo, 1987).
+struct Walk {
+  int cell = 0;
+  int step = 0;
+  double next = 0.0;   ///< Share of the ray at which it enters the next cell.
+  double share = 0.0;  ///< Of the ray for a whole cell.
+};
+
+Walk walk_along(double from, double to) {
+  Walk walk;
+  walk.cell = static_cast<int>(std::floor(from));
+  const double way = to - from;
+  walk.step = way > 0.0 ? 1 : -1;
+  if (way == 0.0) {
+    walk.next = walk.share = std::numeric_limits<double>::infinity();
+    return walk;
+  }
+  walk.share = 1.0 / std::abs(way);
+  const double border = way > 0.0 ? walk.cell + 1.0 : static_cast<double>(walk.cell);
+  walk.next = (border - from) / way;
+  return walk;
+}
+
+}  // namespace
+
+const HitCell& HitGrid::at(int x, int y) const {
+  static const HitCell kUnknown;
+  const int px = (x >> kPatchBits) - patch_x0_;
+  const int py = (y >> kPatchBits) - patch_y0_;
+  if (px < 0 || py < 0 || px >= patches_x_ || py >= patches_y_) return kUnknown;
+  const std::shared_ptr<Patch>& patch = patches_[place_of(px, py, patches_x_)];
+  return patch ? (*patch)[place_in_patch<kPatchBits>(x, y)] : kUnknown;
+}
+
+void HitGrid::make_room(int patch_x, int patch_y) {
+  if (patches_.empty()) {
+    patch_x0_ = patch_x;
+    patch_y0_ = patch_y;
+  }
+  const int x0 = std::min(patch_x0_, patch_x);
+  const int y0 = std::min(patch_y0_, patch_y);
+  const int nx = std::max(patch_x0_ + patches_x_, patch_x + 1) - x0;
+  const int ny = std::max(patch_y0_ + patches_y_, patch_y + 1) - y0;
+  if (nx == patches_x_ && ny == patches_y_) return;
+  std::vector<std::shared_ptr<Patch>> wider(place_of(0, ny, nx));
+  for (int y = 0; y < patches_y_; ++y) {
+    for (int x = 0; x < patches_x_; ++x) {
+      wider[place_of(x + patch_x0_ - x0, y + patch_y0_ - y0, nx)] =
+          std::move(patches_[place_of(x, y, patches_x_)]);
+    }
+  }
+  patches_ = std::move(wider);
+  patch_x0_ = x0;
+  patch_y0_ = y0;
+  patches_x_ = nx;
+  patches_y_ = ny;
+}
+
+/// The patch, this grid's alone from now on.
+HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
+  make_room(patch_x, patch_y);
+  std::shared_ptr<Patch>& patch =
+      patches_[place_of(patch_x - patch_x0_, patch_y - patch_y0_, patches_x_)];
+  if (!patch) {
+    patch = std::make_shared<Patch>();
+  } else if (patch.use_count() > 1) {
+    patch = std::make_shared<Patch>(*patch);
+  }
+  return *patch;
+}
+
+/// Counts a pass in all cells of the ray but those within `stop_short_m` of its end, and those that
+/// this scan counts already.
+void HitGrid::pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m) {
+  const double length = (to - from).norm();
+  if (!(length > stop_short_m)) return;
+  const double last = 1.0 - stop_short_m / length;
+  Walk x = walk_along(from.x() / resolution_m_, to.x() / resolution_m_);
+  Walk y = walk_along(from.y() / resolution_m_, to.y() / resolution_m_);
+  Patch* patch = nullptr;
+  int patch_x = 0;
+  int patch_y = 0;
+  for (double entered = 0.0; entered < last;) {
+    const int px = x.cell >> kPatchBits;
+    const int py = y.cell >> kPatchBits;
+    if (patch == nullptr || px != patch_x || py != patch_y) {
+      patch = &patch_to_change(px, py);
+      patch_x = px;
+      patch_y = py;
+    }
+    HitCell& cell = (*patch)[place_in_patch<kPatchBits>(x.cell, y.cell)];
+    if (cell.last != scans_) {
+      cell.last = scans_;
+      ++cell.passed;
+    }
+    if (x.next < y.next) {
+      entered = x.next;
+      x.cell += x.step;
+      x.next += x.share;
+    } else {
+      entered = y.next;
+      y.cell += y.step;
+      y.next += y.share;
+    }
+  }
+}
+
+void HitGrid::add_end(const Eigen::Vector2d& end_M) {
+  const Eigen::Vector2i at = cell_of(end_M);
+  HitCell& cell = patch_to_change(at.x() >> kPatchBits,
+                                  at.y() >> kPatchBits)[place_in_patch<kPatchBits>(at.x(), at.y())];
+  const Eigen::Vector2d offset = end_M - centre_of(at.x(), at.y());
+  cell.sum_x += static_cast<float>(offset.x());
+  cell.sum_y += static_cast<float>(offset.y());
+  ++cell.hits;
+  if (cell.last != scans_) {
+    cell.last = scans_;
+    ++cell.ended;
+  }
+}
+
+void HitGrid::add_ends(const std::vector<Eigen::Vector2d>& ends_M) {
+  ++scans_;
+  for (const Eigen::Vector2d& end : ends_M) add_end(end);
+}
+
+void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {
+  const Eigen::Vector2d from = transformed(pose_M, scan.sensor_R);
+  // A beam that ends in a cell says nothing against its neighbours along the wall.
+  const double stop_short_m = 1.5 * resolution_m_;
+  std::vector<Eigen::Vector2d> ends;
+  ends.reserve(scan.ends_R.size());
+  for (const Eigen::Vector2d& end_R : scan.ends_R) ends.push_back(transformed(pose_M, end_R));
+  // The ends first, since a cell is counted once for each scan.
+  add_ends(ends);
+  for (const Eigen::Vector2d& end : ends) pass(from, end, stop_short_m);
+  for (const Eigen::Vector2d& clear_R : scan.clear_R) {
+    pass(from, transformed(pose_M, clear_R), 0.0);
+  }
+}
+
+OccupancyGrid HitGrid::to_occupancy() const {
+  Eigen::Vector2i low(std::numeric_limits<int>::max(), std::numeric_limits<int>::max());
+  Eigen::Vector2i high(std::numeric_limits<int>::min(), std::numeric_limits<int>::min());
+  const int cells_x = patches_x_ * kPatchCells;
+  const int cells_y = patches_y_ * kPatchCells;
+  const Eigen::Vector2i corner(patch_x0_ * kPatchCells, patch_y0_ * kPatchCells);
+  for (int y = 0; y < cells_y; ++y) {
+    for (int x = 0; x < cells_x; ++x) {
+      const Eigen::Vector2i cell = corner + Eigen::Vector2i(x, y);
+      if (!at(cell.x(), cell.y()).is_known()) continue;
+      low = low.cwiseMin(cell);
+      high = high.cwiseMax(cell);
+    }
+  }
+  if (low.x() > high.x()) low = high = Eigen::Vector2i::Zero();
+  low -= Eigen::Vector2i::Ones();
+  high += Eigen::Vector2i::Ones();
+  OccupancyGrid grid;
+  grid.resolution_m = resolution_m_;
+  grid.width = high.x() - low.x() + 1;
+  grid.height = high.y() - low.y() + 1;
+  grid.origin = low.cast<double>() * resolution_m_;
+  grid.cells.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      const HitCell& cell = at(x, y);
+      const int value = !cell.is_known() ? -1 : (cell.is_occupied() ? 100 : 0);
+      grid.cells.push_back(static_cast<std::int8_t>(value));
+    }
+  }
+  return grid;
+}
+
+}  // namespace tagfield

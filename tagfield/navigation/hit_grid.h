@@ -1,0 +1,84 @@
+/// @file
+/// The map that a mapping particle carries: where beams ended and where they passed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "tagfield/map/occupancy_grid.h"
+#include "tagfield/motion/unicycle.h"
+#include "tagfield/navigation/scan_points.h"
+
+namespace tagfield {
+
+/// The mean of the beams' ends in a cell tells where in the cell the surface is, which a scan can
+/// be matched to far finer than to the cell itself.
+struct HitCell {
+  float sum_x = 0.0F;  ///< Of the ends' offsets from the cell's centre [m].
+  float sum_y = 0.0F;
+  std::uint32_t hits = 0;    ///< Beams that ended here.
+  std::uint32_t ended = 0;   ///< Scans with such beams,
+  std::uint32_t passed = 0;  ///< and with others alone.
+  std::uint32_t last = 0;    ///< Number of the latest scan that is counted.
+
+  [[nodiscard]] bool is_known() const { return ended + passed > 0; }
+  /// More than one beam ended here, and beams of one in ten scans. Scans are counted rather than
+  /// beams, since most beams of a scan along a wall pass the cells in which others end.
+  [[nodiscard]] bool is_occupied() const { return hits > 1 && 10 * ended >= ended + passed; }
+};
+
+/// Grows as it is needed. Copies share what has not changed since, so that a filter can copy maps
+/// by the dozen.
+class HitGrid {
+ public:
+  explicit HitGrid(double resolution_m) : resolution_m_(resolution_m) {}
+
+  /// Enters a scan taken from `pose_M`.
+  void insert(const ScanPoints& scan, const PlanarPose& pose_M);
+  /// Enters ends alone, without the beams that led there.
+  void add_ends(const std::vector<Eigen::Vector2d>& ends_M);
+
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }
+  /// Cells are numbered from the map's zero; cell (0, 0) begins there.
+  [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& p_M) const {
+    return {static_cast<int>(std::floor(p_M.x() / resolution_m_)),
+            static_cast<int>(std::floor(p_M.y() / resolution_m_))};
+  }
+  [[nodiscard]] Eigen::Vector2d centre_of(int x, int y) const {
+    return {(x + 0.5) * resolution_m_, (y + 0.5) * resolution_m_};
+  }
+  /// An unknown cell beyond all that was seen.
+  [[nodiscard]] const HitCell& at(int x, int y) const;
+  /// Mean of the ends in the cell, which has hits [m].
+  [[nodiscard]] Eigen::Vector2d mean_of(int x, int y, const HitCell& cell) const {
+    return centre_of(x, y) + Eigen::Vector2d(cell.sum_x, cell.sum_y) / cell.hits;
+  }
+
+  /// 100 occupied, 0 free, -1 unknown, as gmapping publishes it; all that was seen, with a margin
+  /// of one cell. At least one cell.
+  [[nodiscard]] OccupancyGrid to_occupancy() const;
+
+ private:
+  static constexpr int kPatchBits = 5;
+  static constexpr int kPatchCells = 1 << kPatchBits;
+  using Patch = std::array<HitCell, kPatchCells * kPatchCells>;
+
+  Patch& patch_to_change(int patch_x, int patch_y);
+  void make_room(int patch_x, int patch_y);
+  void add_end(const Eigen::Vector2d& end_M);
+  void pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m);
+
+  double resolution_m_;
+  std::uint32_t scans_ = 0;  ///< That were entered.
+  int patch_x0_ = 0;
+  int patch_y0_ = 0;
+  int patches_x_ = 0;
+  int patches_y_ = 0;
+  std::vector<std::shared_ptr<Patch>> patches_;
+};
+
+}  // namespace tagfield

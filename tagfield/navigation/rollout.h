@@ -1,0 +1,86 @@
+/// @file
+/// Where a manoeuvre would lead the robot, and how near to what is around it.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "tagfield/motion/speed_limits.h"
+#include "tagfield/motion/unicycle.h"
+#include "tagfield/navigation/distance_window.h"
+#include "tagfield/navigation/floor_room.h"
+#include "tagfield/navigation/moving_obstacles.h"
+
+namespace tagfield {
+
+/// Goes over to a velocity as fast as the drive can, holds it, does the same with another, brakes
+/// and stands.
+struct Manoeuvre {
+  BodyVelocity first;
+  double first_s = 0.0;
+  BodyVelocity second;
+  double second_s = 0.0;
+};
+
+/// The velocity to go to `seconds` after its beginning.
+BodyVelocity target_at(const Manoeuvre& manoeuvre, double seconds);
+/// What is left of it after `seconds`.
+Manoeuvre rest_of(const Manoeuvre& manoeuvre, double seconds);
+
+/// What is around the robot at the moment of a decision.
+struct Surroundings {
+  const DistanceWindow* standing = nullptr;
+  /// Distance of the robot's centre from what stands, without the window's rounding [m].
+  double clear_now_m = 0.0;
+  std::vector<MovingObstacle> moving;
+  /// Whether the ground at a place is known to be free, so that the robot may back over it.
+  std::function<bool(const Eigen::Vector2d&)> is_known_free;
+};
+
+struct LocalSettings {
+  SpeedLimits limits;
+  RobotRoom size;
+  double period_s = 0.05;  ///< Between decisions.
+};
+
+/// How far rollouts look ahead [s]: all end with the robot at rest, and nobody may come upon it
+/// there so soon that it could not get out of the way then.
+inline constexpr double kHorizon = 6.0;
+
+/// What comes of a manoeuvre.
+struct Outcome {
+  double clear_m = std::numeric_limits<double>::infinity();  ///< Least distance to what stands.
+  double end_clear_m = 0.0;                                  ///< The same at the end.
+  /// Least gap between the outline's circle and those who move, less what is unsure of it.
+  double gap_m = std::numeric_limits<double>::infinity();
+  bool backs_blindly = false;  ///< Over ground that is not known to be free.
+  double moved_m = 0.0;        ///< Distance of the end from the beginning.
+  double turned_rad = 0.0;     ///< By how much the end is turned.
+};
+
+class Rollouts {
+ public:
+  /// Keeps references to `around` and `settings`.
+  Rollouts(const PlanarPose& pose_M, const BodyVelocity& present, const Surroundings& around,
+           const LocalSettings& settings)
+      : pose_M_(pose_M), present_(present), around_(around), settings_(settings) {}
+
+  [[nodiscard]] Outcome outcome(const Manoeuvre& manoeuvre) const;
+  /// The pose `seconds` after the beginning.
+  [[nodiscard]] PlanarPose after(const Manoeuvre& manoeuvre, double seconds) const;
+
+ private:
+  void check(const PlanarPose& pose, const BodyVelocity& velocity, double t, Outcome& result) const;
+  void check_rest(const PlanarPose& pose, double from_s, Outcome& result) const;
+  [[nodiscard]] double gap(const MovingObstacle& moving, const PlanarPose& pose, double t) const;
+  [[nodiscard]] bool is_ground_known_behind(const PlanarPose& pose) const;
+
+  PlanarPose pose_M_;
+  BodyVelocity present_;
+  const Surroundings& around_;
+  const LocalSettings& settings_;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,110 @@
+#include "tagfield/navigation/scan_in_map.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/motion/planar_pose.h"
+
+namespace tagfield {
+namespace {
+
+Eigen::Vector2d polar(double angle_rad, double range_m) {
+  return {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
+}
+
+/// Points at the least range where a row of neighbouring beams is invalid.
+void add_blind(const LaserScan& scan, std::size_t begin, std::size_t end, ScanInMap& seen) {
+  if (static_cast<double>(end - begin) * scan.angle_step_rad < ScanInMap::kLeastBlind) return;
+  // A point each 3° leaves no gap that matters at a range of decimetres.
+  const auto stride = static_cast<std::size_t>(std::max(1.0, 0.05 / scan.angle_step_rad));
+  for (std::size_t i = begin; i < end; i += stride) {
+    seen.may_be_M.push_back(transformed(seen.q_ML, polar(beam_angle(scan, i), scan.least_range_m)));
+  }
+}
+
+void find_blind(const LaserScan& scan, ScanInMap& seen) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= seen.clear_m.size(); ++i) {
+    if (i < seen.clear_m.size() && seen.clear_m[i] <= 0.0) continue;
+    add_blind(scan, begin, i, seen);
+    begin = i + 1;
+  }
+}
+
+/// Where a point is that was seen `later_s` after the robot was at `pose_M`, and was placed as if
+/// seen from there.
+Eigen::Vector2d carried(const PlanarPose& pose_M, const BodyVelocity& velocity, double later_s,
+                        const Eigen::Vector2d& point_M) {
+  const PlanarPose in_robot = between(pose_M, {point_M.x(), point_M.y(), 0.0});
+  return transformed(advance(pose_M, velocity, later_s), {in_robot.x, in_robot.y});
+}
+
+void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVelocity& velocity,
+                   ScanInMap& seen) {
+  const double interval_s = to_seconds(scan.beam_interval);
+  // Directions of neighbouring beams follow from each other by a turn, which is quicker than sines.
+  const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
+  Eigen::Vector2d direction_M(std::cos(first_angle), std::sin(first_angle));
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (beam_of(scan, scan.ranges_m[i]) == Beam::kReturn) {
+      const auto range = static_cast<double>(scan.ranges_m[i]);
+      const double later_s = static_cast<double>(i) * interval_s;
+      const Eigen::Vector2d point_M = position_of(seen.q_ML) + range * direction_M;
+      seen.returns.push_back(
+          {later_s > 0.0 ? carried(pose_M, velocity, later_s, point_M) : point_M, range, i});
+    }
+    direction_M = turn * direction_M;
+  }
+}
+
+bool is_sound(const LaserScan& scan) {
+  return std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad) &&
+         scan.angle_step_rad > 0.0 && std::isfinite(scan.least_range_m) &&
+         std::isfinite(scan.most_range_m);
+}
+
+}  // namespace
+
+double ScanInMap::clear_towards(const Eigen::Vector2d& p_M, double half_width_rad) const {
+  const Eigen::Vector2d away = p_M - position_of(q_ML);
+  const double bearing = wrap_to_pi(std::atan2(away.y(), away.x()) - q_ML.yaw - first_angle_rad);
+  // Beams may begin anywhere in a turn; those of a view past the half turn are a turn further on.
+  const double past = bearing < -half_width_rad ? bearing + kTwoPi : bearing;
+  const double first = std::floor((past - half_width_rad) / angle_step_rad);
+  const double last = std::ceil((past + half_width_rad) / angle_step_rad);
+  if (clear_m.empty() || !(last >= 0.0) || first > static_cast<double>(clear_m.size()) - 1.0) {
+    return 0.0;
+  }
+  const auto begin = static_cast<std::size_t>(std::max(0.0, first));
+  const auto end = std::min(clear_m.size(), static_cast<std::size_t>(last) + 1);
+  return *std::min_element(clear_m.begin() + static_cast<std::ptrdiff_t>(begin),
+                           clear_m.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+ScanInMap scan_in_map(const LaserScan& scan, const RigidTransform& X_RL, const PlanarPose& pose_M,
+                      const BodyVelocity& velocity) {
+  const PlanarPose q_RL = planar(X_RL);
+  ScanInMap seen;
+  seen.stamp = scan.stamp;
+  seen.q_ML = compose(pose_M, q_RL);
+  if (!is_sound(scan)) return seen;
+  seen.first_angle_rad = scan.first_angle_rad;
+  seen.angle_step_rad = scan.angle_step_rad;
+  for (const float range : scan.ranges_m) {
+    const Beam beam = beam_of(scan, range);
+    const double clear = beam == Beam::kNothing ? scan.most_range_m : static_cast<double>(range);
+    seen.clear_m.push_back(beam == Beam::kInvalid ? 0.0 : clear);
+  }
+  place_returns(scan, pose_M, velocity, seen);
+  const auto valid = std::count_if(seen.clear_m.begin(), seen.clear_m.end(),
+                                   [](double clear) { return clear > 0.0; });
+  if (valid > 0) {
+    seen.valid_share = static_cast<double>(valid) / static_cast<double>(seen.clear_m.size());
+  }
+  find_blind(scan, seen);
+  return seen;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,168 @@
+#include "tagfield/navigation/scan_matcher.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tagfield/motion/planar_pose.h"
+
+namespace tagfield {
+namespace {
+
+/// Least ratio of a line's two spreads: below it the cells make a blob.
+constexpr double kLineRatio = 4.0;
+constexpr double kConverged = 1e-5;
+
+/// What a point is held against.
+struct Surface {
+  Eigen::Vector2d mean;
+  Eigen::Vector2d normal;  ///< Zero for a blob.
+};
+
+/// The nearest occupied cell to `cell` within `reach` cells by rings; of one ring the one whose
+/// mean is nearest to `p`.
+std::optional<Eigen::Vector2i> nearest_occupied(const HitGrid& map, const Eigen::Vector2d& p,
+                                                int reach) {
+  const Eigen::Vector2i centre = map.cell_of(p);
+  std::optional<Eigen::Vector2i> best;
+  double best_distance = 0.0;
+  const auto look = [&](int x, int y) {
+    const HitCell& cell = map.at(x, y);
+    if (!cell.is_occupied()) return;
+    const double distance = (map.mean_of(x, y, cell) - p).squaredNorm();
+    if (best && distance >= best_distance) return;
+    best = Eigen::Vector2i(x, y);
+    best_distance = distance;
+  };
+  for (int ring = 0; ring <= reach && !best; ++ring) {
+    for (int d = -ring; d <= ring; ++d) {
+      look(centre.x() + d, centre.y() - ring);
+      if (ring == 0) continue;
+      look(centre.x() + d, centre.y() + ring);
+      if (std::abs(d) == ring) continue;
+      look(centre.x() - ring, centre.y() + d);
+      look(centre.x() + ring, centre.y() + d);
+    }
+  }
+  return best;
+}
+
+/// The surface through the occupied cells around `cell`.
+Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  double weight = 0.0;
+  const Eigen::Vector2d middle = map.centre_of(cell.x(), cell.y());
+  for (int y = cell.y() - 1; y <= cell.y() + 1; ++y) {
+    for (int x = cell.x() - 1; x <= cell.x() + 1; ++x) {
+      const HitCell& near = map.at(x, y);
+      if (!near.is_occupied()) continue;
+      const Eigen::Vector2d p = map.mean_of(x, y, near) - middle;
+      const double w = std::min<double>(near.hits, 20.0);
+      sum += w * p;
+      squares += w * p * p.transpose();
+      weight += w;
+    }
+  }
+  const Eigen::Vector2d mean = sum / weight;
+  const Eigen::Matrix2d spread = squares / weight - mean * mean.transpose();
+  const double half = 0.5 * (spread(0, 0) + spread(1, 1));
+  const double root = std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
+  Surface surface{middle + mean, Eigen::Vector2d::Zero()};
+  const double least = map.resolution_m() * map.resolution_m() / 8.0;
+  if (half + root < least || half + root < kLineRatio * std::max(half - root, 0.0)) return surface;
+  const double angle = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  surface.normal = {-std::sin(angle), std::cos(angle)};
+  return surface;
+}
+
+/// The normal equations of one iteration.
+struct Sums {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double cost = 0.0;
+  double squares = 0.0;
+  std::size_t matched = 0;
+
+  /// A distance along `direction`; `arm` is how the point moves by the yaw.
+  void add(double distance, const Eigen::Vector2d& direction, const Eigen::Vector2d& arm,
+           double share, const MatchOptions& options) {
+    const double ratio = distance / options.outlier_m;
+    const double scale = share * options.trust / (options.sigma_m * options.sigma_m);
+    const double weight = scale / (1.0 + ratio * ratio);
+    const Eigen::Vector3d jacobian(direction.x(), direction.y(), direction.dot(arm));
+    information += weight * jacobian * jacobian.transpose();
+    gradient += weight * distance * jacobian;
+    cost += 0.5 * scale * options.outlier_m * options.outlier_m * std::log1p(ratio * ratio);
+    squares += share * distance * distance;
+  }
+};
+
+Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
+             const PlanarPose& pose, int reach, const MatchOptions& options) {
+  Sums sums;
+  const double c = std::cos(pose.yaw);
+  const double s = std::sin(pose.yaw);
+  // A point without a surface costs as one at the edge of the search.
+  const double missed = map.resolution_m() * (options.search_cells + 1) / options.outlier_m;
+  const double missed_cost = 0.5 * options.trust * options.outlier_m * options.outlier_m /
+                             (options.sigma_m * options.sigma_m) * std::log1p(missed * missed);
+  for (const Eigen::Vector2d& p_R : points_R) {
+    const Eigen::Vector2d turned(c * p_R.x() - s * p_R.y(), s * p_R.x() + c * p_R.y());
+    const Eigen::Vector2d p(pose.x + turned.x(), pose.y + turned.y());
+    const auto cell = nearest_occupied(map, p, reach);
+    if (!cell) {
+      sums.cost += missed_cost;
+      continue;
+    }
+    ++sums.matched;
+    const Surface surface = surface_at(map, *cell);
+    const Eigen::Vector2d arm(-turned.y(), turned.x());
+    const Eigen::Vector2d off = p - surface.mean;
+    if (surface.normal.isZero()) {
+      sums.add(off.x(), Eigen::Vector2d::UnitX(), arm, 0.5, options);
+      sums.add(off.y(), Eigen::Vector2d::UnitY(), arm, 0.5, options);
+    } else {
+      sums.add(off.dot(surface.normal), surface.normal, arm, 1.0, options);
+    }
+  }
+  return sums;
+}
+
+Eigen::Vector3d difference(const PlanarPose& a, const PlanarPose& b) {
+  return {a.x - b.x, a.y - b.y, wrap_to_pi(a.yaw - b.yaw)};
+}
+
+}  // namespace
+
+ScanMatch match_scan(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
+                     const PlanarPose& guess_M, const PlanarPose& prior_M,
+                     const Eigen::Matrix3d& prior_information, const MatchOptions& options) {
+  ScanMatch match;
+  match.pose_M = guess_M;
+  for (int i = 0; i < options.iterations; ++i) {
+    // Wide first, then only the surface at hand.
+    const int reach = i < 3 ? options.search_cells : 2;
+    const Sums sums = sums_at(map, points_R, match.pose_M, reach, options);
+    const Eigen::Vector3d off = difference(match.pose_M, prior_M);
+    match.information = sums.information + prior_information;
+    const Eigen::Vector3d gradient = sums.gradient + prior_information * off;
+    match.cost = sums.cost + 0.5 * off.dot(prior_information * off);
+    const auto count = static_cast<double>(std::max<std::size_t>(points_R.size(), 1));
+    match.matched_share = static_cast<double>(sums.matched) / count;
+    match.rms_m =
+        std::sqrt(sums.squares / std::max<double>(static_cast<double>(sums.matched), 1.0));
+    if (i + 1 == options.iterations) break;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(match.information);
+    const Eigen::Vector3d step = solver.solve(-gradient);
+    if (solver.info() != Eigen::Success || !step.allFinite()) break;
+    match.pose_M.x += step.x();
+    match.pose_M.y += step.y();
+    match.pose_M.yaw += step.z();
+    if (i >= 3 && step.norm() < kConverged) break;
+  }
+  return match;
+}
+
+}  // namespace tagfield

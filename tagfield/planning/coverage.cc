@@ -1,0 +1,158 @@
+#include "tagfield/planning/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/planning/antenna_place.h"
+#include "tagfield/planning/tag_coverage.h"
+#include "tagfield/simulator/simulation.h"
+
+namespace tagfield {
+namespace {
+
+/// Share of the grid on the progress bar; the rest is the tags'.
+constexpr double kGridShare = 0.9;
+
+/// The places in an order that soon has something near every cell, so that the far ones can be
+/// left out: each next one halves the gaps.
+std::vector<std::size_t> halving_order(const std::vector<std::size_t>& places) {
+  std::vector<std::size_t> order;
+  std::vector<char> taken(places.size(), 0);
+  for (std::size_t step = std::size_t{1} << 20U; step > 0; step /= 2) {
+    for (std::size_t i = 0; i < places.size(); i += step) {
+      if (taken[i] == 0) order.push_back(places[i]);
+      taken[i] = 1;
+    }
+  }
+  return order;
+}
+
+class GridRun {
+ public:
+  GridRun(const Scenario& scenario, const std::vector<DriveSample>& samples,
+          const CoverageRequest& request, Coverage& coverage)
+      : scenario_(scenario),
+        samples_(samples),
+        request_(request),
+        coverage_(coverage),
+        world_(radio_world_of(scenario)) {}
+
+  void run() {
+    std::size_t all = 0;
+    std::size_t done = 0;
+    for (const std::size_t antenna : request_.antennas) all += places_of(samples_, antenna).size();
+    for (std::size_t i = 0; i < request_.antennas.size(); ++i) {
+      const std::size_t antenna = request_.antennas[i];
+      for (const std::size_t sample : halving_order(places_of(samples_, antenna))) {
+        add(antenna, static_cast<int>(i), samples_[sample]);
+        throw_if_stopped(request_);
+        ++done;
+        if (request_.on_progress) {
+          request_.on_progress(kGridShare * static_cast<double>(done) / static_cast<double>(all));
+        }
+      }
+    }
+  }
+
+ private:
+  void add(std::size_t antenna, int number, const DriveSample& sample) {
+    const AntennaPlace place(scenario_, scenario_.antennas[antenna], *world_, sample.X_WA[antenna],
+                             request_.seed);
+    const std::size_t rows = coverage_.grid.rows;
+    parallel_for(rows * coverage_.layers.size(), request_.threads, [&](std::size_t i) {
+      add_row(place, number, coverage_.layers[i / rows], i % rows, i);
+    });
+  }
+
+  void add_row(const AntennaPlace& place, int number, CoverageLayer& layer, std::size_t row,
+               std::size_t key) const {
+    thread_local std::vector<RadioPath> paths;
+    const CoverageGrid& grid = coverage_.grid;
+    if (request_.stop != nullptr && *request_.stop) return;
+    for (std::size_t column = 0; column < grid.columns; ++column) {
+      CoverageCell& cell = layer.cells[row * grid.columns + column];
+      const Eigen::Vector2d middle = grid.middle(column, row);
+      const Eigen::Vector3d p_WT(middle.x(), middle.y(), layer.height_m);
+      // Nothing that this place could do would change the cell.
+      if (cell.probability >= 1.0 && cell.margin_db >= place.most_margin_db(*request_.tag, p_WT)) {
+        continue;
+      }
+      const TagEnd tag{*request_.tag, from_translation(p_WT), key * grid.columns + column};
+      merge(place.look(tag, request_.orientations, paths), number, cell);
+    }
+  }
+
+  const Scenario& scenario_;
+  const std::vector<DriveSample>& samples_;
+  const CoverageRequest& request_;
+  Coverage& coverage_;
+  std::shared_ptr<const RadioWorld> world_;
+};
+
+CoverageAntenna antenna_of(const Scenario& scenario, const std::vector<DriveSample>& samples,
+                           std::size_t index) {
+  const AntennaParameters& parameters = scenario.antennas[index].parameters;
+  CoverageAntenna antenna;
+  antenna.name = parameters.name;
+  antenna.by_paper = parameters.radio == nullptr;
+  for (const std::size_t i : places_of(samples, index)) {
+    antenna.places_W.push_back(samples[i].X_WA[index].translation);
+  }
+  return antenna;
+}
+
+}  // namespace
+
+void throw_if_stopped(const CoverageRequest& request) {
+  if (request.stop != nullptr && *request.stop) throw Error("coverage: interrupted");
+}
+
+Coverage cover(const Scenario& scenario, const std::vector<DriveSample>& samples,
+               const CoverageRequest& request) {
+  Coverage coverage;
+  coverage.scenario = scenario.name;
+  coverage.description = scenario.description;
+  coverage.tag_kind = request.tag->name;
+  coverage.grid = request.grid;
+  for (const std::size_t index : request.antennas) {
+    coverage.antennas.push_back(antenna_of(scenario, samples, index));
+  }
+  for (const double height_m : request.heights_m) {
+    coverage.layers.push_back({height_m, std::vector<CoverageCell>(request.grid.size())});
+  }
+  GridRun(scenario, samples, request, coverage).run();
+  cover_tags(scenario, samples, request, coverage, [&](double share) {
+    if (request.on_progress) request.on_progress(kGridShare + (1.0 - kGridShare) * share);
+  });
+  return coverage;
+}
+
+CoverageGrid grid_over(const Eigen::AlignedBox2d& region, double step_m, std::size_t most_cells) {
+  // A region that is a whole number of steps wide but for rounding has no cell more.
+  const Eigen::Vector2d counts = (region.sizes().array() / step_m - 1e-9).ceil().max(1.0);
+  if (!(counts.x() * counts.y() <= static_cast<double>(most_cells))) {
+    throw Error(
+        fmt::format("a grid of {:g} by {:g} cells is more than {}: expected a greater "
+                    "step or a smaller region",
+                    counts.x(), counts.y(), most_cells));
+  }
+  CoverageGrid grid;
+  grid.step_m = step_m;
+  grid.columns = static_cast<std::size_t>(counts.x());
+  grid.rows = static_cast<std::size_t>(counts.y());
+  grid.corner_m = region.center() - 0.5 * step_m * counts;
+  return grid;
+}
+
+double links_of(const std::vector<DriveSample>& samples, const CoverageRequest& request) {
+  double places = 0.0;
+  for (const std::size_t antenna : request.antennas) {
+    places += static_cast<double>(places_of(samples, antenna).size());
+  }
+  return places * static_cast<double>(request.grid.size() * request.heights_m.size());
+}
+
+}  // namespace tagfield

@@ -1,0 +1,130 @@
+#include "tagfield/planning/link_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tagfield {
+namespace {
+
+/// What costs less does not explain anything [dB].
+constexpr double kWorthSaying_db = 3.0;
+constexpr double kSeen_db = 1.0;
+constexpr double kSeldom = 0.5;
+
+/// A line's gain by the beginning of its words; 0 where there is none.
+double line(const std::vector<BudgetLine>& lines, const std::string& beginning) {
+  for (const BudgetLine& line : lines) {
+    if (line.what.rfind(beginning, 0) == 0) return line.db;
+  }
+  return 0.0;
+}
+
+std::string behind(const std::vector<SurfaceOnPath>& between) {
+  const SurfaceOnPath* worst = nullptr;
+  for (const SurfaceOnPath& met : between) {
+    if (met.gain_db > -kSeen_db && !met.opaque) continue;
+    const bool is_worse = worst == nullptr || (met.opaque && !worst->opaque) ||
+                          (met.opaque == worst->opaque && met.gain_db < worst->gain_db);
+    if (is_worse) worst = &met;
+  }
+  return worst == nullptr ? "" : fmt::format("{} ({})", worst->object, worst->material);
+}
+
+bool is_blocked(const std::vector<SurfaceOnPath>& between) {
+  return std::any_of(between.begin(), between.end(),
+                     [](const SurfaceOnPath& met) { return met.opaque; });
+}
+
+/// The greatest of the losses that need not be, as ", …"; the distance where there is none.
+std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplanation& link) {
+  const PhysicalLink& physical = *link.physical;
+  const double beam_db = line(physical.to_tag, "antenna gain") -
+                         10.0 * std::log10(std::max(peak_gain(model.antenna), 1e-300));
+  const double tag_db = line(physical.to_tag, "tag gain") -
+                        10.0 * std::log10(std::max(peak_gain(tag.antenna), 1e-300));
+  double others_db = 0.0;
+  for (const BudgetLine& of_way : physical.to_tag) {
+    if (of_way.what.find("with it") != std::string::npos) others_db = of_way.db;
+  }
+  struct Cause {
+    double db;
+    const char* words;
+  };
+  const Cause all[] = {{beam_db, "off the antenna's beam"},
+                       {tag_db, "as the tag hardly sends that way"},
+                       {line(physical.to_tag, "polarization"), "by crossed polarization"},
+                       {others_db, "in a fade"},
+                       {line(physical.to_tag, "detuning"), "by what the tag is mounted on"}};
+  const Cause& worst = *std::min_element(
+      std::begin(all), std::end(all), [](const Cause& a, const Cause& b) { return a.db < b.db; });
+  if (worst.db > -kWorthSaying_db - 0.2) return fmt::format(", {:.2f} m away", link.distance_m);
+  return fmt::format(", {} ({})", worst.words, signed_db(worst.db));
+}
+
+std::string margins(const PhysicalLink& link) {
+  std::string at_tag = signed_db(link.tag_margin_db()) + " at the tag";
+  // What the reader would hear of a tag without power says nothing.
+  if (link.tag_margin_db() < 0.0) return at_tag;
+  return at_tag + ", " + signed_db(link.reader_margin_db()) + " at the reader";
+}
+
+void judge_physical(const LinkQuestion& question, LinkExplanation& link) {
+  const PhysicalLink& physical = *link.physical;
+  const TagModel& tag = *(question.tag.model ? question.tag.model : default_tag_model());
+  const bool has_turn = !physical.takes_inventory || (physical.turn && *physical.turn <= link.time);
+  const std::string there = behind(physical.between);
+  const std::string back = behind(physical.between_return);
+  const std::string what = there.empty() ? back : there;
+  link.read = physical.heard() && has_turn;
+  if (!physical.arrives && (is_blocked(physical.between) || is_blocked(physical.between_return))) {
+    link.verdict = "not read: blocked by " + what;
+  } else if (!physical.heard()) {
+    const RadioModel& model = *question.antenna.parameters.radio;
+    link.verdict = "not read: " + margins(physical) +
+                   (what.empty() ? cause(model, tag, link) : ", behind " + what);
+  } else if (!has_turn) {
+    link.verdict =
+        "not read just now: the antenna's turn " +
+        (physical.turn ? fmt::format("is at {:g} s", to_seconds(*physical.turn)) : "never comes") +
+        "; " + margins(physical);
+  } else if (physical.decode_probability && *physical.decode_probability < kSeldom) {
+    link.verdict = fmt::format("seldom read: {:.0f} % of its replies come through; {}",
+                               100.0 * *physical.decode_probability, margins(physical));
+  } else {
+    link.verdict = "read: " + margins(physical);
+  }
+}
+
+void judge_paper(LinkExplanation& link) {
+  const PaperLink& paper = *link.paper;
+  const double inside_m = paper.perturbed_range_m - link.distance_m;
+  link.read = inside_m >= 0.0;
+  link.verdict =
+      fmt::format("{}: {:.2f} m {} the range of {:.2f} m ({:.2f} m in this update)",
+                  link.read ? "read" : "not read", std::abs(inside_m),
+                  link.read ? "inside" : "beyond", paper.range_m, paper.perturbed_range_m);
+}
+
+}  // namespace
+
+std::string signed_db(double db) {
+  constexpr double kNothing_db = -250.0;
+  if (db < kNothing_db) return "nothing";
+  const std::string number = fmt::format("{:.1f}", std::abs(db));
+  return fmt::format("{}{} dB", db < 0.0 && number != "0.0" ? "−" : "+", number);
+}
+
+void judge(const LinkQuestion& question, LinkExplanation& link) {
+  if (link.paper) {
+    judge_paper(link);
+  } else {
+    judge_physical(question, link);
+  }
+  if (link.absent.empty()) return;
+  link.read = false;
+  link.verdict = "not read: " + link.absent;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+/// @file
+/// A link over a small neighbourhood instead of in one point: local mean power, and how often it is
+/// heard. See docs/coverage.md.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tagfield/field/radio_link.h"
+
+namespace tagfield {
+
+/// Powers are local means: of |h|² over carriers and places.
+struct LocalLink {
+  double tag_dbm = -400.0;
+  double reply_dbm = -400.0;
+  double margin_db = -400.0;  ///< The lesser of tag's and reader's, of the local means.
+  double probability = 0.0;   ///< Share of carriers and places where it is heard.
+};
+
+/// Carriers of a plan to look at: all, or about eight spread over it; the first where it does not
+/// hop.
+std::vector<double> sampled_carriers(const RadioModel& model);
+
+/// The link over the `carriers_hz` and nine places of the tag: its own and ± λ/4 along x and y. The
+/// paths are traced once, to the middle, and turned in phase for the others as plane waves, which
+/// is right to λ/50 from a metre on. `paths` is workspace; `draw` tells draws of diffuse waves
+/// apart.
+LocalLink local_link(const RadioView& view, const TagEnd& tag,
+                     const std::vector<double>& carriers_hz, std::uint64_t draw,
+                     std::vector<RadioPath>& paths);
+
+/// The same over several orientations of the tag as one.
+struct Orientations {
+  std::vector<Eigen::Quaterniond> R_WT = {Eigen::Quaterniond::Identity()};
+  bool worst = false;  ///< The one of least margin counts, instead of the mean over all.
+};
+LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientations& orientations,
+                     const std::vector<double>& carriers_hz, std::uint64_t draw,
+                     std::vector<RadioPath>& paths);
+
+/// Greatest margin [dB] that any tag at `distance_m` can have: at the greatest gains, and with
+/// fields of twice the direct one's where there are others.
+double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m);
+
+}  // namespace tagfield

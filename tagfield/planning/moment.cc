@@ -1,0 +1,61 @@
+#include "tagfield/planning/moment.h"
+
+#include <fmt/format.h>
+
+#include "tagfield/motion/planar_pose.h"
+
+namespace tagfield {
+namespace {
+
+void plan(RobotSpec& robot, Diagnostics& diagnostics) {
+  for (const PlanarPose& goal : robot.goals_W) robot.waypoints.push_back(position_of(goal));
+  robot.goals_W.clear();
+  const bool is_unknown = robot.random_goals > 0 || !robot.carried.empty();
+  robot.random_goals = 0;
+  robot.carried.clear();
+  diagnostics.warn(robot.location,
+                   fmt::format("robot '{}' finds its way by laser; it is taken to {}", robot.name,
+                               robot.waypoints.empty() ? "stand at its start"
+                               : is_unknown ? "follow its waypoints, without being carried"
+                                            : "drive straight over its waypoints or goals"));
+}
+
+}  // namespace
+
+Scenario as_planned(const Scenario& scenario, Diagnostics& diagnostics) {
+  Scenario planned = scenario;
+  if (scenario.pose.source != PoseSource::kSlam) return planned;
+  planned.pose.source = PoseSource::kTrue;
+  bool any_drives = false;
+  for (RobotSpec& robot : planned.robots) {
+    if (drives(robot)) plan(robot, diagnostics);
+    any_drives = any_drives || drives(robot);
+  }
+  // Nobody may be left whose arrival would end the run.
+  if (!any_drives && !planned.duration_s) planned.duration_s = planned.time_step_s;
+  return planned;
+}
+
+Simulation simulation_at(const Scenario& scenario, std::uint64_t seed, Time time) {
+  Simulation simulation(scenario, seed);
+  while (simulation.now() < time) {
+    if (simulation.finished()) {
+      throw Error(fmt::format("the run ends at {:g} s, and {:g} s was asked for",
+                              to_seconds(simulation.now()), to_seconds(time)));
+    }
+    simulation.skip_step();
+  }
+  return simulation;
+}
+
+std::string absence_of(const TagSpec& tag, Time time) {
+  if (time < tag.appears) {
+    return fmt::format("not there yet (appears at {:g} s)", to_seconds(tag.appears));
+  }
+  if (tag.disappears && time >= *tag.disappears) {
+    return fmt::format("gone (disappeared at {:g} s)", to_seconds(*tag.disappears));
+  }
+  return "";
+}
+
+}  // namespace tagfield

@@ -1,0 +1,148 @@
+#include "tagfield/planning/path_explanation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+/// Weaker paths bring nothing: a pattern's null, or a wall that lets nothing through [dB].
+constexpr double kNothing_db = -300.0;
+
+std::vector<std::string> parts_of(const std::string& scoped) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = scoped.find("::"); end != std::string::npos;
+       end = scoped.find("::", begin)) {
+    parts.push_back(scoped.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  parts.push_back(scoped.substr(begin));
+  return parts;
+}
+
+/// Names that say nothing, with or without a number behind them.
+bool is_generic(const std::string& name) {
+  const std::string word = name.substr(0, name.find_last_not_of("0123456789_") + 1);
+  constexpr const char* kWords[] = {"link",   "base_link", "base", "body",     "box",
+                                    "visual", "collision", "mesh", "geometry", ""};
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](const char* known) { return word == known; });
+}
+
+SurfaceOnPath surface(const RadioWorld& world, std::uint32_t solid, double gain_db) {
+  SurfaceOnPath met;
+  met.solid = world.solids[solid];
+  met.object = object_of(met.solid);
+  met.material = world.materials[world.material_of[solid]].name;
+  met.gain_db = gain_db;
+  met.opaque = world.scene.is_opaque(solid);
+  return met;
+}
+
+std::vector<SurfaceOnPath> bounces_of(const RadioPath& path, const PathBudget& budget,
+                                      const RadioWorld& world) {
+  std::vector<SurfaceOnPath> met;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(path.bounce_count); ++i) {
+    met.push_back(surface(world, path.bounces[i].solid, budget.bounce_db[i]));
+    met.back().p_W = path.bounces[i].p_W;
+  }
+  return met;
+}
+
+struct Ends {
+  RadioEnd antenna;
+  RadioEnd tag;
+  ChannelEffects effects;
+};
+
+Ends ends_of(const RadioView& view, const TagEnd& tag) {
+  return {{view.model.antenna, view.X_WA},
+          {tag.model.antenna, tag.X_WT},
+          {view.model.effects.patterns, view.model.effects.polarization}};
+}
+
+PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath& path,
+                        double direct_m, std::complex<double> free_gain) {
+  const PathBudget budget =
+      path_budget(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
+  PathExplanation told;
+  told.order = path.bounce_count;
+  told.length_m = path.length_m;
+  told.excess_m = std::max(0.0, path.length_m - direct_m);
+  told.blocked = path.blocked;
+  told.bounces = bounces_of(path, budget, view.world);
+  told.crossings = crossings_of(path, budget, view.world);
+  if (path.blocked || !(std::norm(free_gain) > 0.0)) return told;
+  const std::complex<double> ratio =
+      path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects) / free_gain;
+  const double relative_db = 10.0 * std::log10(std::max(std::norm(ratio), 1e-300));
+  if (!std::isfinite(relative_db) || relative_db <= kNothing_db) return told;
+  told.relative_db = relative_db;
+  told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
+  return told;
+}
+
+double strength(const PathExplanation& path) { return path.relative_db.value_or(kNothing_db); }
+
+}  // namespace
+
+std::string object_of(const std::string& solid) {
+  const std::vector<std::string> parts = parts_of(solid);
+  if (parts.size() < 3) return solid;
+  const std::string& link = parts[parts.size() - 2];
+  const std::string& collision = parts.back();
+  if (!is_generic(link)) return link;
+  return is_generic(collision) ? parts.front() : collision;
+}
+
+std::vector<RadioPath> paths_of(const RadioView& view, const TagEnd& tag, bool receiver) {
+  TraceOptions tracing = view.tracing;
+  tracing.keep_blocked = true;
+  std::vector<RadioPath> paths;
+  const ImageSet& images = receiver ? *view.receiver_images : *view.images;
+  trace_paths(view.world.scene, images, tag.X_WT.translation, tracing, paths);
+  return paths;
+}
+
+RadioPath unhindered(const RadioPath& path) {
+  RadioPath open = path;
+  open.crossings.clear();
+  open.blocked = false;
+  return open;
+}
+
+std::vector<SurfaceOnPath> crossings_of(const RadioPath& path, const PathBudget& budget,
+                                        const RadioWorld& world) {
+  std::vector<SurfaceOnPath> met;
+  for (std::size_t i = 0; i < path.crossings.size(); ++i) {
+    const Crossing& through = path.crossings[i];
+    met.push_back(surface(world, through.solid, budget.crossing_db[i]));
+    met.back().p_W = through.p_W;
+    met.back().thickness_m = through.length_m;
+  }
+  return met;
+}
+
+std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& tag,
+                                           const std::vector<RadioPath>& paths) {
+  const Ends ends = ends_of(view, tag);
+  const double direct_m = (tag.X_WT.translation - view.X_WA.translation).norm();
+  const std::complex<double> free_gain =
+      free_space_gain(ends.antenna, ends.tag, view.carrier, ends.effects);
+  std::vector<PathExplanation> told;
+  told.reserve(paths.size());
+  for (const RadioPath& path : paths) {
+    told.push_back(explain(view, ends, path, direct_m, free_gain));
+  }
+  const auto rest = std::find_if(told.begin(), told.end(),
+                                 [](const PathExplanation& path) { return path.order > 0; });
+  std::stable_sort(rest, told.end(), [](const PathExplanation& a, const PathExplanation& b) {
+    return a.blocked != b.blocked ? b.blocked : strength(a) > strength(b);
+  });
+  return told;
+}
+
+}  // namespace tagfield

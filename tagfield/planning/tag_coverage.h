@@ -1,0 +1,21 @@
+/// @file
+/// Which of the scenario's own tags are read, and by which antenna.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "tagfield/planning/coverage.h"
+
+namespace tagfield {
+
+/// Fills in coverage.tags, whose antennas are those of the request: each tag of its own kind, where
+/// and how it lies, over all samples. A tag is meant for the antenna that comes nearest to it.
+void cover_tags(const Scenario& scenario, const std::vector<DriveSample>& samples,
+                const CoverageRequest& request, Coverage& coverage,
+                const std::function<void(double share)>& on_progress);
+
+/// From who reads it and whom it is meant for.
+TagVerdict verdict_of(const std::vector<int>& read_by, int nearest);
+
+}  // namespace tagfield

@@ -1,0 +1,15 @@
+/// @file
+/// Forms of other people's tables as YAML files, profiles/datasets/NAME.yaml. docs/datasets.md has
+/// the keys.
+#pragma once
+
+#include <string>
+
+#include "tagfield/files/dataset_csv.h"
+
+namespace tagfield {
+
+/// Throws Error "FILE:LINE: …" if the file can't be read or says what makes no sense.
+DatasetForm read_dataset_form(const std::string& path);
+
+}  // namespace tagfield

@@ -1,0 +1,162 @@
+#include "tagfield/scenario/internal/radio_yaml.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tagfield/scenario/profile.h"
+#include "tagfield/scenario/yaml_values.h"
+
+namespace tagfield {
+namespace {
+
+void append_profile(const YamlValue& file, std::vector<ProfileKind> kinds,
+                    std::vector<RawParameter>& parameters) {
+  const std::string path = resolve_path(file);
+  if (!std::filesystem::exists(path)) file.fail(fmt::format("there is no file '{}'", path));
+  const Profile profile = read_profile(path);
+  if (std::find(kinds.begin(), kinds.end(), profile.kind) == kinds.end()) {
+    file.fail(
+        fmt::format("is a {} profile, expected {}",
+                    profile.kind == ProfileKind::kTag ? "tag" : "reader or antenna",
+                    kinds.front() == ProfileKind::kTag ? "a tag's" : "a reader's or an antenna's"));
+  }
+  parameters.insert(parameters.end(), profile.parameters.begin(), profile.parameters.end());
+}
+
+void append_settings(YamlMap& map, const std::vector<SettingHelp>& settings,
+                     std::vector<RawParameter>& parameters) {
+  for (const SettingHelp& setting : settings) {
+    if (map.has(setting.key)) parameters.push_back(raw_parameter(setting.key, map.at(setting.key)));
+  }
+}
+
+/// Keys that the paper's model has too, with ranges of its own.
+void drop_the_papers_own(std::vector<RawParameter>& parameters) {
+  const auto is_papers = [](const RawParameter& parameter) {
+    return parameter.key == "frequency_hz" || parameter.key == "phase_offset_rad";
+  };
+  parameters.erase(std::remove_if(parameters.begin(), parameters.end(), is_papers),
+                   parameters.end());
+}
+
+Material material_of(YamlMap map) {
+  Material material;
+  material.name = map.at("name").text();
+  material.permittivity_a = map.number("permittivity", 1.0);
+  material.permittivity_b = map.number("permittivity_exponent", 0.0);
+  material.conductivity_c = map.number("conductivity_s_m", 0.0);
+  material.conductivity_d = map.number("conductivity_exponent", 0.0);
+  if (map.has("wall_m")) material.wall_m = map.at("wall_m").number();
+  if (map.has("crossing_db")) material.crossing_db = map.at("crossing_db").number();
+  material.is_opaque = map.boolean("opaque", false);
+  map.finish();
+  try {
+    check(material);
+  } catch (const Error& error) {
+    map.self().fail(fmt::format("('{}'): {}", material.name, error.what()));
+  }
+  return material;
+}
+
+/// The scenario's own go before the known ones of the same name.
+std::vector<Material> materials_of(YamlMap& scenario) {
+  std::vector<Material> materials;
+  for (const YamlValue& value : scenario.list("materials")) {
+    materials.push_back(material_of(YamlMap(value)));
+  }
+  const std::vector<Material>& known = known_materials();
+  materials.insert(materials.end(), known.begin(), known.end());
+  return materials;
+}
+
+const Material& material_named(const std::vector<Material>& materials, const YamlValue& name) {
+  try {
+    return find_material(materials, name.text());
+  } catch (const Error& error) {
+    name.fail(error.what());
+  }
+}
+
+}  // namespace
+
+RawParameter raw_parameter(const std::string& key, const YamlValue& value) {
+  if (!value.node().IsSequence()) return {key, value.text(), value.location()};
+  std::vector<std::string> words;
+  for (const YamlValue& item : value.list()) words.push_back(item.text());
+  return {key, fmt::format("{}", fmt::join(words, " ")), value.location()};
+}
+
+RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
+  RadioDefaults defaults;
+  if (map.has("model")) {
+    defaults.model = propagation_model(raw_parameter("model", map.at("model")));
+  }
+  if (map.has("without")) {
+    defaults.antenna.push_back(raw_parameter("without", map.at("without")));
+  }
+  if (map.has("tag_profile")) {
+    std::vector<RawParameter> parameters;
+    append_profile(map.at("tag_profile"), {ProfileKind::kTag}, parameters);
+    const YamlValue file = map.at("tag_profile");
+    defaults.tag = tag_model_from(file.text(), parameters, file.location(), diagnostics);
+  }
+  return defaults;
+}
+
+std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, const RadioDefaults& defaults,
+                                                 Diagnostics& diagnostics) {
+  PropagationModel model = defaults.model;
+  if (antenna.has("model")) {
+    model = propagation_model(raw_parameter("model", antenna.at("model")));
+  }
+  std::vector<RawParameter> parameters;
+  for (const YamlValue& file : antenna.list("profiles")) {
+    append_profile(file, {ProfileKind::kReader, ProfileKind::kAntenna}, parameters);
+  }
+  append_settings(antenna, antenna_settings(), parameters);
+  parameters.insert(parameters.end(), defaults.antenna.begin(), defaults.antenna.end());
+  if (model == PropagationModel::kPaper) drop_the_papers_own(parameters);
+  Diagnostics of_model;
+  auto radio = radio_model_from(model, parameters, antenna.self().location(), of_model);
+  if (model == PropagationModel::kPaper) return nullptr;
+  for (const std::string& warning : of_model.warnings()) diagnostics.warn(warning);
+  return radio;
+}
+
+std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
+                                             Diagnostics& diagnostics) {
+  std::vector<RawParameter> parameters;
+  std::string name = "tag";
+  if (tag.has("profile")) {
+    append_profile(tag.at("profile"), {ProfileKind::kTag}, parameters);
+    name = tag.at("profile").text();
+  }
+  append_settings(tag, tag_settings(), parameters);
+  if (parameters.empty()) return defaults.tag;
+  return tag_model_from(name, parameters, tag.self().location(), diagnostics);
+}
+
+RadioWorldOptions radio_world_options_of(YamlMap& scenario) {
+  RadioWorldOptions options;
+  options.materials = materials_of(scenario);
+  if (!scenario.has("world")) return options;
+  YamlMap world(scenario.at("world"));
+  options.least_facet_m2 =
+      world.number("least_facet_m2", options.least_facet_m2, NumberRange::kNotNegative);
+  if (world.has("default_material")) {
+    options.otherwise = material_named(options.materials, world.at("default_material")).name;
+  }
+  if (!world.has("materials")) return options;
+  YamlMap rules(world.at("materials"));
+  for (const auto& entry : rules.self().node()) {
+    const auto name = entry.first.as<std::string>();
+    const YamlValue value = rules.at(name);
+    options.rules.push_back({name, material_named(options.materials, value), value.location()});
+  }
+  return options;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,42 @@
+/// @file
+/// The physical models' part of a scenario.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/raw_parameter.h"
+#include "tagfield/scenario/scenario.h"
+#include "tagfield/scenario/yaml_map.h"
+#include "tagfield/settings/radio_settings.h"
+
+namespace tagfield {
+
+/// A scalar, or a list's scalars between spaces, as the settings take it.
+RawParameter raw_parameter(const std::string& key, const YamlValue& value);
+
+/// What holds for all antennas and tags that don't say otherwise.
+struct RadioDefaults {
+  PropagationModel model = PropagationModel::kPaper;
+  std::vector<RawParameter> antenna;  ///< `without`.
+  std::shared_ptr<const TagModel> tag = default_tag_model();
+};
+
+/// Takes `model`, `without` and `tag_profile`.
+RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics);
+
+/// The antenna's physical model from its `model`, `profiles` and settings; null for the paper's.
+/// The settings are checked either way.
+std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, const RadioDefaults& defaults,
+                                                 Diagnostics& diagnostics);
+
+/// The tag's kind from its `profile` and settings, or the default.
+std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
+                                             Diagnostics& diagnostics);
+
+/// What the world is made of: `world.materials`, `world.default_material`, `world.least_facet_m2`,
+/// and the scenario's own `materials`.
+RadioWorldOptions radio_world_options_of(YamlMap& scenario);
+
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+#include "tagfield/scenario/obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tagfield {
+namespace {
+
+constexpr double kFarAway = 1e9;
+
+double distance_to(const Rectangle& box, const Eigen::Vector2d& p_W) {
+  const Eigen::Vector2d d = p_W - box.centre;
+  const double c = std::cos(box.yaw);
+  const double s = std::sin(box.yaw);
+  const Eigen::Vector2d beyond =
+      Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y()).cwiseAbs() - box.size / 2.0;
+  const double outside = beyond.cwiseMax(0.0).norm();
+  return outside > 0.0 ? outside : beyond.maxCoeff();
+}
+
+}  // namespace
+
+Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp) {
+  Obstacles obstacles;
+  for (const ObstacleSpec& spec : specs) {
+    if (stamp < spec.appears || (spec.disappears && stamp >= *spec.disappears)) continue;
+    const Eigen::Vector2d centre = held_pose_at(spec.motion, stamp).translation.head<2>();
+    if (spec.radius_m > 0.0) {
+      obstacles.discs.push_back({centre, spec.radius_m});
+    } else {
+      obstacles.rectangles.push_back({centre, spec.size_m, spec.yaw_rad});
+    }
+  }
+  return obstacles;
+}
+
+double distance_to_obstacles(const Obstacles& obstacles, const Eigen::Vector2d& p_W) {
+  double least = kFarAway;
+  for (const Disc& disc : obstacles.discs) {
+    least = std::min(least, (p_W - disc.centre).norm() - disc.radius);
+  }
+  for (const Rectangle& box : obstacles.rectangles) least = std::min(least, distance_to(box, p_W));
+  return least;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,19 @@
+#include "tagfield/scenario/pose_belief.h"
+
+namespace tagfield {
+
+std::string to_string(PoseSource source) {
+  switch (source) {
+    case PoseSource::kTrue:
+      return "true";
+    case PoseSource::kNoisy:
+      return "noisy";
+    case PoseSource::kOdometry:
+      return "odometry";
+    case PoseSource::kSlam:
+      return "slam";
+  }
+  return "";
+}
+
+}  // namespace tagfield

@@ -1,0 +1,57 @@
+#include "tagfield/scenario/profile.h"
+
+#include <fmt/format.h>
+
+#include "tagfield/base/spelling.h"
+#include "tagfield/scenario/internal/radio_yaml.h"
+#include "tagfield/scenario/yaml_map.h"
+#include "tagfield/scenario/yaml_values.h"
+#include "tagfield/settings/radio_settings.h"
+
+namespace tagfield {
+namespace {
+
+std::vector<std::string> keys_of(ProfileKind kind) {
+  std::vector<std::string> keys;
+  const auto& settings = kind == ProfileKind::kTag ? tag_settings() : antenna_settings();
+  keys.reserve(settings.size());
+  for (const SettingHelp& setting : settings) keys.push_back(setting.key);
+  return keys;
+}
+
+RawParameter figure_of(const std::string& key, YamlMap map) {
+  RawParameter parameter = raw_parameter(key, map.at("value"));
+  static_cast<void>(map.at("source").text());
+  map.finish();
+  return parameter;
+}
+
+void read_figures(const YamlValue& figures, Profile& profile) {
+  const std::vector<std::string> known = keys_of(profile.kind);
+  YamlMap map(figures);
+  for (const auto& entry : figures.node()) {
+    const auto key = entry.first.as<std::string>();
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      map.at(key).fail(
+          fmt::format("is no setting of a profile of this kind{}", suggestion(key, known)));
+    }
+    profile.parameters.push_back(figure_of(key, YamlMap(map.at(key))));
+  }
+}
+
+}  // namespace
+
+Profile read_profile(const std::string& path) {
+  const YAML::Node root = read_yaml(path);
+  YamlMap map(YamlValue(root, path, ""));
+  Profile profile;
+  profile.name = map.at("name").text();
+  constexpr ProfileKind kKinds[] = {ProfileKind::kReader, ProfileKind::kAntenna, ProfileKind::kTag};
+  profile.kind = kKinds[choice(map.at("kind"), {"reader", "antenna", "tag"})];
+  map.text("description", "");
+  read_figures(map.at("figures"), profile);
+  map.finish();
+  return profile;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,45 @@
+/// @file
+/// A robot as a scenario describes it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/time.h"
+#include "tagfield/motion/path_follower.h"
+#include "tagfield/motion/unicycle.h"
+
+namespace tagfield {
+
+/// A robot is picked up and put down elsewhere; its wheels don't notice.
+struct Carrying {
+  Time when;                       ///< Of the drive: mapping is over at 0.
+  std::optional<PlanarPose> to_W;  ///< None: anywhere that it could have driven to.
+  Location location;
+};
+
+struct RobotSpec {
+  std::string name;
+  PlanarPose start;
+  DriveGeometry drive;
+  DrivingStyle style;
+  std::vector<Eigen::Vector2d> waypoints;  ///< [m, world]; none for a robot that stands.
+  // For robots that find their way by themselves; at most one of waypoints, goals, random goals.
+  std::vector<PlanarPose> goals_W;  ///< To be driven to, and to look along.
+  int random_goals = 0;             ///< So many, drawn anew at each seed.
+  std::vector<Carrying> carried;    ///< In order of time.
+  Location location;                ///< Where it was written, for messages.
+};
+
+/// Whether it has anywhere to go.
+inline bool drives(const RobotSpec& robot) {
+  return !robot.waypoints.empty() || !robot.goals_W.empty() || robot.random_goals > 0;
+}
+
+/// Length of the robot's path over its waypoints or goals, corners not rounded [m].
+double planned_length(const RobotSpec& robot);
+
+}  // namespace tagfield

@@ -1,0 +1,110 @@
+/// @file
+/// What to simulate, as a plain struct. docs/scenario.md tells how to write one as YAML.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/error.h"
+#include "tagfield/channel/radio_world.h"
+#include "tagfield/localization/locate.h"
+#include "tagfield/motion/lift.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/reader/antenna.h"
+#include "tagfield/scenario/navigation_spec.h"
+#include "tagfield/scenario/obstacle.h"
+#include "tagfield/scenario/pose_belief.h"
+#include "tagfield/scenario/robot_spec.h"
+#include "tagfield/tracking/passing.h"
+#include "tagfield/tracking/tracking_options.h"
+
+namespace tagfield {
+
+/// An antenna and what carries it. Frame P is the carrier's: the robot's base, or the world.
+struct AntennaSpec {
+  AntennaParameters parameters;
+  std::string on;       ///< Name of a robot, or "" for the world.
+  RigidTransform X_PA;  ///< With the lift at its lower end.
+  Lift lift;            ///< Moves the antenna along P's z.
+  /// Poses X_WA of an earlier run: where the antenna is, and when it updates, instead of all of the
+  /// above and of its rate. Empty for an antenna that is carried.
+  Trajectory recorded;
+  Location location;  ///< Where it was written, for messages.
+};
+
+/// A tag and how it moves.
+struct TagSpec {
+  std::string id;
+  std::string on;                         ///< Name of a robot, or "" for the world.
+  std::shared_ptr<const TagModel> model;  ///< What kind it is, for the physical models.
+  /// Poses in P; one of them for a tag at rest in P. Before the first and after the last the
+  /// tag stays where that is.
+  Trajectory motion;
+  bool in_steps = false;  ///< Each pose holds until the next; otherwise straight between them.
+  Time appears;
+  std::optional<Time> disappears;
+  Location location;
+};
+
+/// Whether the tag can move in the world.
+inline bool moves(const TagSpec& tag) { return !tag.on.empty() || tag.motion.size() > 1; }
+
+struct WorldSpec {
+  std::string path;                       ///< "" for empty space.
+  std::vector<std::string> search_paths;  ///< For `model://`.
+};
+
+/// How the tags' heights are known to localization.
+enum class KnownHeight {
+  kTag,      ///< Each tag's own, as from the rack that it is on.
+  kAntenna,  ///< Not at all: as high as the antennas in the mean.
+  kNumber,   ///< One for all, in `height_m`.
+  kAbove,    ///< To be estimated, above the antennas.
+  kBelow,    ///< Likewise below.
+};
+
+struct LocalizationSpec {
+  std::string method = "hyperbola";
+  std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
+  MethodSettings settings;
+  EstimateLimits limits;
+  KnownHeight known_height = KnownHeight::kTag;
+  double height_m = 0.0;
+  std::optional<bool> half_turns;  ///< As in KnownBeforehand.
+  bool offset_known = false;  ///< Whether the antennas' phase offsets are known, as calibrated.
+  std::vector<std::string> reference_tags;   ///< IDs of those whose places are known.
+  std::optional<PoseErrorModel> pose_error;  ///< Where not told, that of the pose's source.
+};
+
+/// How moving tags are tracked; see docs/tracking.md.
+struct TrackingSpec {
+  TrackingOptions options;
+  std::optional<PassingLine> line;  ///< At which the tags' order is told.
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  WorldSpec world;
+  RadioWorldOptions materials;  ///< What the world is made of, for the physical models.
+  /// The world as waves see it; null for free space.
+  std::shared_ptr<const RadioWorld> radio_world;
+  std::uint64_t seed = 1;
+  double time_step_s = 0.01;
+  std::optional<double> duration_s;  ///< Where not set: until all robots have arrived.
+  double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
+  std::vector<RobotSpec> robots;
+  PoseBelief pose;
+  NavigationSpec navigation;  ///< For PoseSource::kSlam.
+  std::vector<ObstacleSpec> obstacles;
+  std::vector<AntennaSpec> antennas;
+  std::vector<TagSpec> tags;
+  LocalizationSpec localization;
+  TrackingSpec tracking;
+};
+
+}  // namespace tagfield

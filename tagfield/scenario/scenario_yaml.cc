@@ -1,0 +1,420 @@
+#include "tagfield/scenario/scenario_yaml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "tagfield/base/spelling.h"
+#include "tagfield/base/units.h"
+#include "tagfield/scenario/internal/navigation_yaml.h"
+#include "tagfield/scenario/internal/radio_yaml.h"
+#include "tagfield/scenario/placements.h"
+#include "tagfield/scenario/recorded_motion.h"
+#include "tagfield/scenario/tag_table.h"
+#include "tagfield/scenario/yaml_map.h"
+#include "tagfield/scenario/yaml_values.h"
+#include "tagfield/sdf/load_world.h"
+
+namespace tagfield {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr NumberRange kPositive = NumberRange::kPositive;
+constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
+
+WorldSpec world_of(YamlMap map) {
+  WorldSpec world;
+  if (!map.has("path")) {
+    map.self().fail("has no 'path': give the world's file with --set world.path=FILE");
+  }
+  world.path = resolve_path(map.at("path"));
+  for (const YamlValue& folder : map.list("model_paths")) {
+    world.search_paths.push_back(resolve_path(folder));
+  }
+  for (const char* radio : {"materials", "default_material", "least_facet_m2"}) {
+    static_cast<void>(map.has(radio));  // radio_world_options_of() reads them.
+  }
+  map.finish();
+  return world;
+}
+
+Eigen::Vector2d waypoint_of(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(2, 2);
+  return {n[0], n[1]};
+}
+
+RobotSpec robot_of(YamlMap map) {
+  RobotSpec robot;
+  robot.location = map.self().location();
+  robot.name = map.at("name").text();
+  const std::vector<double> start = map.at("start").numbers(3, 3);
+  robot.start = {start[0], start[1], start[2]};
+  robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
+  robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
+  robot.style.speed_m_s = map.number("speed_m_s", robot.style.speed_m_s, kPositive);
+  robot.style.most_turn_rad_s =
+      map.number("most_turn_rad_s", robot.style.most_turn_rad_s, kPositive);
+  robot.style.look_ahead_m = map.number("look_ahead_m", robot.style.look_ahead_m, kPositive);
+  for (const YamlValue& waypoint : map.list("waypoints")) {
+    robot.waypoints.push_back(waypoint_of(waypoint));
+  }
+  read_self_driving(map, robot);
+  map.finish();
+  return robot;
+}
+
+PoseBelief belief_of(YamlMap map) {
+  PoseBelief belief;
+  if (map.has("source")) {
+    constexpr PoseSource kSources[] = {PoseSource::kTrue, PoseSource::kNoisy, PoseSource::kOdometry,
+                                       PoseSource::kSlam};
+    belief.source = kSources[choice(map.at("source"), {"true", "noisy", "odometry", "slam"})];
+  }
+  belief.sigma_m = map.number("sigma_m", belief.sigma_m, kNotNegative);
+  belief.yaw_sigma_rad = radians(map.number("yaw_sigma_deg", 0.0, kNotNegative));
+  belief.time_constant_s = map.number("time_constant_s", belief.time_constant_s, kPositive);
+  belief.wheel_noise = map.number("wheel_noise", belief.wheel_noise, kNotNegative);
+  map.finish();
+  return belief;
+}
+
+Lift lift_of(YamlMap map) {
+  Lift lift;
+  lift.travel_m = map.at("travel_m").number(kPositive);
+  lift.speed_m_s = map.number("speed_m_s", lift.speed_m_s, kPositive);
+  map.finish();
+  return lift;
+}
+
+OptionalDistribution distribution_of(YamlMap& map) {
+  const std::vector<double> parameters = map.has("optional_distribution_params")
+                                             ? map.at("optional_distribution_params").numbers(0)
+                                             : std::vector<double>{};
+  if (!map.has("optional_distribution")) return {};
+  if (parameters.empty()) map.complain_of_slip("optional_distribution_params");
+  const YamlValue name = map.at("optional_distribution");
+  try {
+    return make_distribution(name.text(), parameters);
+  } catch (const Error& error) {
+    fail(name.location(), fmt::format("{}: {}", name.path(), error.what()));
+  }
+}
+
+PaperModel paper_model_of(YamlMap& map) {
+  PaperModel model;
+  model.frequency_hz = map.number("frequency_hz", model.frequency_hz, kPositive);
+  model.phase_offset_rad = map.number("phase_offset_rad", model.phase_offset_rad);
+  model.phase_noise_rad = map.number("phase_noise_rad", model.phase_noise_rad, kNotNegative);
+  model.rssi_noise = map.number("rssi_noise", model.rssi_noise, kNotNegative);
+  model.communication_gain = map.number("communication_gain", model.communication_gain, kPositive);
+  model.optional = distribution_of(map);
+  return model;
+}
+
+AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
+  AntennaSpec antenna;
+  AntennaParameters& parameters = antenna.parameters;
+  antenna.location = map.self().location();
+  parameters.name = map.at("name").text();
+  parameters.reader = map.text("reader", parameters.reader);
+  parameters.rate_hz = map.number("rate_hz", parameters.rate_hz, kPositive);
+  parameters.range_m = map.number("range_m", parameters.range_m, kPositive);
+  parameters.range_sigma = map.number("range_sigma", parameters.range_sigma, kNotNegative);
+  parameters.model = paper_model_of(map);
+  parameters.radio = radio_model_of(map, radio, diagnostics);
+  antenna.on = map.text("on", "");
+  const bool is_recorded = map.has("recorded");
+  if (!is_recorded || map.has("pose")) antenna.X_PA = pose_of(map.at("pose"));
+  if (map.has("lift")) antenna.lift = lift_of(YamlMap(map.at("lift")));
+  if (is_recorded) {
+    antenna.recorded = read_recorded_antenna(resolve_path(map.at("recorded")), parameters.name);
+    antenna.on.clear();
+    antenna.lift = {};
+  }
+  map.finish();
+  try {
+    check(parameters);
+  } catch (const Error& error) {
+    map.self().fail(fmt::format("('{}'): {}", parameters.name, error.what()));
+  }
+  return antenna;
+}
+
+/// Every pose of the motion turned so.
+void turn(Trajectory& motion, const Eigen::Quaterniond& R_PT) {
+  for (StampedPose& pose : motion) pose.X_WB.rotation = R_PT;
+}
+
+TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
+  TagSpec tag;
+  tag.location = map.self().location();
+  tag.id = map.at("id").text();
+  tag.on = map.text("on", "");
+  if (map.has("trajectory")) {
+    if (map.has("position")) map.self().fail("has both 'position' and 'trajectory'");
+    tag.motion = trajectory_of(map.at("trajectory"));
+  } else {
+    tag.motion = {{Time{}, from_translation(position_of(map.at("position")))}};
+  }
+  if (map.has("rpy"))
+    turn(tag.motion, from_xyz_rpy({0, 0, 0}, position_of(map.at("rpy"))).rotation);
+  tag.model = tag_model_of(map, radio, diagnostics);
+  if (map.has("appears_s")) {
+    tag.appears = time_from_seconds(seconds_of(map.at("appears_s"), kNotNegative));
+  }
+  if (map.has("disappears_s")) {
+    tag.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
+    if (*tag.disappears <= tag.appears) {
+      map.at("disappears_s").fail("must be later than appears_s");
+    }
+  }
+  map.finish();
+  return tag;
+}
+
+/// The name of a method that there is.
+std::string method_of(const YamlValue& value) {
+  std::vector<std::string> names;
+  for (const Method& method : built_in_methods({})) names.push_back(method.name);
+  return names[static_cast<std::size_t>(choice(value, names))];
+}
+
+PoseErrorModel pose_error_of(YamlMap map) {
+  PoseErrorModel model;
+  model.sigma_m = map.number("sigma_m", model.sigma_m, kNotNegative);
+  model.yaw_sigma_rad = radians(map.number("yaw_sigma_deg", 0.0, kNotNegative));
+  model.time_constant_s = map.number("time_constant_s", model.time_constant_s, kPositive);
+  map.finish();
+  return model;
+}
+
+LocalizationSpec localization_of(YamlMap map) {
+  LocalizationSpec spec;
+  HyperbolaOptions& options = spec.settings.hyperbola;
+  if (map.has("method")) spec.method = method_of(map.at("method"));
+  for (const YamlValue& method : map.list("compare")) spec.compare.push_back(method_of(method));
+  options.stride_m = map.number("stride_m", options.stride_m, kPositive);
+  options.refine = map.boolean("refine", options.refine);
+  if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
+  if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
+  for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
+  if (map.has("pose_error")) spec.pose_error = pose_error_of(YamlMap(map.at("pose_error")));
+  EstimateLimits& limits = spec.limits;
+  limits.max_expected_error_m =
+      map.number("max_expected_error_m", limits.max_expected_error_m, kPositive);
+  limits.max_rms_m = map.number("max_rms_m", limits.max_rms_m, kPositive);
+  if (map.has("tag_height_m")) {
+    spec.known_height = KnownHeight::kNumber;
+    spec.height_m = map.at("tag_height_m").number();
+  } else if (map.has("tag_heights")) {
+    constexpr KnownHeight kKinds[] = {KnownHeight::kTag, KnownHeight::kAntenna, KnownHeight::kAbove,
+                                      KnownHeight::kBelow};
+    spec.known_height =
+        kKinds[choice(map.at("tag_heights"), {"known", "unknown", "above", "below"})];
+  }
+  map.finish();
+  return spec;
+}
+
+Eigen::Vector2d level_point(const YamlValue& value) {
+  const std::vector<double> n = value.numbers(2, 2);
+  return {n[0], n[1]};
+}
+
+Lane lane_of(YamlMap map) {
+  Lane lane;
+  lane.point = level_point(map.at("point"));
+  lane.heading_rad = radians(map.number("heading_deg", 0.0));
+  lane.lateral_sigma_m = map.number("lateral_sigma_m", lane.lateral_sigma_m, kPositive);
+  lane.heading_sigma_rad =
+      radians(map.number("heading_sigma_deg", lane.heading_sigma_rad / radians(1.0), kPositive));
+  lane.both_ways = map.boolean("both_ways", lane.both_ways);
+  map.finish();
+  return lane;
+}
+
+PassingLine passing_line_of(YamlMap map) {
+  PassingLine line;
+  line.point = level_point(map.at("point"));
+  line.heading_rad = radians(map.number("heading_deg", 90.0));
+  map.finish();
+  return line;
+}
+
+TrackingSpec tracking_of(YamlMap map) {
+  TrackingSpec spec;
+  TrackingOptions& options = spec.options;
+  if (map.has("method")) {
+    const std::vector<std::string> methods = {"ekf", "ukf", "particle"};
+    options.method = track_method(methods[choice(map.at("method"), methods)]);
+  }
+  if (map.has("lane")) options.lane = lane_of(YamlMap(map.at("lane")));
+  if (map.has("line")) spec.line = passing_line_of(YamlMap(map.at("line")));
+  const auto positive = [&](const char* key, double& value) {
+    value = map.number(key, value, kPositive);
+  };
+  positive("min_speed_m_s", options.min_speed_m_s);
+  positive("max_speed_m_s", options.max_speed_m_s);
+  positive("height_sigma_m", options.height_sigma_m);
+  positive("reach_m", options.reach_m);
+  positive("max_gap_s", options.max_gap_s);
+  positive("max_expected_error_m", options.max_expected_error_m);
+  options.acceleration_noise =
+      map.number("acceleration_noise", options.acceleration_noise, kNotNegative);
+  map.finish();
+  try {
+    check(options);
+  } catch (const Error& error) {
+    map.self().fail(error.what());
+  }
+  return spec;
+}
+
+/// Antennas send on a power that some kind of tag can need.
+void require_power_for_tags(const Scenario& scenario) {
+  double most_dbm = -std::numeric_limits<double>::infinity();
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    const auto& radio = antenna.parameters.radio;
+    if (!radio) return;
+    most_dbm = std::max(most_dbm, radio->transmit_power_dbm);
+  }
+  for (const TagSpec& tag : scenario.tags) {
+    if (!tag.model || tag.model->sensitivity_dbm < most_dbm) continue;
+    fail(tag.location, fmt::format("tag '{}': sensitivity_dbm must be below the antennas' "
+                                   "transmit_power_dbm ({:g}), is {:g}",
+                                   tag.id, most_dbm, tag.model->sensitivity_dbm));
+  }
+}
+
+void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
+                 Diagnostics& diagnostics) {
+  for (const YamlValue& robot : map.list("robots")) {
+    scenario.robots.push_back(robot_of(YamlMap(robot)));
+  }
+  for (const YamlValue& antenna : map.list("antennas")) {
+    scenario.antennas.push_back(antenna_of(YamlMap(antenna), radio, diagnostics));
+  }
+  for (const YamlValue& tag : map.list("tags")) {
+    scenario.tags.push_back(tag_of(YamlMap(tag), radio, diagnostics));
+  }
+  if (map.has("tag_table")) {
+    std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
+    for (TagSpec& tag : more) tag.model = radio.tag;
+    scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
+  }
+  if (map.has("tag_recording")) {
+    replay_tags(resolve_path(map.at("tag_recording")), scenario.tags);
+  }
+  if (!scenario.antennas.empty()) require_power_for_tags(scenario);
+}
+
+double time_step_of(const YamlValue& value) {
+  const double seconds = seconds_of(value, kPositive);
+  if (!(seconds >= 1e-6 && seconds <= 1.0)) {
+    value.fail(fmt::format("must be from 1e-6 to 1 s, is {}", seconds));
+  }
+  return seconds;
+}
+
+Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
+  Scenario scenario;
+  scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
+  scenario.description = map.text("description", "");
+  const RadioDefaults radio = radio_defaults_of(map, diagnostics);
+  scenario.materials = radio_world_options_of(map);
+  if (map.has("seed")) scenario.seed = map.at("seed").whole_number();
+  if (map.has("time_step_s")) scenario.time_step_s = time_step_of(map.at("time_step_s"));
+  if (map.has("duration_s")) scenario.duration_s = seconds_of(map.at("duration_s"), kPositive);
+  scenario.real_time = map.number("real_time", scenario.real_time, kNotNegative);
+  if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")));
+  if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
+  if (map.has("navigation")) {
+    const YamlValue navigation = map.at("navigation");
+    const PoseSource source = read_navigation(navigation, scenario.navigation);
+    if (map.has("pose") && map.at("pose").node()["source"] && source != scenario.pose.source) {
+      navigation.fail(fmt::format("is {}, but pose.source is {}", to_string(source),
+                                  to_string(scenario.pose.source)));
+    }
+    scenario.pose.source = source;
+  }
+  for (const YamlValue& obstacle : map.list("obstacles")) {
+    scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle)));
+  }
+  if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
+  if (map.has("localization")) {
+    scenario.localization = localization_of(YamlMap(map.at("localization")));
+  }
+  read_bodies(map, scenario, radio, diagnostics);
+  if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
+    for (const YamlValue& robot : map.list("robots")) forbid_self_driving(YamlMap(robot));
+  }
+  map.finish();
+  return scenario;
+}
+
+bool any_physical(const Scenario& scenario) {
+  return std::any_of(
+      scenario.antennas.begin(), scenario.antennas.end(),
+      [](const AntennaSpec& antenna) { return antenna.parameters.radio != nullptr; });
+}
+
+void require_end(const Scenario& scenario, const std::string& path) {
+  const bool any_drives = std::any_of(scenario.robots.begin(), scenario.robots.end(), drives);
+  if (!scenario.duration_s && !any_drives && !end_of_recordings(scenario.antennas)) {
+    fail({path, 0},
+         "has no 'duration_s', which must be given where no robot has waypoints and no antenna is "
+         "recorded");
+  }
+}
+
+}  // namespace
+
+Override parse_override(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
+    fail({"--set " + argument, 0}, "expected key.path=value");
+  }
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
+                       Diagnostics& diagnostics) {
+  const YAML::Node root = read_yaml(path);
+  for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
+  try {
+    return scenario_of(YamlMap(YamlValue(root, path, "")), diagnostics);
+  } catch (const YAML::Exception& error) {
+    fail({path, error.mark.line + 1}, error.msg);
+  }
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
+  Diagnostics unheard;
+  return load_scenario(path, overrides, unheard);
+}
+
+ScenarioWithWorld load_scenario_with_world(const std::string& path,
+                                           const std::vector<Override>& overrides,
+                                           Diagnostics& diagnostics) {
+  ScenarioWithWorld loaded;
+  Scenario& scenario = loaded.scenario;
+  scenario = load_scenario(path, overrides, diagnostics);
+  if (!scenario.world.path.empty()) {
+    loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
+    add_placements(loaded.scene, scenario, diagnostics);
+  }
+  if (any_physical(scenario)) {
+    scenario.radio_world = std::make_shared<const RadioWorld>(
+        radio_world(loaded.scene, scenario.materials, diagnostics));
+  }
+  if (scenario.antennas.empty()) {
+    fail({path, 0}, "no antennas: neither the scenario nor its world has one");
+  }
+  if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
+  require_end(scenario, path);
+  return loaded;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,38 @@
+/// @file
+/// Scenarios from YAML files. docs/scenario.md lists every key with its unit and default.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tagfield/scenario/scenario.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield {
+
+/// Key path and YAML value that replace what stands in the file ("pose.sigma_m", "0.01").
+using Override = std::pair<std::string, std::string>;
+
+/// "key.path=value" apart. Throws Error where there is no "=".
+Override parse_override(const std::string& argument);
+
+/// Reads a scenario. Paths in the file are relative to the file; those in `overrides` to the
+/// current folder. Throws Error "FILE:LINE: …".
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
+                       Diagnostics& diagnostics);
+/// Likewise, warnings unheard.
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides);
+
+/// A scenario and the world that it plays in.
+struct ScenarioWithWorld {
+  Scenario scenario;  ///< With the tags and antennas that stand in the world added.
+  Scene scene;        ///< Empty where the scenario names no world.
+};
+
+/// Reads a scenario and its world. Throws Error also if there are no antennas or no tags at all.
+ScenarioWithWorld load_scenario_with_world(const std::string& path,
+                                           const std::vector<Override>& overrides,
+                                           Diagnostics& diagnostics);
+
+}  // namespace tagfield

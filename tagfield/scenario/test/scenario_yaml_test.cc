@@ -1,0 +1,151 @@
+#include "tagfield/scenario/scenario_yaml.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr const char* kWhole = R"(name: test
+seed: 7
+duration_s: 3
+robots:
+  - {name: r, start: [1, 2, 0.5], waypoints: [[3, 2]]}
+antennas:
+  - name: a
+    on: r
+    pose: [0, 0, 1.5, 0, 0, 1.5707963267948966]
+    lift: {travel_m: 1.5}
+    frequency_hz: 915e6
+    optional_distribution: gamma_distribution
+    optional_distribution_params: [2, 0.1]
+tags:
+  - {id: t1, position: [1, 2, 3], appears_s: 1, disappears_s: 2}
+  - id: t2
+    trajectory: [[0, 0, 0, 1], [2, 4, 0, 1]]
+pose: {source: noisy, sigma_m: 0.02, yaw_sigma_deg: 0.5}
+localization: {tag_height_m: 1.2, stride_m: 0.4}
+)";
+
+std::string write_scenario(const std::string& text) {
+  return folder_of_test().with("scenario.yaml", text);
+}
+
+/// The complaint about the whole scenario with `from` replaced by `to`, without the folder.
+std::string complaint(const std::string& from, const std::string& to) {
+  std::string text = kWhole;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const std::string path = write_scenario(text);
+  try {
+    load_scenario(path, {});
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    return what.rfind(path, 0) == 0 ? what.substr(path.size() + 1) : what;
+  }
+  return "no complaint";
+}
+
+TEST(LoadScenario, TakesEveryPart) {
+  const Scenario scenario = load_scenario(write_scenario(kWhole), {});
+  EXPECT_EQ(scenario.name, "test");
+  EXPECT_EQ(scenario.seed, 7U);
+  EXPECT_EQ(scenario.duration_s, 3.0);
+  ASSERT_EQ(scenario.robots.size(), 1U);
+  EXPECT_EQ(scenario.robots[0].start.yaw, 0.5);
+  ASSERT_EQ(scenario.antennas.size(), 1U);
+  const AntennaSpec& antenna = scenario.antennas[0];
+  EXPECT_EQ(antenna.on, "r");
+  EXPECT_NEAR(yaw_of(antenna.X_PA.rotation), kPi / 2.0, 1e-12);
+  EXPECT_EQ(antenna.lift.travel_m, 1.5);
+  EXPECT_EQ(antenna.parameters.model.frequency_hz, 915e6);
+  EXPECT_EQ(antenna.parameters.model.optional.kind, DistributionKind::kGamma);
+  ASSERT_EQ(scenario.tags.size(), 2U);
+  EXPECT_EQ(scenario.tags[0].disappears, time_from_seconds(2.0));
+  EXPECT_FALSE(moves(scenario.tags[0]));
+  EXPECT_TRUE(moves(scenario.tags[1]));
+  EXPECT_EQ(scenario.pose.source, PoseSource::kNoisy);
+  EXPECT_NEAR(scenario.pose.yaw_sigma_rad, 0.5 * kPi / 180.0, 1e-15);
+  EXPECT_EQ(scenario.localization.known_height, KnownHeight::kNumber);
+}
+
+TEST(LoadScenario, ComplainsByLine) {
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "frequency_hz: 0"),
+            "11: antennas[0].frequency_hz must be greater than 0, is 0");
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "frequency_hz: .nan"),
+            "11: antennas[0].frequency_hz must be finite, is nan");
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "frequenzy_hz: 915e6"),
+            "11: unknown key 'frequenzy_hz' in antennas[0] (did you mean 'frequency_hz'?)");
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "range_m: -7"),
+            "11: antennas[0].range_m must be greater than 0, is -7");
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "rate_hz: 0"),
+            "11: antennas[0].rate_hz must be greater than 0, is 0");
+  EXPECT_EQ(complaint("gamma_distribution", "gama_distribution"),
+            "12: antennas[0].optional_distribution: unknown distribution 'gama_distribution' (did "
+            "you mean 'gamma_distribution'?)");
+  EXPECT_EQ(complaint("[2, 0.1]", "[2]"),
+            "12: antennas[0].optional_distribution: gamma_distribution takes 2 parameters (alpha, "
+            "beta), got 1");
+  EXPECT_EQ(complaint("disappears_s: 2", "disappears_s: 1"),
+            "15: tags[0].disappears_s must be later than appears_s");
+  EXPECT_EQ(complaint("[2, 4, 0, 1]", "[0, 4, 0, 1]"),
+            "17: tags[1].trajectory times must rise: 0.000000000 s follows 0.000000000 s");
+  EXPECT_EQ(complaint("source: noisy", "source: nosy"),
+            "18: pose.source is 'nosy', which is not known (did you mean 'noisy'?)");
+  EXPECT_EQ(complaint("seed: 7", "seed: -7"),
+            "2: seed is '-7', expected a whole number, 0 or more");
+  EXPECT_EQ(complaint("id: t2", "id: t2\n    id: t3"), "17: tags[1] has 'id' twice");
+  EXPECT_NE(complaint("robots:", "robots: [").find("not valid YAML"), std::string::npos);
+}
+
+TEST(LoadScenario, TakesOverridesWithTheirOwnPlace) {
+  const std::string path = write_scenario(kWhole);
+  EXPECT_EQ(load_scenario(path, {{"antennas.a.range_m", "5"}}).antennas[0].parameters.range_m, 5.0);
+  EXPECT_EQ(load_scenario(path, {{"seed", "9"}}).seed, 9U);
+  try {
+    load_scenario(path, {{"antennas.a.range_m", "-5"}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "--set: antennas[0].range_m must be greater than 0, is -5");
+  }
+  try {
+    load_scenario(path, {{"pose.sigm_m", "1"}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "--set: unknown key 'sigm_m' in pose (did you mean 'sigma_m'?)");
+  }
+}
+
+TEST(LoadScenario, WantsAWorldsPath) {
+  const std::string path = write_scenario("world: {path: }\n");
+  try {
+    load_scenario(path, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--set world.path=FILE"), std::string::npos);
+  }
+}
+
+TEST(LoadScenarioWithWorld, WantsAntennasAndTags) {
+  Diagnostics diagnostics;
+  const std::string path = write_scenario("duration_s: 1\ntags: [{id: a, position: [0, 0, 0]}]\n");
+  try {
+    load_scenario_with_world(path, {}, diagnostics);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no antennas"), std::string::npos);
+  }
+}
+
+TEST(ParseOverride, SplitsAtTheFirstEqualsSign) {
+  EXPECT_EQ(parse_override("a.b=c=d"), (Override{"a.b", "c=d"}));
+  EXPECT_THROW(parse_override("a.b"), Error);
+  EXPECT_THROW(parse_override("=1"), Error);
+  EXPECT_THROW(parse_override("a.b="), Error);
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,276 @@
+#include "tagfield/scenario/yaml_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "tagfield/base/spelling.h"
+#include "tagfield/files/files.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kMost = 1e15;  // Of any number; the report takes no greater ones either.
+constexpr const char* kCommandLine = "--set";
+// Tag of YAML nodes that did not come from the file.
+constexpr const char* kFromCommandLine = "!set";
+
+void require_in_range(const YamlValue& value, double number, NumberRange range) {
+  if (!std::isfinite(number)) value.fail(fmt::format("must be finite, is {}", number));
+  if (std::abs(number) > kMost) {
+    value.fail(fmt::format("must be within ±{:g}, is {:g}", kMost, number));
+  }
+  if (range == NumberRange::kPositive && !(number > 0.0)) {
+    value.fail(fmt::format("must be greater than 0, is {}", number));
+  }
+  if (range == NumberRange::kNotNegative && number < 0.0) {
+    value.fail(fmt::format("must be 0 or more, is {}", number));
+  }
+}
+
+void require_unique_keys(const YamlValue& map) {
+  std::vector<std::string> keys;
+  for (const auto& entry : map.node()) {
+    const std::string key = entry.first.as<std::string>("");
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+      YamlValue(entry.first, map.file(), map.path()).fail(fmt::format("has '{}' twice", key));
+    }
+    keys.push_back(key);
+  }
+}
+
+/// Element of a list by its place, its `name` or its `id`.
+YAML::Node element_of(const YAML::Node& list, const std::string& which) {
+  std::size_t place = 0;
+  const char* end = which.data() + which.size();
+  const auto [after, error] = std::from_chars(which.data(), end, place);
+  if (error == std::errc{} && after == end && place < list.size()) return list[place];
+  for (const YAML::Node& element : list) {
+    if (!element.IsMap()) continue;
+    for (const char* key : {"name", "id"}) {
+      if (element[key] && element[key].as<std::string>("") == which) return element;
+    }
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+std::vector<std::string> split_at_dots(std::string_view path) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  for (std::size_t dot = path.find('.'); dot != std::string_view::npos;
+       dot = path.find('.', begin)) {
+    words.emplace_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  words.emplace_back(path.substr(begin));
+  return words;
+}
+
+[[noreturn]] void leads_nowhere(std::string_view key_path, const std::string& why) {
+  fail({fmt::format("{} {}", kCommandLine, key_path), 0}, why);
+}
+
+void mark_as_from_command_line(YAML::Node node) {
+  node.SetTag(kFromCommandLine);
+  if (node.IsSequence()) {
+    for (const YAML::Node& element : node) mark_as_from_command_line(element);
+  }
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      mark_as_from_command_line(entry.first);
+      mark_as_from_command_line(entry.second);
+    }
+  }
+}
+
+YAML::Node parse_value(std::string_view key_path, const std::string& text) {
+  try {
+    const YAML::Node value = YAML::Load(text);
+    mark_as_from_command_line(value);
+    return value;
+  } catch (const YAML::Exception& error) {
+    leads_nowhere(key_path, fmt::format("'{}' is not a YAML value: {}", text, error.msg));
+  }
+}
+
+}  // namespace
+
+void YamlValue::fail(const std::string& message) const {
+  tagfield::fail(location(), path_.empty() ? message : fmt::format("{} {}", path_, message));
+}
+
+Location YamlValue::location() const {
+  if (node_.Tag() == kFromCommandLine) return {kCommandLine, 0};
+  const YAML::Mark mark = node_.Mark();
+  return {file_, mark.is_null() ? 0 : mark.line + 1};
+}
+
+double YamlValue::number(NumberRange range) const {
+  double number = 0.0;
+  if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, number)) {
+    fail(node_.IsScalar() ? fmt::format("is '{}', expected a number", node_.Scalar())
+                          : "must be a number");
+  }
+  require_in_range(*this, number, range);
+  return number;
+}
+
+std::uint64_t YamlValue::whole_number() const {
+  std::uint64_t number = 0;
+  const std::string word = node_.IsScalar() ? node_.Scalar() : "";
+  const char* end = word.data() + word.size();
+  const auto [after, error] = std::from_chars(word.data(), end, number);
+  if (word.empty() || error != std::errc{} || after != end) {
+    fail(fmt::format("is '{}', expected a whole number, 0 or more", word));
+  }
+  return number;
+}
+
+bool YamlValue::boolean() const {
+  bool value = false;
+  if (!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value)) {
+    fail("must be true or false");
+  }
+  return value;
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar() || node_.Scalar().empty()) fail("must be a text that is not empty");
+  return node_.Scalar();
+}
+
+std::vector<YamlValue> YamlValue::list() const {
+  if (node_.IsNull()) return {};
+  if (!node_.IsSequence()) fail("must be a list");
+  std::vector<YamlValue> elements;
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    elements.emplace_back(node_[i], file_, fmt::format("{}[{}]", path_, i));
+  }
+  return elements;
+}
+
+std::vector<double> YamlValue::numbers(std::size_t least, std::size_t most) const {
+  std::vector<double> numbers;
+  for (const YamlValue& element : list()) numbers.push_back(element.number());
+  if (numbers.size() < least || numbers.size() > most) {
+    const std::string expected =
+        least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+    fail(fmt::format("must have {} numbers, has {}", expected, numbers.size()));
+  }
+  return numbers;
+}
+
+YamlMap::YamlMap(YamlValue value) : self_(std::move(value)) {
+  if (!self_.node().IsMap()) self_.fail("must be a mapping (key: value)");
+  require_unique_keys(self_);
+}
+
+bool YamlMap::has(const std::string& key) {
+  if (!is_known(key)) known_.push_back(key);
+  const YAML::Node value = self_.node()[key];
+  return value.IsDefined() && !value.IsNull();
+}
+
+YamlValue YamlMap::at(const std::string& key) {
+  if (!has(key)) {
+    complain_of_slip(key);
+    self_.fail(fmt::format("has no '{}'", key));
+  }
+  const std::string path = self_.path().empty() ? key : self_.path() + "." + key;
+  return {self_.node()[key], self_.file(), path};
+}
+
+double YamlMap::number(const std::string& key, double otherwise, NumberRange range) {
+  return has(key) ? at(key).number(range) : otherwise;
+}
+
+std::string YamlMap::text(const std::string& key, const std::string& otherwise) {
+  return has(key) ? at(key).text() : otherwise;
+}
+
+bool YamlMap::boolean(const std::string& key, bool otherwise) {
+  return has(key) ? at(key).boolean() : otherwise;
+}
+
+std::vector<YamlValue> YamlMap::list(const std::string& key) {
+  return has(key) ? at(key).list() : std::vector<YamlValue>{};
+}
+
+bool YamlMap::is_known(const std::string& key) const {
+  return std::find(known_.begin(), known_.end(), key) != known_.end();
+}
+
+void YamlMap::fail_on_unknown(const YAML::Node& key, const YAML::Node& value,
+                              const std::vector<std::string>& known) const {
+  const bool from_file = value.Tag() != kFromCommandLine;
+  const std::string word = key.as<std::string>("");
+  const Location location = YamlValue(from_file ? key : value, self_.file(), word).location();
+  const std::string where = self_.path().empty() ? "" : fmt::format(" in {}", self_.path());
+  tagfield::fail(location,
+                 fmt::format("unknown key '{}'{}{}", word, where, suggestion(word, known)));
+}
+
+void YamlMap::complain_of_slip(const std::string& missing) const {
+  for (const auto& entry : self_.node()) {
+    const std::string key = entry.first.as<std::string>("");
+    if (!is_known(key) && !nearest_word(key, {missing}).empty()) {
+      fail_on_unknown(entry.first, entry.second, {missing});
+    }
+  }
+}
+
+void YamlMap::finish() const {
+  for (const auto& entry : self_.node()) {
+    if (!is_known(entry.first.as<std::string>(""))) {
+      fail_on_unknown(entry.first, entry.second, known_);
+    }
+  }
+}
+
+YAML::Node read_yaml(const std::string& path) {
+  const std::string text = read_text_file(path);
+  try {
+    YAML::Node root = YAML::Load(text);
+    if (!root.IsMap())
+      fail({path, 0}, "must be a mapping (key: value), like the shipped scenarios");
+    return root;
+  } catch (const YAML::Exception& error) {
+    fail({path, error.mark.line + 1}, fmt::format("not valid YAML: {}", error.msg));
+  }
+}
+
+void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value) {
+  const std::vector<std::string> words = split_at_dots(key_path);
+  YAML::Node parent = root;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].empty()) leads_nowhere(key_path, "expected words between the dots");
+    const bool last = i + 1 == words.size();
+    if (parent.IsSequence()) {
+      YAML::Node element = element_of(parent, words[i]);
+      if (!element.IsDefined()) {
+        leads_nowhere(key_path, fmt::format("the list has no element '{}'", words[i]));
+      }
+      if (last) {
+        element = parse_value(key_path, value);
+      } else {
+        parent.reset(element);
+      }
+    } else if (parent.IsMap()) {
+      if (last) {
+        parent[words[i]] = parse_value(key_path, value);
+      } else {
+        if (!parent[words[i]].IsDefined() || parent[words[i]].IsNull()) {
+          parent[words[i]] = YAML::Node(YAML::NodeType::Map);
+        }
+        YAML::Node child = parent[words[i]];
+        parent.reset(child);
+      }
+    } else {
+      leads_nowhere(key_path, fmt::format("'{}' is not inside a list or a mapping", words[i]));
+    }
+  }
+}
+
+}  // namespace tagfield

@@ -1,0 +1,33 @@
+/// @file
+/// Values that several parts of a scenario have: choices, paths, positions, motions.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/rigid_transform.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/scenario/yaml_map.h"
+
+namespace tagfield {
+
+/// Which of `choices` the word is; throws Error with the nearest.
+std::size_t choice(const YamlValue& value, const std::vector<std::string>& choices);
+
+/// A path as the user means it: from the file relative to the file, from --set to the current
+/// folder.
+std::string resolve_path(const YamlValue& value);
+
+/// Seconds that the simulation's clock can hold.
+double seconds_of(const YamlValue& value, NumberRange range);
+
+Eigen::Vector3d position_of(const YamlValue& value);
+
+/// [x, y, z] or [x, y, z, roll, pitch, yaw], as in SDF.
+RigidTransform pose_of(const YamlValue& value);
+
+/// Rows [t, x, y, z], or [t, x, y] where `columns` is 3; at least one.
+Trajectory trajectory_of(const YamlValue& value, std::size_t columns = 4);
+
+}  // namespace tagfield

@@ -1,0 +1,22 @@
+/// @file
+/// All keys of an antenna and of a tag.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/settings/internal/setting.h"
+
+namespace tagfield::settings_internal {
+
+/// A plan is put together from several keys.
+struct AntennaDraft {
+  RadioModel model;
+  Gen2Reader gen2;
+  bool takes_inventory = false;
+};
+
+const std::vector<Setting<AntennaDraft>>& antenna_table();
+const std::vector<Setting<TagModel>>& tag_table();
+
+}  // namespace tagfield::settings_internal

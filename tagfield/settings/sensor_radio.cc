@@ -1,0 +1,117 @@
+#include "tagfield/settings/sensor_radio.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "tagfield/settings/radio_settings.h"
+
+namespace tagfield {
+namespace {
+
+/// A published parameter and the setting that it stands for.
+struct Synonym {
+  const char* sdf;
+  const char* setting;
+};
+constexpr std::array<Synonym, 2> kSynonyms = {
+    {{"frequency", "frequency_hz"}, {"phase_offset", "phase_offset_rad"}}};
+
+using IsSetting = bool (*)(const std::string&);
+
+/// The settings among `parameters`, the published ones first. Without places, so that a complaint
+/// begins with a key.
+std::vector<RawParameter> settings_in(const std::vector<RawParameter>& parameters,
+                                      IsSetting is_setting) {
+  std::vector<RawParameter> settings;
+  for (const auto& [sdf, setting] : kSynonyms) {
+    for (const RawParameter& parameter : parameters) {
+      if (parameter.key == sdf && is_setting(setting)) {
+        settings.push_back({setting, parameter.value, {}});
+      }
+    }
+  }
+  for (const RawParameter& parameter : parameters) {
+    if (is_setting(parameter.key)) settings.push_back({parameter.key, parameter.value, {}});
+  }
+  return settings;
+}
+
+const RawParameter* last_of(const std::vector<RawParameter>& parameters, const std::string& key) {
+  const auto found = std::find_if(parameters.rbegin(), parameters.rend(),
+                                  [&](const RawParameter& p) { return p.key == key; });
+  return found == parameters.rend() ? nullptr : &*found;
+}
+
+/// The element that a complaint about the setting `key` means.
+std::string element_of(const std::vector<RawParameter>& parameters, const std::string& key) {
+  if (last_of(parameters, key) != nullptr) return key;
+  for (const auto& [sdf, setting] : kSynonyms) {
+    if (key == setting) return sdf;
+  }
+  return key;
+}
+
+/// Throws a complaint that begins with a setting's key in SDF's words and with its place.
+[[noreturn]] void fail_in_sdf_words(const std::string& message,
+                                    const std::vector<RawParameter>& parameters,
+                                    const Location& location, IsSetting is_setting) {
+  const std::string key = message.substr(0, message.find(' '));
+  if (key != "model" && !is_setting(key)) fail(location, message);
+  const std::string element = element_of(parameters, key);
+  const RawParameter* const given = last_of(parameters, element);
+  fail(given == nullptr ? location : given->location,
+       "<" + element + ">" + message.substr(key.size()));
+}
+
+/// What `make` makes of the settings and of warnings that it may add to.
+template <class Make>
+auto made(const std::vector<RawParameter>& parameters, const Location& location,
+          IsSetting is_setting, Diagnostics& diagnostics, const Make& make) {
+  try {
+    Diagnostics found;
+    auto model = make(settings_in(parameters, is_setting), found);
+    for (const std::string& warning : found.warnings()) diagnostics.warn(location, warning);
+    return model;
+  } catch (const Error& error) {
+    fail_in_sdf_words(error.what(), parameters, location, is_setting);
+  }
+}
+
+std::vector<std::string> keys_of(const std::vector<SettingHelp>& settings) {
+  std::vector<std::string> keys;
+  keys.reserve(settings.size());
+  for (const SettingHelp& setting : settings) keys.push_back(setting.key);
+  return keys;
+}
+
+}  // namespace
+
+std::shared_ptr<const RadioModel> sensor_radio(const std::vector<RawParameter>& parameters,
+                                               const Location& location, Diagnostics& diagnostics) {
+  using Settings = std::vector<RawParameter>;
+  const auto make = [&](const Settings& settings, Diagnostics& found) {
+    const RawParameter* const model = last_of(parameters, "model");
+    const PropagationModel kind = model == nullptr ? PropagationModel::kPaper
+                                                   : propagation_model({"model", model->value, {}});
+    if (kind == PropagationModel::kPaper) return std::shared_ptr<const RadioModel>();
+    return radio_model_from(kind, settings, {}, found);
+  };
+  return made(parameters, location, is_antenna_setting, diagnostics, make);
+}
+
+std::shared_ptr<const TagModel> sensor_tag_model(const std::vector<RawParameter>& parameters,
+                                                 const Location& location,
+                                                 Diagnostics& diagnostics) {
+  using Settings = std::vector<RawParameter>;
+  const auto make = [](const Settings& settings, Diagnostics& found) {
+    if (settings.empty()) return std::shared_ptr<const TagModel>();
+    return tag_model_from("tag", settings, {}, found);
+  };
+  return made(parameters, location, is_tag_setting, diagnostics, make);
+}
+
+std::vector<std::string> antenna_setting_keys() { return keys_of(antenna_settings()); }
+std::vector<std::string> tag_setting_keys() { return keys_of(tag_settings()); }
+
+}  // namespace tagfield

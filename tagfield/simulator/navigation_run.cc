@@ -1,0 +1,159 @@
+#include "tagfield/simulator/navigation_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tagfield/base/units.h"
+#include "tagfield/motion/planar_pose.h"
+
+namespace tagfield {
+namespace {
+
+/// Of the whole of a run by laser, mapping has this share on the progress bar.
+constexpr double kMappingShare = 0.7;
+/// A guess, for the bar: a hall takes some minutes to map.
+constexpr double kUsualMapping_s = 240.0;
+
+/// The map to drive by, and where the robot stands on it.
+SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                     const NavigationWorld& world, NavigationRun& navigation) {
+  const RobotSpec& robot = mapping_robot(scenario);
+  if (world.given_map) {
+    navigation.map = *world.given_map;
+    return {&world, &navigation.map, robot.start, placed_at(robot.start)};
+  }
+  const auto on_progress = [&](double simulated_s) {
+    if (!control.on_progress) return;
+    control.on_progress(kMappingShare * std::min(simulated_s / kUsualMapping_s, 1.0));
+  };
+  navigation.survey = survey(scenario.navigation, world, robot, scenario.time_step_s, seed,
+                             control.threads, control.stop, on_progress);
+  navigation.map = navigation.survey->map;
+  return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
+}
+
+/// Counts how often the robots come to touch anything, and how near they come.
+class TouchWatch {
+ public:
+  TouchWatch(const NavigationWorld& world, NavigationRun& navigation)
+      : world_(world), navigation_(navigation) {
+    navigation_.closest_m = RobotClearance::kMost;
+  }
+
+  void look(const std::string& robot, const PlanarPose& pose_W, Time now) {
+    const double distance =
+        world_.clearance.distance(pose_W, obstacles_at(world_.laser.obstacles, now));
+    navigation_.closest_m = std::min(navigation_.closest_m, distance);
+    const bool touches = distance <= 0.0;
+    bool& touched = touches_[robot];
+    if (touches && !touched) ++navigation_.collisions;
+    touched = touches;
+  }
+
+ private:
+  const NavigationWorld& world_;
+  NavigationRun& navigation_;
+  std::map<std::string, bool> touches_;
+};
+
+/// Watches at 10 Hz how well the robots know their poses.
+class BeliefWatch {
+ public:
+  BeliefWatch(const Scenario& scenario, NavigationRun& navigation)
+      : is_told_(scenario.navigation.start == StartBelief::kKnown), navigation_(navigation) {}
+
+  void look(const Robot& robot, Time now) {
+    const auto [entry, is_new] = places_.try_emplace(robot.name());
+    Place& place = entry->second;
+    if (is_new && !is_told_) place.watch.put(PlaceLoss::kStart);
+    if (robot.times_carried() > place.times_carried) place.watch.put(PlaceLoss::kCarried);
+    place.times_carried = robot.times_carried();
+    const PlanarPose truth = planar(robot.true_pose(0.0));
+    const PlanarPose belief = planar(robot.believed_pose(0.0));
+    const double off_m = (position_of(truth) - position_of(belief)).norm();
+    const double off_rad = std::abs(wrap_to_pi(belief.yaw - truth.yaw));
+    const bool knows_place = robot.self_driver()->knows_place();
+    place.watch.look({now, robot.travelled_m(), knows_place, off_m, off_rad});
+    if (!knows_place) return;
+    navigation_.position_errors_m.push_back(off_m);
+    navigation_.yaw_errors_rad.push_back(off_rad);
+  }
+
+  [[nodiscard]] std::vector<Finding> findings() const {
+    std::vector<Finding> all;
+    for (const auto& [name, place] : places_) {
+      const std::vector<Finding>& of_one = place.watch.findings();
+      all.insert(all.end(), of_one.begin(), of_one.end());
+    }
+    return all;
+  }
+
+ private:
+  struct Place {
+    PlaceWatch watch;
+    std::size_t times_carried = 0;
+  };
+  bool is_told_;
+  NavigationRun& navigation_;
+  std::map<std::string, Place> places_;
+};
+
+/// How often beliefs are looked at [s].
+constexpr double kBeliefInterval = 0.1;
+
+/// The drive, once there is a map.
+void drive(const Scenario& scenario, const RunControl& control, const NavigationWorld& world,
+           Simulation& simulation, NavigationRun& navigation, Recording& recording) {
+  TouchWatch touches(world, navigation);
+  if (navigation.survey) {
+    for (const StampedPose& pose : navigation.survey->true_path) {
+      touches.look(mapping_robot(scenario).name, planar(pose.X_WB), pose.stamp);
+    }
+  }
+  BeliefWatch beliefs(scenario, navigation);
+  const Pace pace(scenario.real_time);
+  std::optional<Time> believed;
+  while (!simulation.finished() && !stopped(control)) {
+    const Time begin = simulation.now();
+    simulation.step(recording);
+    const bool is_due = !believed || to_seconds(begin - *believed) >= kBeliefInterval;
+    if (is_due) believed = begin;
+    for (const Robot& robot : simulation.robots()) {
+      if (robot.self_driver() == nullptr) continue;
+      touches.look(robot.name(), planar(robot.true_pose(0.0)), begin);
+      if (is_due) beliefs.look(robot, begin);
+    }
+    if (control.on_progress) {
+      control.on_progress(kMappingShare + (1.0 - kMappingShare) * simulation.progress());
+    }
+    pace.wait_for(simulation.now());
+  }
+  navigation.findings = beliefs.findings();
+}
+
+void gather_outcomes(const Simulation& simulation, NavigationRun& navigation) {
+  for (const Robot& robot : simulation.robots()) {
+    if (robot.self_driver() == nullptr) continue;
+    const std::vector<GoalOutcome>& goals = robot.self_driver()->outcomes();
+    navigation.goals.insert(navigation.goals.end(), goals.begin(), goals.end());
+    navigation.times_lost += robot.self_driver()->localizer().times_lost();
+  }
+}
+
+}  // namespace
+
+NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
+                            const NavigationWorld& world, Recording& recording) {
+  NavigatedRun run;
+  const SelfDriving driving = find_map(scenario, seed, control, world, run.navigation);
+  Simulation simulation(scenario, driving, seed);
+  drive(scenario, control, world, simulation, run.navigation, recording);
+  gather_outcomes(simulation, run.navigation);
+  run.complete = simulation.finished();
+  run.simulated_s = to_seconds(simulation.now());
+  run.path_length_m = simulation.travelled_m();
+  return run;
+}
+
+}  // namespace tagfield

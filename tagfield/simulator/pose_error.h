@@ -1,0 +1,28 @@
+/// @file
+/// What a robot believes of its own pose: the truth, the truth with a stated error, what its wheels
+/// tell, or what it finds by laser and map.
+#pragma once
+
+#include <cstdint>
+
+#include "tagfield/motion/unicycle.h"
+#include "tagfield/scenario/pose_belief.h"
+
+namespace tagfield {
+
+/// Error in x, y, yaw.
+using PoseError = PlanarPose;
+
+/// Error at the first step: drawn from the stationary distribution.
+PoseError first_pose_error(const PoseBelief& belief, std::uint64_t seed, std::uint64_t robot_key);
+
+/// Error `seconds` after `error`: the process' exact discretization. `step` numbers the draw.
+PoseError next_pose_error(const PoseBelief& belief, const PoseError& error, double seconds,
+                          std::uint64_t seed, std::uint64_t robot_key, std::uint64_t step);
+
+/// Wheel speeds as encoders and slipping wheels report them over `seconds`.
+WheelSpeeds measured_wheel_speeds(const PoseBelief& belief, const DriveGeometry& drive,
+                                  const WheelSpeeds& wheels, double seconds, std::uint64_t seed,
+                                  std::uint64_t robot_key, std::uint64_t step);
+
+}  // namespace tagfield

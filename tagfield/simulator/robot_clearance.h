@@ -1,0 +1,61 @@
+/// @file
+/// How near a robot comes to what stands in the world.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tagfield/map/occupancy_grid.h"
+#include "tagfield/motion/unicycle.h"
+#include "tagfield/scenario/obstacle.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield {
+
+/// A robot seen from above: a rectangle about its base, x forward. The default is a P3-AT with its
+/// wheels.
+struct RobotOutline {
+  double length_m = 0.51;
+  double width_m = 0.50;
+  double height_m = 0.36;
+};
+
+/// Distance between the robot's outline at the origin, x forward, and the straight line from `a` to
+/// `b` [m]; 0 where they touch.
+double distance_to_line(const RobotOutline& outline, const Eigen::Vector2d& a,
+                        const Eigen::Vector2d& b);
+
+/// The world's solids between the floor and the robot's height, from above.
+class RobotClearance {
+ public:
+  /// Neither distance() nor room_at() gives more than these [m].
+  static constexpr double kMost = 1.0;
+  static constexpr double kMostRoom = 10.0;
+
+  RobotClearance(const Scene& scene, const RobotOutline& outline);
+
+  /// Least distance between the robot's outline and a solid or an obstacle [m], 0 where they touch
+  /// or it is inside of an obstacle. Solids are as top_view() has them, to 1 mm: hollow, if they
+  /// are taller than the robot, as a hall is.
+  [[nodiscard]] double distance(const PlanarPose& pose_W, const Obstacles& obstacles) const;
+
+  /// Least distance from a point to a solid [m], to 3 cm below and nothing above; 10 m where all is
+  /// farther, 2 m outside of where anything stands.
+  [[nodiscard]] double room_at(const Eigen::Vector2d& p_W) const;
+
+ private:
+  using Edge = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+
+  void add_edge(const Edge& edge);
+  [[nodiscard]] double distance_to_solids(const PlanarPose& pose_W) const;
+
+  RobotOutline outline_;
+  double reach_m_;  ///< From the robot's base to all that is nearer than kMost.
+  OccupancyGrid grid_;
+  std::vector<float> distances_;
+  std::map<std::pair<int, int>, std::vector<Edge>> edges_;  ///< By square metre within reach.
+};
+
+}  // namespace tagfield

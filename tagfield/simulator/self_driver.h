@@ -1,0 +1,87 @@
+/// @file
+/// A simulated robot that finds its way by itself: it knows its pose from its laser, its wheels and
+/// a map, and drives to goals.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/navigation/goal_driver.h"
+#include "tagfield/navigation/monte_carlo_localizer.h"
+#include "tagfield/navigation/wander.h"
+#include "tagfield/scenario/navigation_spec.h"
+#include "tagfield/simulator/navigation_world.h"
+#include "tagfield/simulator/robot_senses.h"
+
+namespace tagfield {
+
+/// What became of a goal.
+struct GoalOutcome {
+  PlanarPose goal_M;
+  DriveState state = DriveState::kIdle;
+  std::string reason;    ///< Where it was not reached.
+  PlanarPose truth_W;    ///< Where the robot was at the end.
+  double seconds = 0.0;  ///< From when it was given.
+};
+
+/// While it does not know where it is it wanders about by its laser; its goal has to wait. After
+/// kSearchLimit_s of that it gives all goals up. Where its scans don't fit the map at a goal's end,
+/// reached or not, it looks for its place anew.
+class SelfDriver {
+ public:
+  static constexpr double kSearchLimit_s = 300.0;
+
+  /// Drives to `goals_M` one after another, at `speed_m_s`. Without a `start` it may be anywhere on
+  /// the map.
+  SelfDriver(const NavigationSpec& navigation, double speed_m_s, const NavigationWorld& world,
+             const OccupancyGrid& map, const std::optional<PoseEstimate>& start,
+             const std::vector<PlanarPose>& goals_M, std::uint64_t seed, std::uint64_t key);
+
+  /// Decides the velocity for the step that begins at `now` with the robot at `begin_W`, and lets
+  /// the robot sense what it senses in that step.
+  BodyVelocity step(const PlanarPose& begin_W, Time now, double seconds);
+
+  /// Believed pose `seconds` after the present step's beginning.
+  [[nodiscard]] PoseEstimate believed(double seconds) const;
+  /// Whether it believes to know where it is.
+  [[nodiscard]] bool knows_place() const { return knows_place_; }
+  /// Whether all goals are reached or given up.
+  [[nodiscard]] bool finished() const { return outcomes_.size() == goals_.size(); }
+  /// Share of the goals that are behind it; 1 where there are none.
+  [[nodiscard]] double progress() const;
+  [[nodiscard]] const std::vector<GoalOutcome>& outcomes() const { return outcomes_; }
+  [[nodiscard]] const MonteCarloLocalizer& localizer() const { return localizer_; }
+
+ private:
+  void look_after_place(Time now);
+  bool doubts_place();
+  void look_after_goals(const PlanarPose& begin_W, const PlanarPose& pose_M, Time now);
+  void end_goal(DriveState state, const std::string& reason, const PlanarPose& begin_W, Time now);
+  BodyVelocity wanted(const PlanarPose& begin_W, Time now);
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> hidden_things(const PlanarPose& odometry) const;
+
+  GoalDriverSettings settings_;
+  RobotSenses senses_;
+  MonteCarloLocalizer localizer_;
+  GoalDriver driver_;
+  Wander wander_;
+  std::vector<PlanarPose> goals_;
+  std::vector<GoalOutcome> outcomes_;
+  BodyVelocity velocity_;
+  std::vector<Eigen::Vector2d> hidden_M_;  ///< Where the map has what the laser does not see.
+  bool knows_place_ = true;
+  Time lost_since_;
+  bool is_under_way_ = false;  ///< The driver has the present goal.
+  std::optional<Time> goal_given_;
+  bool has_looked_ = false;   ///< A scan has been laid onto the map.
+  bool has_doubted_ = false;  ///< For the present goal.
+};
+
+/// Goals at the waypoints, each looking along the way that led there.
+std::vector<PlanarPose> goals_at(const PlanarPose& start,
+                                 const std::vector<Eigen::Vector2d>& waypoints);
+
+}  // namespace tagfield

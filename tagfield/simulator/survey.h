@@ -1,0 +1,37 @@
+/// @file
+/// A robot makes a map of a world that it does not know.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "tagfield/map/occupancy_grid.h"
+#include "tagfield/navigation/monte_carlo_localizer.h"
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/simulator/navigation_world.h"
+#include "tagfield/simulator/robot.h"
+
+namespace tagfield {
+
+struct Survey {
+  OccupancyGrid map;
+  PoseEstimate end;  ///< Where the robot believes to be in the end: near to its start.
+  PlanarPose true_end_W;
+  std::vector<StampedPose> true_path;      ///< X_WR at 10 Hz,
+  std::vector<StampedPose> believed_path;  ///< and as the robot believed at the time.
+  double path_length_m = 0.0;
+  double simulated_s = 0.0;
+  bool complete = true;               ///< False where it was stopped, or ended by its time limit.
+  std::vector<std::string> given_up;  ///< Places that it could not reach, and why.
+};
+
+/// Drives to frontiers until none is left that can be reached, and then back to the start, from
+/// robot.start on.
+Survey survey(const NavigationSpec& navigation, const NavigationWorld& world,
+              const RobotSpec& robot, double time_step_s, std::uint64_t seed, int threads,
+              const std::atomic<bool>* stop,
+              const std::function<void(double simulated_s)>& on_progress);
+
+}  // namespace tagfield

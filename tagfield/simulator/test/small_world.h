@@ -1,0 +1,57 @@
+/// @file
+/// A small world for tests of what robots do by themselves.
+#pragma once
+
+#include "tagfield/scenario/scenario.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield {
+
+/// An upright box by its middle and size [m]; `low` and `high` are its heights.
+inline Collision box_at(double x, double y, double size_x, double size_y, double low = 0.0,
+                        double high = 2.0) {
+  return {"box", Box{{size_x, size_y, high - low}}, from_translation({x, y, 0.5 * (low + high)})};
+}
+
+/// A room of 6 m by 4 m about the origin, with boxes that make its corners differ.
+inline Scene small_room() {
+  Scene scene;
+  scene.collisions = {box_at(0.0, 2.1, 6.4, 0.2), box_at(0.0, -2.1, 6.4, 0.2),
+                      box_at(3.1, 0.0, 0.2, 4.4), box_at(-3.1, 0.0, 0.2, 4.4),
+                      box_at(2.6, 1.7, 0.8, 0.6), box_at(-2.7, -1.75, 0.6, 0.5),
+                      box_at(-2.8, 1.4, 0.4, 1.2)};
+  return scene;
+}
+
+/// One robot by laser in small_room(), with a tag and an antenna that hardly cost anything.
+inline Scenario small_drive() {
+  Scenario scenario;
+  scenario.name = "small_drive";
+  scenario.world.path = "small_room";
+  scenario.time_step_s = 0.02;
+  scenario.pose.source = PoseSource::kSlam;
+  scenario.navigation.laser.beams = 181;
+  scenario.navigation.laser.rate_hz = 15.0;
+  // Few particles and looks will do for a place as small as this.
+  LocalizerSettings& localizer = scenario.navigation.localizer;
+  localizer.first_particles = 3000;
+  localizer.least_searching = 1000;
+  localizer.update_turn_rad = 0.5;
+  localizer.update_distance_m = 0.15;
+  localizer.point_spacing_m = 0.15;
+  RobotSpec robot;
+  robot.name = "robot";
+  robot.waypoints = {{1.5, 0.0}};
+  scenario.robots = {robot};
+  AntennaSpec antenna;
+  antenna.parameters.name = "antenna";
+  antenna.parameters.rate_hz = 1.0;
+  scenario.antennas = {antenna};
+  TagSpec tag;
+  tag.id = "tag";
+  tag.motion = {{Time{}, from_translation({0.0, 0.0, 1.0})}};
+  scenario.tags = {tag};
+  return scenario;
+}
+
+}  // namespace tagfield

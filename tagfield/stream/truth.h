@@ -1,0 +1,37 @@
+/// @file
+/// What really was, as the simulator knows it: apart from the reads: to judge estimates by, never
+/// to make them.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/poses/trajectory.h"
+
+namespace tagfield {
+
+/// Where a tag was from a time on.
+struct TagPosition {
+  Time stamp;
+  std::string tag;
+  Eigen::Vector3d p_WT;  ///< [m]
+};
+
+/// The distance behind one read.
+struct TrueDistance {
+  Time stamp;
+  std::string antenna;
+  std::string tag;
+  double distance_m = 0.0;
+};
+
+struct Truth {
+  std::vector<AntennaPose> antenna_poses;  ///< A fixed antenna has one row.
+  std::vector<AntennaPose> robot_poses;    ///< `antenna` holds the robot's name.
+  std::vector<TagPosition> tag_positions;  ///< A tag at rest has one row, at its appearance.
+  std::vector<TrueDistance> distances;     ///< A row a read, in the order of the reads.
+};
+
+}  // namespace tagfield
