@@ -35,7 +35,7 @@ TagPopulation tags_around(std::int64_t count, const Eigen::Vector3d& middle) {
 AntennaParameters antenna(const std::string& name, std::shared_ptr<const RadioModel> radio) {
   AntennaParameters parameters;
   parameters.name = name;
-  parameters.radio = std::move(radio);
+  parameters.model = std::move(radio);
   return parameters;
 }
 
@@ -110,9 +110,9 @@ void moving_antenna(benchmark::State& state, const std::string& path,
   RadioModel model = strong_model();
   model.reflection_order = static_cast<int>(state.range(0));
   const TagPopulation tags = tags_around(state.range(1), middle);
-  RadioAir air(world_at(path), 1);
+  RadioAir air(world_at(path));
   const AntennaParameters parameters = antenna("a", std::make_shared<const RadioModel>(model));
-  air.add(parameters);
+  air.add(parameters, 1);
   std::vector<TagReply> replies;
   std::int64_t update = 0;
   for (auto _ : state) {
@@ -144,8 +144,8 @@ void gen2(benchmark::State& state) {
   model.gen2->inventory.target = Target::kAlternate;
   const auto radio = std::make_shared<const RadioModel>(model);
   const TagPopulation tags = tags_around(state.range(0), Eigen::Vector3d::Zero());
-  RadioAir air(world_at(""), 1);
-  for (int i = 0; i < 4; ++i) air.add(antenna(fmt::format("a{}", i), radio));
+  RadioAir air(world_at(""));
+  for (int i = 0; i < 4; ++i) air.add(antenna(fmt::format("a{}", i), radio), 1);
   const AntennaParameters any = antenna("a0", radio);
   std::vector<TagReply> replies;
   std::int64_t update = 0;

@@ -65,13 +65,13 @@ void run_steps(benchmark::State& state, const Scenario& scenario) {
   Recording recording;
   for (auto _ : state) {
     state.PauseTiming();
-    auto simulation = std::make_unique<Simulation>(scenario, 1);
-    simulation->step(recording);
+    auto simulation = std::make_unique<Simulation>(scenario, 1, recorded_in(recording));
+    simulation->step();
     const Time begin = simulation->now();
     state.ResumeTiming();
     while (!simulation->finished()) {
       clear(recording);
-      simulation->step(recording);
+      simulation->step();
       reads += static_cast<double>(recording.reads.size());
     }
     state.PauseTiming();

@@ -11,13 +11,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "adapters/gazebo_classic/field_worker.h"
 #include "adapters/gazebo_classic/static_scene.h"
-#include "tagfield/field/rfid_field.h"
+#include "tagfield/field/field_driver.h"
+#include "tagfield/field/field_worker.h"
 
 namespace tagfield {
 
@@ -53,9 +52,10 @@ struct FieldCost {
   std::int64_t reads = 0;
 };
 
-/// One a world. At the end of each physics step it looks which antennas are due by simulated time,
-/// gathers where all tags and those antennas are, and hands that to a FieldWorker. An update is
-/// stamped with the time of its step, so reads don't depend on how fast Gazebo runs.
+/// One a world: drives a field by Gazebo's physics. At the end of each physics step it looks which
+/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands that
+/// to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on how
+/// fast Gazebo runs.
 ///
 /// Thread-safe: plugins load and unload on other threads than physics, even while physics still
 /// puts their model together. So links are given by name and looked up between two steps.
@@ -64,8 +64,7 @@ class RfidWorld {
   using Handle = std::uint64_t;
 
   /// `on_step` is called with simulated time after each physics step.
-  RfidWorld(const gazebo::physics::WorldPtr& world,
-            std::vector<std::unique_ptr<FieldListener>> listeners,
+  RfidWorld(const gazebo::physics::WorldPtr& world, Outlets outlets,
             std::function<void(Time)> on_step);
   ~RfidWorld();
   RfidWorld(const RfidWorld&) = delete;
@@ -85,45 +84,38 @@ class RfidWorld {
   /// Throws Error if it was told already.
   void set_materials(RadioWorldOptions materials);
 
-  /// Whether an antenna has this name.
-  [[nodiscard]] bool has_antenna(const std::string& name) const;
   [[nodiscard]] FieldCost cost() const;
 
  private:
-  struct TagGroup {
-    Handle handle = 0;
-    TagsOnLink on_link;
+  /// What is looked up between two steps, as models are whole then.
+  struct OnLink {
     gazebo::physics::LinkPtr link;  ///< None until it is found.
     std::optional<Time> faulty_since;
-    bool refused = false;         ///< For an error that was told.
+    bool refused = false;  ///< For an error that was told.
+  };
+  struct TagGroup : OnLink {
+    Handle handle = 0;
+    TagsOnLink on_link;
     ignition::math::Pose3d X_WL;  ///< When it was told of last.
-    bool told = false;            ///< Whether its tags were added to the field.
+    bool told = false;            ///< Whether its tags have a place.
     std::vector<TagOnLink> tags;
     std::vector<std::uint32_t> numbers;
   };
-  struct Antenna {
+  struct Antenna : OnLink {
     AntennaOnLink on_link;
-    gazebo::physics::LinkPtr link;    ///< None until it is found.
-    gazebo::physics::LinkPtr parent;  ///< Likewise; none for the world.
-    std::optional<Time> faulty_since;
-    bool refused = false;  ///< For an error that was told.
-    std::shared_ptr<const FieldAntenna> shared;
-    Time due = Time::max();
+    gazebo::physics::LinkPtr parent;  ///< None for the world.
   };
 
   void after_step();
   void find_links(Time now);
+  template <class Entry, class SetUp>
+  void find_link(Entry& entry, Time now, const SetUp& set_up, const char* consequence);
   void describe(TagGroup& group);
   void set_up(Antenna& antenna, Time now);
-  [[nodiscard]] gazebo::physics::LinkPtr find_link(const std::string& name) const;
-  [[nodiscard]] bool is_due(Time now) const;
   FieldStep gather(Time now);
   void gather_world(FieldStep& step);
-  void gather_tags(FieldStep& step);
-  static void tell(TagGroup& group, FieldStep& step);
-  void gather_antennas(FieldStep& step);
-  void set_due(Antenna& antenna, Time from) const;
-  std::uint32_t free_number();
+  void place_tags(Time now);
+  void place(AntennaDue& due) const;
 
   gazebo::physics::WorldPtr world_;
   StaticScene solids_;
@@ -134,11 +126,7 @@ class RfidWorld {
   std::vector<TagGroup> groups_;  ///< In rising order of handles.
   std::map<Handle, Antenna> antennas_;
   bool all_found_ = true;  ///< All links.
-  std::set<std::string> ids_;
-  std::uint32_t next_number_ = 0;
-  std::vector<std::uint32_t> free_numbers_;
-  std::vector<std::uint32_t> removed_;         ///< Since the last update.
-  std::vector<std::string> antennas_removed_;  ///< Likewise.
+  FieldDriver driver_;
   Time last_ = Time::min();
   FieldCost cost_;
   FieldWorker worker_;

@@ -103,17 +103,17 @@ struct WindowMarkers::Window {
 WindowMarkers::WindowMarkers() : FieldPicture(kInterval), window_(std::make_unique<Window>()) {}
 WindowMarkers::~WindowMarkers() = default;
 
-void WindowMarkers::draw(Time stamp, const FieldTags& tags) {
+void WindowMarkers::draw(Time stamp) {
   if (!window_->is_open()) return;
   const auto before = window_->shown;
   window_->shown.clear();
   std::map<int, Marker> by_shade;
-  tags.population.for_each([&](std::uint32_t slot) {
-    const int shade = shade_of(color_of(slot, stamp));
+  for (const auto& [name, tag] : tags()) {
+    const int shade = shade_of(color_of(tag, stamp));
     const auto id = static_cast<std::uint64_t>(shade) + 1;
     const auto found = by_shade.emplace(shade, marker_of(kTags, id, Marker::TRIANGLE_LIST)).first;
-    add_octahedron(tags.population.position(slot), found->second);
-  });
+    add_octahedron(tag.p_WT, found->second);
+  }
   for (auto& [shade, marker] : by_shade) {
     set_material(material_of_shade(shade), marker);
     window_->show(marker);

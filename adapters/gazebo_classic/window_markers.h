@@ -18,7 +18,7 @@ class WindowMarkers final : public FieldPicture {
   ~WindowMarkers() override;
 
  protected:
-  void draw(Time stamp, const FieldTags& tags) override;
+  void draw(Time stamp) override;
 
  private:
   struct Window;

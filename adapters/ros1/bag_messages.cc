@@ -120,6 +120,9 @@ TagRead read_of(const tagfield_msgs::TagRead& message, std::size_t index,
   }
   read.phase_rad = checked(message.phase, kGreatestLevel, at + "phase", place);
   read.rssi_dbm = checked(message.rssi, kGreatestLevel, at + "rssi", place);
+  if (!std::isnan(message.doppler)) {
+    read.doppler_hz = checked(message.doppler, kGreatestLevel, at + "doppler", place);
+  }
   return read;
 }
 

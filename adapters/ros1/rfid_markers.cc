@@ -75,7 +75,7 @@ RfidMarkers::RfidMarkers(std::shared_ptr<RosLink> link)
 
 RfidMarkers::~RfidMarkers() = default;
 
-void RfidMarkers::draw(Time stamp, const FieldTags& tags) {
+void RfidMarkers::draw(Time stamp) {
   if (!topic_->markers->is_heard()) return;
   visualization_msgs::MarkerArray message;
   std::set<std::string> present;
@@ -85,17 +85,17 @@ void RfidMarkers::draw(Time stamp, const FieldTags& tags) {
 
   Marker cubes = marker_of(stamp, "tags", 0, Marker::CUBE_LIST);
   cubes.scale.x = cubes.scale.y = cubes.scale.z = kTagEdge;
-  tags.population.for_each([&](std::uint32_t slot) {
-    cubes.points.push_back(point_message(tags.population.position(slot)));
-    cubes.colors.push_back(color_message(color_of(slot, stamp)));
-  });
+  for (const auto& [id, tag] : tags()) {
+    cubes.points.push_back(point_message(tag.p_WT));
+    cubes.colors.push_back(color_message(color_of(tag, stamp)));
+  }
   if (cubes.points.empty()) cubes.action = Marker::DELETE;
   message.markers.push_back(std::move(cubes));
-  int id = 0;
+  int number = 0;
   for (const auto& [name, antenna] : antennas()) {
-    message.markers.push_back(arrow_of(stamp, id, antenna));
-    message.markers.push_back(ball_of(stamp, id, antenna));
-    ++id;
+    message.markers.push_back(arrow_of(stamp, number, antenna));
+    message.markers.push_back(ball_of(stamp, number, antenna));
+    ++number;
   }
   topic_->markers->publish(message);
 }

@@ -21,7 +21,7 @@ class RfidMarkers final : public FieldPicture {
   ~RfidMarkers() override;
 
  protected:
-  void draw(Time stamp, const FieldTags& tags) override;
+  void draw(Time stamp) override;
 
  private:
   struct Topic;

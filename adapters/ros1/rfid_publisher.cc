@@ -7,6 +7,7 @@
 #include <tagfield_msgs/TagReads.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <limits>
 #include <utility>
 
 #include "adapters/ros1/messages.h"
@@ -19,64 +20,50 @@ namespace {
 constexpr std::uint32_t kQueue = 10'000;
 constexpr Duration kLatchInterval = std::chrono::seconds(1);
 
-rfid_sensor::TagArray published_message(const AntennaUpdate& update) {
-  rfid_sensor::TagArray message;
-  message.header.stamp = to_ros(update.stamp);
-  message.header.frame_id = kWorldFrame;
-  message.antennaPose = pose_message(update.X_WA);
-  message.tags.reserve(update.replies.size());
-  for (const TagReply& reply : update.replies) {
-    rfid_sensor::Tag tag;
-    tag.name = update.tags.labels[reply.slot];
-    tag.dist = reply.distance_m;
-    tag.phi = reply.phase_rad;
-    tag.rssi = reply.rssi_dbm;
-    message.tags.push_back(std::move(tag));
-  }
-  message.ntags = static_cast<std::uint32_t>(message.tags.size());
+tagfield_msgs::TagRead read_message(const TagRead& read, const std::string& frame_id) {
+  tagfield_msgs::TagRead message;
+  message.header.frame_id = frame_id;
+  message.header.stamp = to_ros(read.stamp);
+  message.epc = read.tag;
+  message.reader = read.reader;
+  message.antenna = read.antenna;
+  message.frequency = read.frequency_hz;
+  message.phase = read.phase_rad;
+  message.rssi = read.rssi_dbm;
+  message.doppler = read.doppler_hz.value_or(std::numeric_limits<double>::quiet_NaN());
   return message;
 }
 
-tagfield_msgs::TagReads reads_message(const AntennaUpdate& update) {
+tagfield_msgs::TagReads reads_message(const AntennaInfo& antenna, Time stamp,
+                                      const std::vector<TagRead>& reads) {
   tagfield_msgs::TagReads message;
-  const AntennaParameters& antenna = update.antenna.parameters;
-  message.header.stamp = to_ros(update.stamp);
-  message.header.frame_id = update.antenna.frame_id;
+  message.header.stamp = to_ros(stamp);
+  message.header.frame_id = antenna.frame_id;
   message.antenna = antenna.name;
-  message.reads.reserve(update.replies.size());
-  for (const TagReply& reply : update.replies) {
-    tagfield_msgs::TagRead read;
-    read.header.frame_id = message.header.frame_id;
-    read.header.stamp = to_ros(reply.stamp);
-    read.epc = update.tags.population.id(reply.slot);
-    read.reader = antenna.reader;
-    read.antenna = antenna.name;
-    read.frequency = reply.frequency_hz;
-    read.phase = reply.phase_rad;
-    read.rssi = reply.rssi_dbm;
-    message.reads.push_back(std::move(read));
-  }
+  message.reads.reserve(reads.size());
+  for (const TagRead& read : reads) message.reads.push_back(read_message(read, antenna.frame_id));
   return message;
 }
 
-tagfield_msgs::AntennaTruth truth_message(const AntennaUpdate& update) {
+tagfield_msgs::AntennaTruth truth_message(const AntennaInfo& antenna, Time stamp,
+                                          const RigidTransform& X_WA,
+                                          const std::vector<TagRead>& reads,
+                                          const std::vector<double>& distances_m) {
   tagfield_msgs::AntennaTruth message;
-  message.header.stamp = to_ros(update.stamp);
+  message.header.stamp = to_ros(stamp);
   message.header.frame_id = kWorldFrame;
-  message.antenna = update.antenna.parameters.name;
-  message.pose = pose_message(update.X_WA);
-  for (const TagReply& reply : update.replies) {
-    message.epcs.push_back(update.tags.population.id(reply.slot));
-    message.distances.push_back(reply.distance_m);
-  }
+  message.antenna = antenna.name;
+  message.pose = pose_message(X_WA);
+  for (const TagRead& read : reads) message.epcs.push_back(read.tag);
+  message.distances = distances_m;
   return message;
 }
 
-void add_position(const FieldTags& tags, std::uint32_t slot, tagfield_msgs::TagPositions& message) {
-  tagfield_msgs::TagPosition tag;
-  tag.epc = tags.population.id(slot);
-  tag.position = point_message(tags.population.position(slot));
-  message.tags.push_back(std::move(tag));
+tagfield_msgs::TagPosition position_message(const TagPosition& tag) {
+  tagfield_msgs::TagPosition message;
+  message.epc = tag.tag;
+  message.position = point_message(tag.p_WT);
+  return message;
 }
 
 tagfield_msgs::TagPositions empty_positions(Time stamp) {
@@ -139,8 +126,8 @@ RfidPublisher::Topics& RfidPublisher::topics_in(const std::string& name_space) {
   return *topics;
 }
 
-RfidPublisher::AntennaTopics& RfidPublisher::topics_of(const FieldAntenna& antenna) {
-  std::unique_ptr<AntennaTopics>& topics = by_antenna_[antenna.parameters.name];
+RfidPublisher::AntennaTopics& RfidPublisher::topics_of(const AntennaInfo& antenna) {
+  std::unique_ptr<AntennaTopics>& topics = by_antenna_[antenna.name];
   if (!topics) {
     topics = std::make_unique<AntennaTopics>();
     topics->data = link_->advertise<rfid_sensor::TagArray>(
@@ -149,44 +136,96 @@ RfidPublisher::AntennaTopics& RfidPublisher::topics_of(const FieldAntenna& anten
   return *topics;
 }
 
-void RfidPublisher::tags_changed(Time stamp, const FieldTags& tags) {
-  tagfield_msgs::TagPositions message = empty_positions(stamp);
-  tags.population.for_each([&](std::uint32_t slot) { add_position(tags, slot, message); });
-  truth_->all->publish(message);
+void RfidPublisher::on_tag_added(const TagPosition& tag, const std::string& label) {
+  tags_[tag.tag] = {label, tag};
+  has_changed_ = true;
 }
 
-void RfidPublisher::tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
-                               const FieldTags& tags) {
-  if (!truth_->moved->is_heard()) return;
+void RfidPublisher::on_tag_removed(const std::string& id) {
+  tags_.erase(id);
+  has_changed_ = true;
+}
+
+void RfidPublisher::on_tag_moved(const TagPosition& tag) {
+  tags_[tag.tag].position = tag;
+  moved_.push_back(tag.tag);
+}
+
+void RfidPublisher::on_tags_placed(Time stamp) {
+  if (std::exchange(has_changed_, false)) {
+    tagfield_msgs::TagPositions message = empty_positions(stamp);
+    for (const auto& [id, tag] : tags_) message.tags.push_back(position_message(tag.position));
+    truth_->all->publish(message);
+  }
+  const std::vector<std::string> moved = std::exchange(moved_, {});
+  if (moved.empty() || !truth_->moved->is_heard()) return;
   tagfield_msgs::TagPositions message = empty_positions(stamp);
-  for (const std::uint32_t slot : slots) add_position(tags, slot, message);
+  for (const std::string& id : moved) message.tags.push_back(position_message(tags_[id].position));
   truth_->moved->publish(message);
 }
 
-void RfidPublisher::antenna_updated(const AntennaUpdate& update) {
-  const FieldAntenna& antenna = update.antenna;
-  Topics& topics = topics_in(antenna.name_space);
-  if (update.X_PA) {
-    tf2_msgs::TFMessage message;
-    message.transforms = {
-        frame_message(update.stamp, antenna.parent_frame, antenna.frame_id, *update.X_PA)};
-    topics.tf->publish(message);
-  }
-  if (topics.antennas->is_heard()) topics.antennas->publish(truth_message(update));
-  if (topics.reads->is_heard()) topics.reads->publish(reads_message(update));
-  // Latched, so it is made for those to come too, if not each time.
-  AntennaTopics& own = topics_of(antenna);
-  const bool stale = update.stamp < own.latched || update.stamp >= own.latched + kLatchInterval;
-  if (!stale && !own.data->is_heard()) return;
-  own.latched = update.stamp;
-  own.data->publish(published_message(update));
+void RfidPublisher::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
+  tf2_msgs::TFMessage message;
+  message.transforms = {
+      frame_message(pose.stamp, antenna.parent_frame, antenna.frame_id, pose.X_WA)};
+  topics_in(antenna.name_space).tf->publish(message);
 }
 
-void RfidPublisher::antenna_added(const FieldAntenna& antenna) {
+void RfidPublisher::on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
+  updates_[antenna.name].X_WA = pose.X_WA;
+}
+
+void RfidPublisher::on_distance(const TrueDistance& distance) {
+  updates_[distance.antenna].distances_m.push_back(distance.distance_m);
+}
+
+void RfidPublisher::on_read(const TagRead& read) { updates_[read.antenna].reads.push_back(read); }
+
+void RfidPublisher::publish_in_old_form(const AntennaInfo& antenna, Time stamp,
+                                        const Update& update) {
+  rfid_sensor::TagArray message;
+  message.header.stamp = to_ros(stamp);
+  message.header.frame_id = kWorldFrame;
+  message.antennaPose = pose_message(update.X_WA);
+  for (std::size_t i = 0; i < update.reads.size(); ++i) {
+    const TagRead& read = update.reads[i];
+    rfid_sensor::Tag tag;
+    tag.name = tags_[read.tag].label;
+    tag.dist = update.distances_m[i];
+    tag.phi = read.phase_rad;
+    tag.rssi = read.rssi_dbm;
+    message.tags.push_back(std::move(tag));
+  }
+  message.ntags = static_cast<std::uint32_t>(message.tags.size());
+  topics_of(antenna).data->publish(message);
+}
+
+void RfidPublisher::on_update(const AntennaInfo& antenna, Time stamp) {
+  const Update update = std::exchange(updates_[antenna.name], {});
+  const Topics& topics = topics_in(antenna.name_space);
+  if (topics.antennas->is_heard()) {
+    topics.antennas->publish(
+        truth_message(antenna, stamp, update.X_WA, update.reads, update.distances_m));
+  }
+  if (topics.reads->is_heard()) {
+    topics.reads->publish(reads_message(antenna, stamp, update.reads));
+  }
+  // Latched, so it is made for those to come too, if not each time.
+  AntennaTopics& own = topics_of(antenna);
+  const bool stale = stamp < own.latched || stamp >= own.latched + kLatchInterval;
+  if (!stale && !own.data->is_heard()) return;
+  own.latched = stamp;
+  publish_in_old_form(antenna, stamp, update);
+}
+
+void RfidPublisher::on_antenna_added(const AntennaInfo& antenna) {
   topics_in(antenna.name_space);
   topics_of(antenna);
 }
 
-void RfidPublisher::antenna_removed(const std::string& antenna) { by_antenna_.erase(antenna); }
+void RfidPublisher::on_antenna_removed(const std::string& name) {
+  by_antenna_.erase(name);
+  updates_.erase(name);
+}
 
 }  // namespace tagfield

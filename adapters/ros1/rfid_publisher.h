@@ -5,17 +5,18 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "adapters/ros1/ros_link.h"
-#include "tagfield/field/rfid_field.h"
+#include "tagfield/stream/listeners.h"
 
 namespace tagfield {
 
 /// `text` with what a ROS name can't hold replaced by '_'.
 std::string ros_name(const std::string& text);
 
-/// Publishes what a field's listener hears. The names of reads, antennas and tf are in the
-/// antenna's name space, those of tags in none.
+/// Publishes what it is told. The names of reads, antennas and tf are in the antenna's name space,
+/// those of tags in none.
 ///
 ///   ~SENSOR/data           rfid_sensor/TagArray        the published plugin's message, latched
 ///   rfid/reads             tagfield_msgs/TagReads      every update of every antenna
@@ -23,29 +24,49 @@ std::string ros_name(const std::string& text);
 ///   rfid/truth/antennas    tagfield_msgs/AntennaTruth  every update of every antenna
 ///   rfid/truth/tags        tagfield_msgs/TagPositions  all tags when the set changes, latched
 ///   rfid/truth/tags_moved  tagfield_msgs/TagPositions  those that moved, before the reads
-class RfidPublisher final : public FieldListener {
+class RfidPublisher final : public ReadListener, public PoseListener, public TruthListener {
  public:
   explicit RfidPublisher(std::shared_ptr<RosLink> link);
   ~RfidPublisher() override;
 
-  void tags_changed(Time stamp, const FieldTags& tags) override;
-  void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots,
-                  const FieldTags& tags) override;
-  void antenna_updated(const AntennaUpdate& update) override;
-  void antenna_added(const FieldAntenna& antenna) override;
-  void antenna_removed(const std::string& antenna) override;
+  void on_read(const TagRead& read) override;
+  void on_update(const AntennaInfo& antenna, Time stamp) override;
+  void on_antenna_added(const AntennaInfo& antenna) override;
+  void on_antenna_removed(const std::string& name) override;
+  void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override;
+  void on_tag_added(const TagPosition& tag, const std::string& label) override;
+  void on_tag_moved(const TagPosition& tag) override;
+  void on_tag_removed(const std::string& id) override;
+  void on_tags_placed(Time stamp) override;
+  void on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) override;
+  void on_distance(const TrueDistance& distance) override;
 
  private:
   struct TagTopics;
   struct Topics;
   struct AntennaTopics;
+  /// What an antenna has read since its last update, and the truth behind it.
+  struct Update {
+    std::vector<TagRead> reads;
+    std::vector<double> distances_m;
+    RigidTransform X_WA;
+  };
+  struct Tag {
+    std::string label;
+    TagPosition position;
+  };
   Topics& topics_in(const std::string& name_space);
-  AntennaTopics& topics_of(const FieldAntenna& antenna);
+  AntennaTopics& topics_of(const AntennaInfo& antenna);
+  void publish_in_old_form(const AntennaInfo& antenna, Time stamp, const Update& update);
 
   std::shared_ptr<RosLink> link_;
   std::unique_ptr<TagTopics> truth_;
   std::map<std::string, std::unique_ptr<Topics>> by_name_space_;
   std::map<std::string, std::unique_ptr<AntennaTopics>> by_antenna_;
+  std::map<std::string, Update> updates_;  ///< By antenna.
+  std::map<std::string, Tag> tags_;
+  std::vector<std::string> moved_;  ///< IDs, since tags were told last.
+  bool has_changed_ = false;        ///< Tags came or went since then.
 };
 
 /// The frame that truth and markers are told in.

@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"
@@ -52,8 +53,8 @@ Json describe(const AntennaSpec& antenna) {
   return {{"name", parameters.name},
           {"on", antenna.on.empty() ? "world" : antenna.on},
           {"position_m", to_list(antenna.X_PA.translation)},
-          {"frequency_hz", parameters.model.frequency_hz},
-          {"range_m", parameters.range_m},
+          {"frequency_hz", nominal_frequency_hz(parameters)},
+          {"range_m", nominal_range_m(parameters)},
           {"rate_hz", parameters.rate_hz}};
 }
 

@@ -205,8 +205,8 @@ Eigen::AlignedBox2d region_of(const CoverageArguments& arguments, const Scene& s
 double affordable_links(const Scenario& scenario, const std::vector<std::size_t>& antennas) {
   double links = kPaperLinks;
   for (const std::size_t i : antennas) {
-    const auto& radio = scenario.antennas[i].parameters.radio;
-    if (!radio) continue;
+    const RadioModel* const radio = physical(scenario.antennas[i].parameters);
+    if (radio == nullptr) continue;
     const bool mirrors = radio->effects.reflections && radio->reflection_order > 0;
     links = std::min(links, mirrors ? kMirroredLinks : kDirectLinks);
   }

@@ -9,14 +9,15 @@
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
-#include "apps/tagfield/judge.h"
 #include "apps/tagfield/localize_known.h"
 #include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/files/poses_csv.h"
+#include "tagfield/files/truth_csv.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_places_csv.h"
@@ -60,10 +61,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
 }
 
 std::vector<std::string> order_of(const std::optional<ScenarioWithWorld>& loaded) {
-  std::vector<std::string> order;
-  if (!loaded) return order;
-  for (const TagSpec& tag : loaded->scenario.tags) order.push_back(tag.id);
-  return order;
+  return loaded ? tags_of(loaded->scenario) : std::vector<std::string>{};
 }
 
 std::vector<TagOutcome> outcomes_of(const RecordingToLocalize& recording,

@@ -12,12 +12,11 @@
 #include "tagfield/experiment/effect_breakdown.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
-#include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_places_csv.h"
-#include "tagfield/files/truth_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/page.h"
@@ -35,6 +34,7 @@ struct RunArguments {
   int threads = default_threads();
   bool no_page = false;
   bool breakdown = false;
+  bool record_only = false;
 };
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
@@ -53,9 +53,8 @@ void stage_navigation(const NavigationRun& navigation, StagedFolder& folder) {
   folder.add("truth/mapping_path.csv", poses_to_csv(named(navigation.survey->true_path)));
 }
 
+/// What was made of the reads; these and the poses were written as they came.
 void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder& folder) {
-  folder.add("reads.csv", reads_to_csv(run.recording.reads));
-  folder.add("antenna_poses.csv", poses_to_csv(run.recording.believed_poses));
   folder.add("estimates.csv", estimates_to_csv(run.estimates));
   if (!run.corrected_poses.empty()) {
     folder.add("corrected_poses.csv", poses_to_csv(run.corrected_poses));
@@ -67,20 +66,24 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
     folder.add("reference_tags.csv", tag_places_to_csv(known.reference_tags));
   }
   if (run.navigation) stage_navigation(*run.navigation, folder);
-  stage_truth(run.recording.truth, folder);
   stage_top_view(loaded, folder);
 }
 
+/// The first seed's tables go into `folder` while it runs.
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,
-                                       const NavigationWorld* world, Diagnostics& diagnostics) {
+                                       const NavigationWorld* world, StagedFolder& folder,
+                                       Diagnostics& diagnostics) {
   ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   RunControl control;
+  control.keeps_recording = !arguments.record_only;
+  attach(std::make_shared<CsvOutlet>(folder), control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
   catch_interrupts();
-  return run_seeds(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control,
-                   diagnostics, world);
+  const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
+  if (arguments.record_only) return {simulate(scenario, seed, control, world)};
+  return run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
 }
 
 /// Empty where it is not asked for.
@@ -111,6 +114,32 @@ void print_result(const Summary& summary, const std::string& out, bool page) {
   fmt::print("{}: {}\n", page ? "page" : "folder", page ? out + "/report.html" : out);
 }
 
+/// What of another run in the same folder does not belong to this one.
+const std::vector<std::filesystem::path>& stale_files() {
+  static const std::vector<std::filesystem::path> all = {
+      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json",
+      "map.pgm",         "map.yaml",           "mapping_path.csv",       "truth/mapping_path.csv",
+      "report.html",     "figures",            "INCOMPLETE"};
+  return all;
+}
+
+/// Reads, poses and the truth are all there is.
+int finish_recording(const SeedRun& run, const Diagnostics& diagnostics, const std::string& out,
+                     StagedFolder& folder) {
+  print_warnings(diagnostics);
+  if (!run.complete) {
+    folder.add("INCOMPLETE", fmt::format("Interrupted at {:.3f} s simulated; what is here is whole "
+                                         "up to then.\n",
+                                         run.simulated_s));
+  }
+  std::vector<std::filesystem::path> stale = stale_files();
+  stale.insert(stale.end(), {"estimates.csv", "summary.json"});
+  folder.commit(stale);
+  fmt::print("{:.1f} s simulated{}\nfolder: {}\n", run.simulated_s,
+             run.complete ? "" : ", INCOMPLETE: the run was interrupted", out);
+  return run.complete ? kExitOk : kExitInterrupted;
+}
+
 int run(const RunArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
@@ -131,8 +160,9 @@ int run(const RunArguments& arguments) {
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, ways, diagnostics);
+  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, ways, folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  if (arguments.record_only) return finish_recording(runs.front(), diagnostics, out, folder);
 
   const std::vector<EffectCost> effects =
       breakdown_with_progress(arguments, scenario, ways, diagnostics);
@@ -142,9 +172,8 @@ int run(const RunArguments& arguments) {
   print_warnings(diagnostics);
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
-  folder.commit({"tag_heights.csv", "reference_tags.csv", "corrected_poses.csv", "top_view.json",
-                 "map.pgm", "map.yaml", "mapping_path.csv", "truth/mapping_path.csv", "report.html",
-                 "figures"});
+  if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
+  folder.commit(stale_files());
   if (!arguments.no_page) write_report(out);
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
@@ -171,9 +200,15 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");
+  command
+      ->add_flag("--record-only", arguments->record_only,
+                 "Write reads, poses and the truth as they come, and locate nothing: memory does "
+                 "not grow with the run")
+      ->excludes("--seeds");
   command->add_flag("--breakdown", arguments->breakdown,
                     "Run again with each effect of the physical models alone and with all but it, "
-                    "and say what each costs");
+                    "and say what each costs")
+      ->excludes("--record-only");
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
       "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");

@@ -8,7 +8,7 @@
 int main() {
   tagfield::AntennaParameters antenna;  // 865.7 MHz, 0.1 rad of phase noise, 7 m of range
   antenna.name = "antenna";
-  antenna.model.communication_gain = 3.0;
+  paper(antenna).model.communication_gain = 3.0;
   const auto link = tagfield::link_between({0.0, 0.0, 1.5}, {3.0, 0.0, 1.5});
   const auto read = tagfield::read_tag(antenna, "tag1", link, tagfield::Time{}, /*seed=*/1);
   std::printf("%s at %.2f m: phase %.3f rad, RSSI %.0f dBm\n", read.tag.c_str(), link.distance_m,

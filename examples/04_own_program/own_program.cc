@@ -3,6 +3,7 @@
 
 #include "tagfield/localization/locate.h"
 #include "tagfield/simulator/simulation.h"
+#include "tagfield/stream/recording.h"
 
 namespace {
 
@@ -31,10 +32,10 @@ tagfield::Scenario robot_with_antenna() {
 }  // namespace
 
 int main() {
-  tagfield::Simulation simulation(robot_with_antenna(), /*seed=*/1);
   tagfield::Recording recording;
+  tagfield::Simulation simulation(robot_with_antenna(), /*seed=*/1, recorded_in(recording));
   while (!simulation.finished()) {
-    simulation.step(recording);
+    simulation.step();
     if (simulation.now() == tagfield::time_from_seconds(5.0)) {
       simulation.add_tag(tag_at("second", 1.0, -2.0, 1.2));
     }

@@ -59,12 +59,13 @@ std::vector<Variant> variants_of(const Scenario& scenario) {
 Scenario with_effects(const Scenario& scenario, const RadioEffects& effects) {
   Scenario changed = scenario;
   for (AntennaSpec& antenna : changed.antennas) {
-    if (!antenna.parameters.radio) continue;
-    auto model = std::make_shared<RadioModel>(*antenna.parameters.radio);
+    const RadioModel* const given = physical(antenna.parameters);
+    if (given == nullptr) continue;
+    auto model = std::make_shared<RadioModel>(*given);
     for (const EffectSwitch& effect : kEffectSwitches) {
       model->effects.*effect.on = model->effects.*effect.on && effects.*effect.on;
     }
-    antenna.parameters.radio = std::move(model);
+    antenna.parameters.model = std::shared_ptr<const RadioModel>(std::move(model));
   }
   return changed;
 }
@@ -74,7 +75,8 @@ std::vector<EffectSwitch> effects_in(const Scenario& scenario) {
   for (const EffectSwitch& effect : kEffectSwitches) {
     const bool any = std::any_of(
         scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& antenna) {
-          return antenna.parameters.radio && acts(*antenna.parameters.radio, effect);
+          const RadioModel* const model = physical(antenna.parameters);
+          return model != nullptr && acts(*model, effect);
         });
     if (any) present.push_back(effect);
   }

@@ -8,6 +8,7 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/navigation_summary.h"
 #include "tagfield/motion/planar_pose.h"
@@ -15,48 +16,6 @@
 
 namespace tagfield {
 namespace {
-
-TagEstimate never_read(const std::string& tag) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reason = "cannot localize: never read";
-  return estimate;
-}
-
-/// Estimates in the scenario's order, with those of tags that were never read.
-std::vector<TagEstimate> in_scenario_order(const Scenario& scenario,
-                                           std::vector<TagEstimate> estimates) {
-  std::map<std::string, TagEstimate> by_tag;
-  for (TagEstimate& estimate : estimates) {
-    std::string tag = estimate.tag;
-    by_tag.emplace(std::move(tag), std::move(estimate));
-  }
-  std::vector<TagEstimate> ordered;
-  for (const TagSpec& tag : scenario.tags) {
-    const auto found = by_tag.find(tag.id);
-    ordered.push_back(found == by_tag.end() ? never_read(tag.id) : std::move(found->second));
-  }
-  return ordered;
-}
-
-std::vector<TagOutcome> outcomes_of(const Scenario& scenario, const SeedRun& run,
-                                    const std::vector<TagEstimate>& estimates) {
-  std::vector<TagOutcome> outcomes;
-  std::map<std::string, std::size_t> counts = count_by_tag(run.recording.reads);
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const TagSpec& tag = scenario.tags[i];
-    TagOutcome outcome;
-    outcome.seed = run.seed;
-    outcome.reads = counts[tag.id];
-    outcome.estimate = estimates[i];
-    outcome.moved = moves(tag);
-    const auto& references = scenario.localization.reference_tags;
-    outcome.reference = std::count(references.begin(), references.end(), tag.id) > 0;
-    if (!outcome.moved) outcome.truth_m = tag.motion.front().X_WB.translation;
-    outcomes.push_back(std::move(outcome));
-  }
-  return outcomes;
-}
 
 std::vector<double> errors_of(const std::vector<TagOutcome>& outcomes) {
   std::vector<double> errors;
@@ -104,11 +63,19 @@ void finish(const Simulation& simulation, SeedRun& run) {
   run.path_length_m = simulation.travelled_m();
 }
 
+/// A recording, and whoever else wants to know.
+Outlets outlets_of(const RunControl& control, Recording& recording) {
+  Outlets outlets = control.outlets;
+  if (control.keeps_recording) attach(std::make_shared<Recorder>(recording), outlets);
+  return outlets;
+}
+
 SeedRun navigated(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                   const NavigationWorld& world) {
   SeedRun run;
   run.seed = seed;
-  NavigatedRun made = run_navigation(scenario, seed, control, world, run.recording);
+  NavigatedRun made =
+      run_navigation(scenario, seed, control, world, outlets_of(control, run.recording));
   run.complete = made.complete;
   run.simulated_s = made.simulated_s;
   run.path_length_m = made.path_length_m;
@@ -116,12 +83,19 @@ SeedRun navigated(const Scenario& scenario, std::uint64_t seed, const RunControl
   return run;
 }
 
-std::vector<TagEstimate> located(const Scenario& scenario, const Recording& recording,
-                                 const std::vector<AntennaPose>& poses,
-                                 const LocalizationOptions& options, Diagnostics& diagnostics,
-                                 LocalizationResult& result) {
-  result = locate_tags(recording.reads, poses, options, diagnostics);
-  return in_scenario_order(scenario, std::move(result.estimates));
+/// Estimates in the scenario's order, with those of tags that were never read.
+LocalizationResult located(const Scenario& scenario, const Recording& recording,
+                           const std::vector<AntennaPose>& poses,
+                           const LocalizationOptions& options, Diagnostics& diagnostics) {
+  LocalizationResult result = locate_tags(recording.reads, poses, options, diagnostics);
+  result.estimates = with_all_tags(std::move(result.estimates), {}, tags_of(scenario));
+  return result;
+}
+
+std::vector<TagOutcome> outcomes_of(const SeedRun& run, const LocalizationOptions& options,
+                                    const std::vector<TagEstimate>& estimates) {
+  return judged(estimates, run.recording.reads, run.recording.truth, options.known.reference_tags,
+                run.seed);
 }
 
 /// By the scenario's other methods, each once.
@@ -131,12 +105,11 @@ std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& ru
   std::set<std::string> done = {run.method};
   for (const std::string& name : scenario.localization.compare) {
     Diagnostics unheard;  // What there is to warn of, the run's own method has said.
-    LocalizationResult result;
     options.method = name;
-    const auto estimates =
-        located(scenario, run.recording, run.recording.believed_poses, options, unheard, result);
+    const LocalizationResult result =
+        located(scenario, run.recording, run.recording.believed_poses, options, unheard);
     if (!done.insert(result.method).second) continue;
-    others.push_back({result.method, outcomes_of(scenario, run, estimates)});
+    others.push_back({result.method, outcomes_of(run, options, result.estimates)});
   }
   return others;
 }
@@ -197,13 +170,14 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
   }
   SeedRun run;
   run.seed = seed;
-  Simulation simulation(scenario, seed);
+  Simulation simulation(scenario, seed, outlets_of(control, run.recording));
   const Pace pace(scenario.real_time);
   while (!simulation.finished() && !stopped(control)) {
-    simulation.step(run.recording);
+    simulation.step();
     if (control.on_progress) control.on_progress(simulation.progress());
     pace.wait_for(simulation.now());
   }
+  simulation.finish();
   finish(simulation, run);
   return run;
 }
@@ -211,20 +185,19 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
   const LocalizationOptions options = localization_options(scenario, threads);
   const Recording& recording = run.recording;
-  LocalizationResult result;
-  run.estimates =
-      located(scenario, recording, recording.believed_poses, options, diagnostics, result);
+  LocalizationResult result =
+      located(scenario, recording, recording.believed_poses, options, diagnostics);
+  run.estimates = std::move(result.estimates);
   run.method = result.method;
   run.method_why = result.why;
   run.corrected_poses = std::move(result.corrected_poses);
-  run.outcomes = outcomes_of(scenario, run, run.estimates);
+  run.outcomes = outcomes_of(run, options, run.estimates);
   run.compared = compared(scenario, run, options);
   if (scenario.pose.source == PoseSource::kTrue) return;
   LocalizationOptions exact = options;
   exact.known.pose_error = PoseErrorModel{};
-  const std::vector<TagEstimate> with_truth =
-      located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics, result);
-  run.errors_with_true_pose_m = errors_of(outcomes_of(scenario, run, with_truth));
+  result = located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics);
+  run.errors_with_true_pose_m = errors_of(outcomes_of(run, options, result.estimates));
 }
 
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
@@ -245,7 +218,9 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (i > 0 && stopped(control)) return;
     begun[i] = 1;
-    runs[i] = simulate(scenario, first + i, of_one, world);
+    RunControl of_seed = of_one;
+    if (i > 0) of_seed.outlets = {};
+    runs[i] = simulate(scenario, first + i, of_seed, world);
     localize(scenario, runs[i], threads_inside, warnings[i]);
     if (i > 0) {
       runs[i].recording = {};

@@ -13,6 +13,7 @@
 #include "tagfield/simulator/navigation_world.h"
 #include "tagfield/simulator/run_control.h"
 #include "tagfield/simulator/simulation.h"
+#include "tagfield/stream/recording.h"
 
 namespace tagfield {
 

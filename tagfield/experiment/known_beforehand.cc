@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tagfield/field/antenna_facts.h"
+
 namespace tagfield {
 namespace {
 
@@ -37,11 +39,12 @@ std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
   if (!scenario.localization.offset_known) return offsets;
   for (const AntennaSpec& antenna : scenario.antennas) {
     const AntennaParameters& parameters = antenna.parameters;
-    if (parameters.radio) {
+    const std::optional<StatedPhase> stated = stated_phase(parameters);
+    if (!stated) {
       throw Error("antenna '" + parameters.name +
                   "': localization.offset can be known with model: paper only");
     }
-    offsets.push_back({parameters.name, std::nullopt, parameters.model.phase_offset_rad});
+    offsets.push_back({parameters.name, std::nullopt, stated->offset_rad});
   }
   return offsets;
 }

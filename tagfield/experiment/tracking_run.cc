@@ -5,6 +5,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/simulator/simulation.h"
+#include "tagfield/stream/recording.h"
 #include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
@@ -12,9 +13,10 @@ namespace {
 
 /// Tags at rest are not what tracking is asked for.
 TrackingRun simulated(const Scenario& scenario, std::uint64_t seed, const RunControl& control) {
-  Simulation simulation(scenario, seed);
   Recording recording;
-  while (!simulation.finished() && !stopped(control)) simulation.step(recording);
+  Simulation simulation(scenario, seed, recorded_in(recording));
+  while (!simulation.finished() && !stopped(control)) simulation.step();
+  simulation.finish();
   TrackingRun run;
   run.seed = seed;
   run.reads = std::move(recording.reads);

@@ -8,11 +8,6 @@ namespace {
 constexpr Duration kLately = std::chrono::seconds(1);
 constexpr double kLeastAlpha = 0.25;
 
-/// A physical model has none of its own: as far as free space and the usual tag allow.
-double nominal_range_m(const AntennaParameters& antenna) {
-  return antenna.radio ? most_range_m(*antenna.radio, *default_tag_model()) : antenna.range_m;
-}
-
 }  // namespace
 
 ReadColor read_color(double share) {
@@ -25,50 +20,39 @@ ReadColor read_color(double share) {
 
 ReadColor silent_color() { return {0.5, 0.5, 0.5, kLeastAlpha}; }
 
-void FieldPicture::tags_changed(Time, const FieldTags& tags) {
-  tags.population.for_each([&](std::uint32_t slot) {
-    if (slot >= sights_.size()) {
-      sights_.resize(slot + std::size_t{1});
-      sighted_.resize(slot + std::size_t{1});
-    }
-    if (sighted_[slot] == tags.population.id(slot)) return;
-    sighted_[slot] = tags.population.id(slot);  // Another tag took the slot.
-    sights_[slot] = {};
-  });
-}
-
-void FieldPicture::tags_moved(Time, const std::vector<std::uint32_t>&, const FieldTags&) {}
-
-void FieldPicture::see(const AntennaUpdate& update) {
-  for (const TagReply& reply : update.replies) {
-    Sight& sight = sights_[reply.slot];
-    // Of two antennas at once the stronger read counts.
-    const bool weaker = sight.stamp == update.stamp && sight.rssi_dbm > reply.rssi_dbm;
-    if (!weaker) sight = {update.stamp, reply.rssi_dbm};
-    weakest_dbm_ = std::min(weakest_dbm_.value_or(reply.rssi_dbm), reply.rssi_dbm);
-    strongest_dbm_ = std::max(strongest_dbm_.value_or(reply.rssi_dbm), reply.rssi_dbm);
+void FieldPicture::on_read(const TagRead& read) {
+  SeenTag& tag = tags_[read.tag];
+  // Of two antennas at once the stronger read counts.
+  const bool weaker = tag.read == read.stamp && tag.rssi_dbm > read.rssi_dbm;
+  if (!weaker) {
+    tag.read = read.stamp;
+    tag.rssi_dbm = read.rssi_dbm;
   }
+  weakest_dbm_ = std::min(weakest_dbm_.value_or(read.rssi_dbm), read.rssi_dbm);
+  strongest_dbm_ = std::max(strongest_dbm_.value_or(read.rssi_dbm), read.rssi_dbm);
 }
 
-void FieldPicture::antenna_updated(const AntennaUpdate& update) {
-  const AntennaParameters& antenna = update.antenna.parameters;
-  antennas_[antenna.name] = {update.antenna.frame_id, update.X_WA, nominal_range_m(antenna)};
-  see(update);
-  const bool reset = update.stamp < drawn_;
-  if (!reset && drawn_ != Time::min() && update.stamp < drawn_ + interval_) return;
-  drawn_ = update.stamp;
-  draw(update.stamp, update.tags);
+void FieldPicture::on_tag_added(const TagPosition& tag, const std::string& /*label*/) {
+  tags_[tag.tag] = {tag.p_WT, Time::min(), 0.0};
 }
 
-void FieldPicture::antenna_removed(const std::string& antenna) { antennas_.erase(antenna); }
+void FieldPicture::on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
+  antennas_[antenna.name] = {antenna.frame_id, pose.X_WA, antenna.range_m};
+}
 
-ReadColor FieldPicture::color_of(std::uint32_t slot, Time stamp) const {
-  const Sight& sight = sights_[slot];
-  if (sight.stamp == Time::min() || sight.stamp > stamp || stamp - sight.stamp > kLately) {
+void FieldPicture::on_update(const AntennaInfo& /*antenna*/, Time stamp) {
+  const bool reset = stamp < drawn_;
+  if (!reset && drawn_ != Time::min() && stamp < drawn_ + interval_) return;
+  drawn_ = stamp;
+  draw(stamp);
+}
+
+ReadColor FieldPicture::color_of(const SeenTag& tag, Time stamp) const {
+  if (tag.read == Time::min() || tag.read > stamp || stamp - tag.read > kLately) {
     return silent_color();
   }
   const double width = *strongest_dbm_ - *weakest_dbm_;
-  return read_color(width > 0.0 ? (sight.rssi_dbm - *weakest_dbm_) / width : 1.0);
+  return read_color(width > 0.0 ? (tag.rssi_dbm - *weakest_dbm_) / width : 1.0);
 }
 
 }  // namespace tagfield

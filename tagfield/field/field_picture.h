@@ -5,9 +5,8 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "tagfield/field/rfid_field.h"
+#include "tagfield/stream/listeners.h"
 
 namespace tagfield {
 
@@ -33,36 +32,39 @@ struct SeenAntenna {
   double range_m = 0.0;
 };
 
-/// Gathers what the listeners' events say and hands out a picture at intervals of simulated time.
-class FieldPicture : public FieldListener {
+/// A tag where it is, as it was read last.
+struct SeenTag {
+  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();
+  Time read = Time::min();
+  double rssi_dbm = 0.0;
+};
+
+/// Gathers what it is told and hands out a picture at intervals of simulated time.
+class FieldPicture : public ReadListener, public TruthListener {
  public:
   explicit FieldPicture(Duration interval) : interval_(interval) {}
 
-  void tags_changed(Time stamp, const FieldTags& tags) final;
-  void tags_moved(Time stamp, const std::vector<std::uint32_t>& slots, const FieldTags& tags) final;
-  void antenna_updated(const AntennaUpdate& update) final;
-  void antenna_added(const FieldAntenna&) final {}
-  void antenna_removed(const std::string& antenna) final;
+  void on_read(const TagRead& read) final;
+  void on_update(const AntennaInfo& antenna, Time stamp) final;
+  void on_antenna_removed(const std::string& name) final { antennas_.erase(name); }
+  void on_tag_added(const TagPosition& tag, const std::string& label) final;
+  void on_tag_moved(const TagPosition& tag) final { tags_[tag.tag].p_WT = tag.p_WT; }
+  void on_tag_removed(const std::string& id) final { tags_.erase(id); }
+  void on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) final;
 
  protected:
-  /// Called at intervals, with all tags present.
-  virtual void draw(Time stamp, const FieldTags& tags) = 0;
+  /// Called at intervals.
+  virtual void draw(Time stamp) = 0;
 
-  /// Colour of the tag in `slot` at `stamp`.
-  [[nodiscard]] ReadColor color_of(std::uint32_t slot, Time stamp) const;
+  /// Colour of the tag at `stamp`.
+  [[nodiscard]] ReadColor color_of(const SeenTag& tag, Time stamp) const;
+  [[nodiscard]] const std::map<std::string, SeenTag>& tags() const { return tags_; }
   [[nodiscard]] const std::map<std::string, SeenAntenna>& antennas() const { return antennas_; }
 
  private:
-  struct Sight {
-    Time stamp = Time::min();  ///< Of the last read.
-    double rssi_dbm = 0.0;
-  };
-  void see(const AntennaUpdate& update);
-
   Duration interval_;
   Time drawn_ = Time::min();
-  std::vector<Sight> sights_;         ///< By slot.
-  std::vector<std::string> sighted_;  ///< The tags that `sights_` are of.
+  std::map<std::string, SeenTag> tags_;
   std::map<std::string, SeenAntenna> antennas_;
   std::optional<double> weakest_dbm_;
   std::optional<double> strongest_dbm_;

@@ -7,8 +7,9 @@ namespace tagfield {
 namespace {
 
 const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
-  if (!antenna.radio || !antenna.radio->gen2 || !antenna.radio->effects.inventory) return nullptr;
-  return &*antenna.radio->gen2;
+  const RadioModel* const radio = physical(antenna);
+  if (radio == nullptr || !radio->gen2 || !radio->effects.inventory) return nullptr;
+  return &*radio->gen2;
 }
 
 void append(const AntennaParameters& antenna, PortCycle& cycle) {
@@ -36,7 +37,7 @@ std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antenna
   PortCycle by_time;
   for (const AntennaParameters& antenna : antennas) {
     if (inventory_of(antenna) == nullptr) continue;
-    const bool in_common = antenna.radio->sharing == AirSharing::kTime;
+    const bool in_common = physical(antenna)->sharing == AirSharing::kTime;
     append(antenna, in_common ? by_time : of_reader[antenna.reader]);
   }
   std::vector<PortCycle> cycles;

@@ -16,10 +16,6 @@ namespace {
 /// memory is known to the other about then.
 constexpr Duration kPiece = std::chrono::milliseconds(5);
 
-bool is_finite(const RigidTransform& X) {
-  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
-}
-
 /// Where `time` is between `before` (0) and `now` (1). Slots that began just before `before` are
 /// a little below 0.
 double share_at(Time time, Time before, Time now) {
@@ -62,10 +58,11 @@ struct AirAntenna {
   std::optional<Time> updated;  ///< Last,
   RigidTransform X_WA;          ///< when it was here.
   std::vector<Pending> pending;
+  bool is_over = false;  ///< It never updates again.
   std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
   std::shared_ptr<const ImageSet> receiver_images;
 
-  [[nodiscard]] const RadioModel& model() const { return *parameters.radio; }
+  [[nodiscard]] const RadioModel& model() const { return *physical(parameters); }
   [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
     if (!updated) return X_WA_now;
     return interpolate(X_WA, X_WA_now, share_at(stamp, *updated, now));
@@ -112,9 +109,8 @@ bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycl
 
 }  // namespace
 
-RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world, std::uint64_t seed)
+RadioAir::RadioAir(std::shared_ptr<const RadioWorld> world)
     : world_(std::move(world)),
-      seed_(seed),
       memories_(std::make_unique<TagMemories>()),
       tag_images_(kMostImageBytes) {}
 RadioAir::~RadioAir() = default;
@@ -138,11 +134,10 @@ AirAntenna& RadioAir::antenna_named(const std::string& name) {
   throw Error(fmt::format("there is no antenna '{}' in the air", name));
 }
 
-void RadioAir::add(const AntennaParameters& parameters, std::optional<std::uint64_t> seed) {
+void RadioAir::add(const AntennaParameters& parameters, std::uint64_t seed) {
   auto antenna = std::make_unique<AirAntenna>();
   antenna->parameters = parameters;
-  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0,
-                   seed.value_or(seed_)};
+  antenna->port = {stream_key(parameters.name), stream_key(parameters.reader), 0, seed};
   const RadioModel& model = antenna->model();
   if (takes_inventory(model)) {
     antenna->inventory =
@@ -186,6 +181,19 @@ void RadioAir::forget_tag(std::uint32_t slot) {
   for (auto* places : {&places_, &places_before_}) {
     if (slot < places->size()) (*places)[slot] = nowhere();
   }
+}
+
+void RadioAir::expect_no_more_of(const std::string& name) { antenna_named(name).is_over = true; }
+
+/// Before its first update nothing has power by an antenna.
+Time RadioAir::complete_until() const {
+  Time until = Time::max();
+  for (const auto& antenna : antennas_) {
+    const bool is_awaited = antenna->inventory && antenna->updated && !antenna->is_over;
+    if (!is_awaited) continue;
+    until = std::min({until, *antenna->updated, antenna->inventory->next_read_after()});
+  }
+  return until;
 }
 
 std::optional<InventoryCounts> RadioAir::counts(const std::string& name) const {

@@ -28,14 +28,14 @@ struct AirAntenna;
 class RadioAir {
  public:
   /// `world` must not be null.
-  RadioAir(std::shared_ptr<const RadioWorld> world, std::uint64_t seed);
+  explicit RadioAir(std::shared_ptr<const RadioWorld> world);
   ~RadioAir();
   RadioAir(RadioAir&&) noexcept;
   RadioAir& operator=(RadioAir&&) noexcept;
 
-  /// From its next update on; `antenna.radio` must be set. Readers take their antennas' turns in
-  /// the order in which they came. Its draws come from `seed`, or from that of all.
-  void add(const AntennaParameters& antenna, std::optional<std::uint64_t> seed = std::nullopt);
+  /// From its next update on; it must be a physical one. Readers take their antennas' turns in
+  /// the order in which they came.
+  void add(const AntennaParameters& antenna, std::uint64_t seed);
   /// Nothing where there is no such antenna.
   void remove(const std::string& antenna);
   /// The world is another one from now on; must not be null.
@@ -48,6 +48,11 @@ class RadioAir {
   /// no update, where `X_WA` is not finite. Throws Error if the antenna is not there.
   void update(const std::string& antenna, const RigidTransform& X_WA, Time now,
               const TagPopulation& tags, std::vector<TagReply>& replies);
+
+  /// The antenna never updates again, so nothing is waited for of it.
+  void expect_no_more_of(const std::string& antenna);
+  /// Up to then, no update to come yields a read that was made earlier.
+  [[nodiscard]] Time complete_until() const;
 
   /// What the antenna's slots came to; none without an inventory.
   [[nodiscard]] std::optional<InventoryCounts> counts(const std::string& antenna) const;
@@ -72,7 +77,6 @@ class RadioAir {
                      const TagPopulation& tags);
 
   std::shared_ptr<const RadioWorld> world_;
-  std::uint64_t seed_;
   std::unique_ptr<TagMemories> memories_;  ///< Where inventories can go on pointing to it.
   std::vector<std::unique_ptr<AirAntenna>> antennas_;  ///< As they came.
   std::vector<PortCycle> cycles_;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
-#include "tagfield/base/error.h"
+#include "tagfield/field/antenna_facts.h"
 
 namespace tagfield {
 namespace {
@@ -13,43 +14,44 @@ namespace {
 /// Half of the published antennas' range, so that a query visits some 30 columns.
 constexpr double kCell = 3.5;
 
-bool is_finite(const RigidTransform& X) {
-  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
-}
-
 std::shared_ptr<const RadioWorld> made(const FieldWorld& world, Diagnostics& diagnostics) {
   return std::make_shared<const RadioWorld>(radio_world(world.scene, world.materials, diagnostics));
 }
 
-}  // namespace
-
-RfidField::RfidField(std::vector<std::unique_ptr<FieldListener>> listeners)
-    : listeners_(std::move(listeners)), tags_(kCell) {}
-
-std::uint32_t RfidField::slot_of(std::uint32_t number) const {
-  if (number >= slots_.size() || !slots_[number]) {
-    throw Error(fmt::format("there is no tag of number {}", number));
-  }
-  return *slots_[number];
+std::shared_ptr<const RadioWorld> empty_unless(std::shared_ptr<const RadioWorld> world) {
+  Diagnostics nothing_to_say;
+  return world ? std::move(world) : made({}, nothing_to_say);
 }
 
+std::shared_ptr<const AntennaInfo> info_of(const FieldAntenna& antenna) {
+  const AntennaParameters& parameters = antenna.parameters;
+  return std::make_shared<const AntennaInfo>(AntennaInfo{
+      parameters.name, parameters.reader, antenna.sensor, antenna.name_space, antenna.frame_id,
+      antenna.parent_frame, nominal_range_m(parameters), antenna.is_fixed,
+      meets_world(parameters)});
+}
+
+}  // namespace
+
+RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world)
+    : telling_(std::move(outlets)),
+      tags_(kCell),
+      world_(empty_unless(std::move(world))),
+      air_(world_) {}
+
 void RfidField::add_antenna(const std::shared_ptr<const FieldAntenna>& antenna) {
-  if (antenna->parameters.radio) {
-    if (!world_) world_ = made({}, diagnostics_);
-    if (!air_) air_.emplace(world_, antenna->seed);
-    air_->add(antenna->parameters, antenna->seed);
-    physical_.push_back(antenna);
-  }
-  for (const auto& listener : listeners_) listener->antenna_added(*antenna);
+  const std::shared_ptr<const AntennaInfo> info = info_of(*antenna);
+  antennas_.push_back({antenna, info});
+  if (meets_world(antenna->parameters)) air_.add(antenna->parameters, antenna->seed);
+  for (const auto& listener : telling_.outlets().reads) listener->on_antenna_added(*info);
 }
 
 void RfidField::remove_antenna(const std::string& name) {
-  if (air_) air_->remove(name);
-  physical_.erase(
-      std::remove_if(physical_.begin(), physical_.end(),
-                     [&](const auto& antenna) { return antenna->parameters.name == name; }),
-      physical_.end());
-  for (const auto& listener : listeners_) listener->antenna_removed(name);
+  air_.remove(name);
+  antennas_.erase(std::remove_if(antennas_.begin(), antennas_.end(),
+                                 [&](const Antenna& known) { return known.info->name == name; }),
+                  antennas_.end());
+  for (const auto& listener : telling_.outlets().reads) listener->on_antenna_removed(name);
 }
 
 void RfidField::set_world(const FieldWorld& world) {
@@ -59,14 +61,18 @@ void RfidField::set_world(const FieldWorld& world) {
     diagnostics_.warn(fmt::format("the world is not taken over for waves: {}", error.what()));
     return;
   }
-  if (air_) air_->set_world(world_);
+  air_.set_world(world_);
 }
 
 /// The air with the antennas that there are, which remember nothing.
 void RfidField::begin_anew() {
-  if (!air_) return;
-  air_.emplace(world_, 0);
-  for (const auto& antenna : physical_) air_->add(antenna->parameters, antenna->seed);
+  telling_.tell(Time::max());
+  for (const auto& listener : telling_.outlets().reads) listener->on_restart();
+  air_ = RadioAir(world_);
+  for (const Antenna& known : antennas_) {
+    const FieldAntenna& antenna = *known.antenna;
+    if (meets_world(antenna.parameters)) air_.add(antenna.parameters, antenna.seed);
+  }
 }
 
 std::vector<std::string> RfidField::take_warnings() {
@@ -77,11 +83,31 @@ std::vector<std::string> RfidField::take_warnings() {
   return fresh;
 }
 
-void RfidField::remove(std::uint32_t number) {
+std::uint32_t RfidField::slot_of(std::uint32_t number) const {
+  if (number >= slots_.size() || !slots_[number]) {
+    throw Error(fmt::format("there is no tag of number {}", number));
+  }
+  return *slots_[number];
+}
+
+/// What knows the antenna by its name; a driver may tell more of it than when it was added.
+const std::shared_ptr<const AntennaInfo>& RfidField::info(
+    const std::shared_ptr<const FieldAntenna>& antenna) {
+  const std::string& name = antenna->parameters.name;
+  const auto known = std::find_if(antennas_.begin(), antennas_.end(),
+                                  [&](const Antenna& entry) { return entry.info->name == name; });
+  if (known == antennas_.end()) {
+    throw Error(fmt::format("there is no antenna '{}' in the field", name));
+  }
+  if (known->antenna != antenna) *known = {antenna, info_of(*antenna)};
+  return known->info;
+}
+
+void RfidField::remove(std::uint32_t number, Time stamp) {
   const std::uint32_t slot = slot_of(number);
-  if (air_) air_->forget_tag(slot);
-  tags_.population.remove(slot);
-  tags_.labels[slot].clear();
+  telling_.add_removed(stamp, tags_.id(slot));
+  air_.forget_tag(slot);
+  tags_.remove(slot);
   slots_[number].reset();
 }
 
@@ -92,62 +118,80 @@ void RfidField::add(const TagAdded& tag) {
   if (tag.number < slots_.size() && slots_[tag.number]) {
     throw Error(fmt::format("there is a tag of number {} already", tag.number));
   }
-  const std::uint32_t slot = tags_.population.add(tag.id, tag.X_WT.translation);
-  tags_.population.turn(slot, tag.X_WT.rotation);
-  if (tag.model) tags_.population.set_model(slot, tag.model);
-  if (slot >= tags_.labels.size()) tags_.labels.resize(slot + std::size_t{1});
-  tags_.labels[slot] = tag.label;
+  const std::uint32_t slot = tags_.add(tag.id, tag.X_WT.translation);
+  tags_.turn(slot, tag.X_WT.rotation);
+  if (tag.model) tags_.set_model(slot, tag.model);
   if (tag.number >= slots_.size()) slots_.resize(tag.number + std::size_t{1});
   slots_[tag.number] = slot;
 }
 
 void RfidField::move(const std::vector<TagMoved>& moved) {
-  moved_slots_.clear();
+  moved_.clear();
   for (const TagMoved& tag : moved) {
     if (!is_finite(tag.X_WT)) continue;
     const std::uint32_t slot = slot_of(tag.number);
-    tags_.population.move(slot, tag.X_WT.translation);
-    tags_.population.turn(slot, tag.X_WT.rotation);
-    moved_slots_.push_back(slot);
+    tags_.move(slot, tag.X_WT.translation);
+    tags_.turn(slot, tag.X_WT.rotation);
+    moved_.push_back(slot);
   }
 }
 
-void RfidField::read(const AntennaDue& due, Time stamp) {
-  const FieldAntenna& antenna = *due.antenna;
-  const AntennaParameters& parameters = antenna.parameters;
-  if (!parameters.radio) {
-    read_tags(parameters, due.X_WA.translation, stamp, antenna.seed, tags_.population, replies_);
-  } else if (air_) {
-    air_->update(parameters.name, due.X_WA, stamp, tags_.population, replies_);
-  } else {
-    throw Error(fmt::format("there is no antenna '{}' in the air", parameters.name));
+/// Tags that came and rest, by their slots; then those that moved, new ones among them.
+void RfidField::tell_places(const FieldStep& step) {
+  if (telling_.outlets().truth.empty()) return;
+  std::map<std::uint32_t, const TagAdded*> fresh;
+  for (const TagAdded& tag : step.added) fresh[slot_of(tag.number)] = &tag;
+  std::map<std::uint32_t, const TagAdded*> at_rest = fresh;
+  for (const std::uint32_t slot : moved_) at_rest.erase(slot);
+  const auto place = [&](std::uint32_t slot, Time since) {
+    return TagPosition{since, tags_.id(slot), tags_.position(slot)};
+  };
+  for (const auto& [slot, tag] : at_rest) {
+    telling_.add(step.stamp, place(slot, tag->since), tag->label);
   }
+  for (const std::uint32_t slot : moved_) {
+    const auto found = fresh.find(slot);
+    const bool is_new = found != fresh.end();
+    telling_.add(step.stamp, place(slot, step.stamp),
+                 is_new ? std::optional(found->second->label) : std::nullopt);
+  }
+  if (!step.removed.empty() || !step.added.empty() || !moved_.empty()) {
+    telling_.add_placed(step.stamp);
+  }
+  for (const AntennaPose& robot : step.robots) telling_.add_robot(robot);
 }
 
 void RfidField::update(const AntennaDue& due, Time stamp) {
+  const AntennaParameters& parameters = due.antenna->parameters;
+  const std::shared_ptr<const AntennaInfo>& antenna = info(due.antenna);
   if (!is_finite(due.X_WA)) return;
-  const FieldAntenna& antenna = *due.antenna;
-  read(due, stamp);
+  if (meets_world(parameters)) {
+    air_.update(parameters.name, due.X_WA, stamp, tags_, replies_);
+    if (due.is_last) air_.expect_no_more_of(parameters.name);
+  } else {
+    read_tags(parameters, due.X_WA.translation, stamp, due.antenna->seed, tags_, replies_);
+  }
   reads_ += static_cast<std::int64_t>(replies_.size());
-  const AntennaUpdate update{stamp, antenna, due.X_WA, due.X_PA, replies_, tags_};
-  for (const auto& listener : listeners_) listener->antenna_updated(update);
+  for (const TagReply& reply : replies_) {
+    telling_.add(to_read(parameters, tags_.id(reply.slot), reply), reply.distance_m);
+  }
+  telling_.add(antenna, stamp, due.X_WA, due.X_PA);
 }
 
 void RfidField::step(const FieldStep& step) {
+  if (!step.due.empty() && updated_ && step.stamp < *updated_) begin_anew();
   for (const std::string& antenna : step.antennas_removed) remove_antenna(antenna);
   if (step.world) set_world(*step.world);
   for (const auto& antenna : step.antennas_added) add_antenna(antenna);
-  for (const std::uint32_t number : step.removed) remove(number);
+  for (const std::uint32_t number : step.removed) remove(number, step.stamp);
   for (const TagAdded& tag : step.added) add(tag);
   move(step.moved);
-  for (const auto& listener : listeners_) {
-    if (!step.removed.empty() || !step.added.empty()) listener->tags_changed(step.stamp, tags_);
-    if (!moved_slots_.empty()) listener->tags_moved(step.stamp, moved_slots_, tags_);
-  }
-  if (step.due.empty()) return;
-  if (updated_ && step.stamp < *updated_) begin_anew();
-  updated_ = step.stamp;
+  tell_places(step);
+  if (!step.due.empty()) updated_ = step.stamp;
   for (const AntennaDue& due : step.due) update(due, step.stamp);
+  telling_.tell(std::min(step.stamp, air_.complete_until()));
 }
+
+void RfidField::finish() { telling_.tell(Time::max()); }
 
 }  // namespace tagfield

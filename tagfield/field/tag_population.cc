@@ -56,10 +56,11 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
   std::vector<std::uint32_t> slots;
   tags.index().within(p_WA, perturbed_range(antenna, stamp, seed), slots);
   replies.reserve(slots.size());
+  const double frequency_hz = paper(antenna).model.frequency_hz;
   for (const std::uint32_t slot : slots) {
     const LinkGeometry link = link_between(p_WA, tags.position(slot));
     const Signal signal = read_signal(antenna, antenna_key, tags.key(slot), link, stamp, seed);
-    replies.push_back({slot, stamp, antenna.model.frequency_hz, signal.phase_rad, signal.rssi_dbm,
+    replies.push_back({slot, stamp, frequency_hz, signal.phase_rad, signal.rssi_dbm,
                        link.distance_m, std::nullopt});
   }
 }

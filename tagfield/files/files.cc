@@ -1,12 +1,17 @@
 #include "tagfield/files/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "tagfield/base/error.h"
 
@@ -63,8 +68,36 @@ void write_text_file(const std::string& path, const std::string& text) {
   }
 }
 
+GrowingFile::GrowingFile(const fs::path& path, fs::path named)
+    : named_(std::move(named)),
+      file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (file_ < 0) fail({named_.string(), 0}, "can't be written (no permission?)");
+}
+
+GrowingFile::~GrowingFile() {
+  try {
+    flush();
+  } catch (const Error&) {  // Told where it mattered: by sync() or commit().
+  }
+  close(file_);
+}
+
+void GrowingFile::flush() {
+  std::string_view rest = text_;
+  while (!rest.empty()) {
+    const ssize_t written = write(file_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      text_.clear();
+      fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  text_.clear();
+}
+
 StagedFolder::StagedFolder(const fs::path& folder)
-    : folder_(folder), staging_(folder / fmt::format(".staging-{}", getpid())) {
+    : folder_(folder), staging_(folder / fmt::format("incomplete-{}", getpid())) {
   make_folder(folder_);
   std::error_code error;
   fs::create_directory(staging_, error);
@@ -72,8 +105,17 @@ StagedFolder::StagedFolder(const fs::path& folder)
 }
 
 StagedFolder::~StagedFolder() {
+  if (!growing_.empty()) return;  // Interrupted; its name says that it is incomplete.
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
+}
+
+std::shared_ptr<GrowingFile> StagedFolder::grow(const fs::path& name) {
+  const fs::path place = staging_ / name;
+  make_folder(place.parent_path());
+  growing_.push_back(std::make_shared<GrowingFile>(place, folder_ / name));
+  names_.push_back(name);
+  return growing_.back();
 }
 
 void StagedFolder::add(const fs::path& name, const std::string& text) {
@@ -84,6 +126,8 @@ void StagedFolder::add(const fs::path& name, const std::string& text) {
 }
 
 void StagedFolder::commit(const std::vector<fs::path>& stale) {
+  for (const auto& file : growing_) file->flush();
+  growing_.clear();
   for (const fs::path& name : names_) {
     make_folder((folder_ / name).parent_path());
     rename_over(staging_ / name, folder_ / name);

@@ -65,21 +65,26 @@ std::string covariance_fields(const AntennaPose& pose) {
 
 }  // namespace
 
+std::string poses_header(const std::string& who, bool has_covariance) {
+  std::string text = fmt::format("stamp_s,{},x_m,y_m,z_m,qx,qy,qz,qw", who);
+  for (const char* name : kCovariance) text += has_covariance ? fmt::format(",{}", name) : "";
+  return text + '\n';
+}
+
+void append_row(const AntennaPose& pose, bool has_covariance, std::string& text) {
+  const Eigen::Vector3d& p = pose.X_WA.translation;
+  const Eigen::Quaterniond& q = pose.X_WA.rotation;
+  fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}{}\n",
+                 format_stamp(pose.stamp), csv_field(pose.antenna), p.x(), p.y(), p.z(), q.x(),
+                 q.y(), q.z(), q.w(), has_covariance ? covariance_fields(pose) : "");
+}
+
 std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::string& who) {
   const bool any_covariance = std::any_of(poses.begin(), poses.end(), [](const AntennaPose& pose) {
     return pose.covariance.has_value();
   });
-  std::string text = fmt::format("stamp_s,{},x_m,y_m,z_m,qx,qy,qz,qw", who);
-  for (const char* name : kCovariance) text += any_covariance ? fmt::format(",{}", name) : "";
-  text += '\n';
-  const auto out = std::back_inserter(text);
-  for (const AntennaPose& pose : poses) {
-    const Eigen::Vector3d& p = pose.X_WA.translation;
-    const Eigen::Quaterniond& q = pose.X_WA.rotation;
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}{}\n", format_stamp(pose.stamp),
-                   csv_field(pose.antenna), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(),
-                   any_covariance ? covariance_fields(pose) : "");
-  }
+  std::string text = poses_header(who, any_covariance);
+  for (const AntennaPose& pose : poses) append_row(pose, any_covariance, text);
   return text;
 }
 

@@ -10,6 +10,10 @@
 
 namespace tagfield {
 
+/// The header line, `who` being the column of names, and a pose's line at the end of `text`.
+std::string poses_header(const std::string& who, bool has_covariance);
+void append_row(const AntennaPose& pose, bool has_covariance, std::string& text);
+
 /// Text of the table, a row a pose in the order given; `who` heads the column of names. Stamps and
 /// numbers are exact: read back, each is the same bit by bit.
 std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::string& who = "antenna");

@@ -10,20 +10,26 @@
 
 namespace tagfield {
 
+std::string reads_header(bool has_doppler) {
+  return fmt::format("stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm{}\n",
+                     has_doppler ? ",doppler_hz" : "");
+}
+
+void append_row(const TagRead& read, bool has_doppler, std::string& text) {
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{},{},{},{},{},{:.6f},{}", format_stamp(read.stamp), csv_field(read.reader),
+                 csv_field(read.antenna), csv_field(read.tag), read.frequency_hz, read.phase_rad,
+                 read.rssi_dbm);
+  if (has_doppler) text += ',';
+  if (read.doppler_hz) fmt::format_to(out, "{}", *read.doppler_hz);
+  text += '\n';
+}
+
 std::string reads_to_csv(const std::vector<TagRead>& reads) {
   const bool has_doppler = std::any_of(
       reads.begin(), reads.end(), [](const TagRead& read) { return read.doppler_hz.has_value(); });
-  std::string text = "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm";
-  text += has_doppler ? ",doppler_hz\n" : "\n";
-  const auto out = std::back_inserter(text);
-  for (const TagRead& read : reads) {
-    fmt::format_to(out, "{},{},{},{},{},{:.6f},{}", format_stamp(read.stamp),
-                   csv_field(read.reader), csv_field(read.antenna), csv_field(read.tag),
-                   read.frequency_hz, read.phase_rad, read.rssi_dbm);
-    if (has_doppler) text += ',';
-    if (read.doppler_hz) fmt::format_to(out, "{}", *read.doppler_hz);
-    text += '\n';
-  }
+  std::string text = reads_header(has_doppler);
+  for (const TagRead& read : reads) append_row(read, has_doppler, text);
   return text;
 }
 

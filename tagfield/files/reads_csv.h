@@ -10,6 +10,11 @@
 
 namespace tagfield {
 
+/// The header line, and a read's line at the end of `text`: with the column doppler_hz, or without
+/// where no read tells it.
+std::string reads_header(bool has_doppler);
+void append_row(const TagRead& read, bool has_doppler, std::string& text);
+
 /// Text of the table, a row a read in the order given. Stamps are exact, phase has six decimals.
 std::string reads_to_csv(const std::vector<TagRead>& reads);
 

@@ -8,26 +8,24 @@
 #include "tagfield/files/poses_csv.h"
 
 namespace tagfield {
-namespace {
 
-std::string tags_to_csv(const std::vector<TagPosition>& positions) {
-  std::string text = "stamp_s,tag,x_m,y_m,z_m\n";
-  const auto out = std::back_inserter(text);
-  for (const TagPosition& position : positions) {
-    const Eigen::Vector3d& p = position.p_WT;
-    fmt::format_to(out, "{},{},{},{},{}\n", format_stamp(position.stamp), csv_field(position.tag),
-                   p.x(), p.y(), p.z());
-  }
-  return text;
+void append_row(const TagPosition& position, std::string& text) {
+  const Eigen::Vector3d& p = position.p_WT;
+  fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", format_stamp(position.stamp),
+                 csv_field(position.tag), p.x(), p.y(), p.z());
 }
 
-std::string distances_to_csv(const std::vector<TrueDistance>& distances) {
-  std::string text = "stamp_s,antenna,tag,distance_m\n";
-  const auto out = std::back_inserter(text);
-  for (const TrueDistance& distance : distances) {
-    fmt::format_to(out, "{},{},{},{}\n", format_stamp(distance.stamp), csv_field(distance.antenna),
-                   csv_field(distance.tag), distance.distance_m);
-  }
+void append_row(const TrueDistance& distance, std::string& text) {
+  fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", format_stamp(distance.stamp),
+                 csv_field(distance.antenna), csv_field(distance.tag), distance.distance_m);
+}
+
+namespace {
+
+template <class Rows>
+std::string table_of(const char* header, const Rows& rows) {
+  std::string text = header;
+  for (const auto& row : rows) append_row(row, text);
   return text;
 }
 
@@ -49,8 +47,8 @@ std::vector<TagPosition> read_tags_csv(const std::string& path) {
 void stage_truth(const Truth& truth, StagedFolder& folder) {
   folder.add("truth/antenna_poses.csv", poses_to_csv(truth.antenna_poses));
   folder.add("truth/robot_poses.csv", poses_to_csv(truth.robot_poses, "robot"));
-  folder.add("truth/tags.csv", tags_to_csv(truth.tag_positions));
-  folder.add("truth/distances.csv", distances_to_csv(truth.distances));
+  folder.add("truth/tags.csv", table_of(kTagsHeader, truth.tag_positions));
+  folder.add("truth/distances.csv", table_of(kDistancesHeader, truth.distances));
 }
 
 Truth read_truth(const std::string& run_folder) {

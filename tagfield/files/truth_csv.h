@@ -9,6 +9,13 @@
 
 namespace tagfield {
 
+inline constexpr const char* kTagsHeader = "stamp_s,tag,x_m,y_m,z_m\n";
+inline constexpr const char* kDistancesHeader = "stamp_s,antenna,tag,distance_m\n";
+
+/// A line at the end of `text`.
+void append_row(const TagPosition& position, std::string& text);
+void append_row(const TrueDistance& distance, std::string& text);
+
 /// Adds truth/antenna_poses.csv, truth/robot_poses.csv, truth/tags.csv (`stamp_s,tag,x_m,y_m,z_m`)
 /// and truth/distances.csv (`stamp_s,antenna,tag,distance_m`).
 void stage_truth(const Truth& truth, StagedFolder& folder);

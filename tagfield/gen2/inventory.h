@@ -62,6 +62,8 @@ class Inventory {
   void run_until(Time time, std::vector<Singulation>& out);
 
   [[nodiscard]] bool on() const { return on_; }
+  /// No read to come is stamped earlier: one whose slot is open may be older than the last call.
+  [[nodiscard]] Time next_read_after() const { return in_slot_ ? slot_.epc : Time::max(); }
   [[nodiscard]] const InventoryCounts& counts() const { return counts_; }
   /// Q of the last Query or QueryAdjust, or the next if it is due.
   [[nodiscard]] int q() const { return q_; }

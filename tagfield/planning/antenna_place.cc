@@ -16,8 +16,8 @@ constexpr double kLeastDistance = 0.01;
 AntennaPlace::AntennaPlace(const Scenario& scenario, const AntennaSpec& antenna,
                            const RadioWorld& world, const RigidTransform& X_WA, std::uint64_t seed)
     : antenna_(antenna), p_WA_(X_WA.translation) {
-  const auto& model = antenna.parameters.radio;
-  if (!model) return;
+  const RadioModel* const model = physical(antenna.parameters);
+  if (model == nullptr) return;
   carriers_hz_ = sampled_carriers(*model);
   const double middle_hz = carriers_hz_[carriers_hz_.size() / 2];
   const RadioPort port = port_of(scenario, antenna.parameters, seed);
@@ -32,9 +32,9 @@ double AntennaPlace::distance(const Eigen::Vector3d& p_WT) const {
 CoverageCell AntennaPlace::look_by_paper(double distance_m) const {
   const AntennaParameters& parameters = antenna_.parameters;
   CoverageCell seen;
-  seen.power_dbm = paper_rssi_dbm(parameters.model, distance_m, 0.0);
+  seen.power_dbm = paper_rssi_dbm(paper(parameters).model, distance_m, 0.0);
   seen.reply_dbm = seen.power_dbm;
-  seen.margin_db = 40.0 * std::log10(parameters.range_m / distance_m);
+  seen.margin_db = 40.0 * std::log10(paper(parameters).range_m / distance_m);
   seen.probability = read_probability(parameters, distance_m);
   return seen;
 }
@@ -47,7 +47,7 @@ CoverageCell AntennaPlace::look(const TagEnd& tag, const Orientations& orientati
 }
 
 double AntennaPlace::most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
-  if (!view_) return 40.0 * std::log10(antenna_.parameters.range_m / distance(p_WT));
+  if (!view_) return 40.0 * std::log10(paper(antenna_.parameters).range_m / distance(p_WT));
   return tagfield::most_margin_db(view_->model, tag, distance(p_WT));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/planning/antenna_place.h"
 #include "tagfield/planning/tag_coverage.h"
 #include "tagfield/simulator/simulation.h"
@@ -97,7 +98,7 @@ CoverageAntenna antenna_of(const Scenario& scenario, const std::vector<DriveSamp
   const AntennaParameters& parameters = scenario.antennas[index].parameters;
   CoverageAntenna antenna;
   antenna.name = parameters.name;
-  antenna.by_paper = parameters.radio == nullptr;
+  antenna.by_paper = !meets_world(parameters);
   for (const std::size_t i : places_of(samples, index)) {
     antenna.places_W.push_back(samples[i].X_WA[index].translation);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/field/port_turns.h"
 #include "tagfield/planning/link_budget_lines.h"
 #include "tagfield/planning/link_verdict.h"
@@ -20,7 +21,7 @@ constexpr double kLeastDistance = 1e-3;
 std::vector<AntennaParameters> physical_antennas(const Scenario& scenario) {
   std::vector<AntennaParameters> all;
   for (const AntennaSpec& antenna : scenario.antennas) {
-    if (antenna.parameters.radio) all.push_back(antenna.parameters);
+    if (meets_world(antenna.parameters)) all.push_back(antenna.parameters);
   }
   return all;
 }
@@ -36,14 +37,15 @@ PaperLink paper_link(const LinkQuestion& question, double distance_m) {
   const AntennaParameters& antenna = question.antenna.parameters;
   const double apart_m = std::max(distance_m, kLeastDistance);
   PaperLink link;
-  link.range_m = antenna.range_m;
+  const PaperAntenna& model = paper(antenna);
+  link.range_m = model.range_m;
   link.update = update_stamp(
       antenna,
       std::max<std::int64_t>(first_update_at(antenna, question.time + Duration(1)) - 1, 0));
   link.perturbed_range_m = perturbed_range(antenna, link.update, question.seed);
   link.read_probability = read_probability(antenna, distance_m);
-  link.phase_rad = paper_phase(antenna.model, apart_m, 0.0);
-  link.rssi_dbm = paper_rssi_dbm(antenna.model, apart_m, 0.0);
+  link.phase_rad = paper_phase(model.model, apart_m, 0.0);
+  link.rssi_dbm = paper_rssi_dbm(model.model, apart_m, 0.0);
   return link;
 }
 
@@ -63,7 +65,7 @@ void add_receiver(const RadioModel& model, const RadioLink& of_link, const Carri
 
 PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& question) {
   const AntennaParameters& antenna = question.antenna.parameters;
-  const RadioModel& model = *antenna.radio;
+  const RadioModel& model = *physical(antenna);
   const std::shared_ptr<const RadioWorld> world = radio_world_of(scenario);
   const RadioPort port = port_of(scenario, antenna, question.seed);
   const CarrierNow carrier = carrier_at(model, port, question.time);
@@ -98,10 +100,11 @@ double normal_above(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 }  // namespace
 
 double read_probability(const AntennaParameters& antenna, double distance_m) {
-  const double share = distance_m / antenna.range_m;
-  if (!(antenna.range_sigma > 0.0)) return share <= 1.0 ? 1.0 : 0.0;
-  const double probability = normal_above((share - 1.0) / antenna.range_sigma) +
-                             normal_above((share + 1.0) / antenna.range_sigma);
+  const auto& [model, range_m, range_sigma] = paper(antenna);
+  const double share = distance_m / range_m;
+  if (!(range_sigma > 0.0)) return share <= 1.0 ? 1.0 : 0.0;
+  const double probability =
+      normal_above((share - 1.0) / range_sigma) + normal_above((share + 1.0) / range_sigma);
   return std::clamp(probability, 0.0, 1.0);
 }
 
@@ -126,7 +129,7 @@ LinkExplanation explain_link(const Scenario& scenario, const LinkQuestion& quest
   link.X_WT = question.X_WT;
   link.distance_m = (question.X_WT.translation - question.X_WA.translation).norm();
   link.absent = absence_of(question.tag, question.time);
-  if (question.antenna.parameters.radio) {
+  if (meets_world(question.antenna.parameters)) {
     link.physical = physical_link(scenario, question);
   } else {
     link.paper = paper_link(question, link.distance_m);

@@ -81,7 +81,7 @@ void judge_physical(const LinkQuestion& question, LinkExplanation& link) {
   if (!physical.arrives && (is_blocked(physical.between) || is_blocked(physical.between_return))) {
     link.verdict = "not read: blocked by " + what;
   } else if (!physical.heard()) {
-    const RadioModel& model = *question.antenna.parameters.radio;
+    const RadioModel& model = *tagfield::physical(question.antenna.parameters);
     link.verdict = "not read: " + margins(physical) +
                    (what.empty() ? cause(model, tag, link) : ", behind " + what);
   } else if (!has_turn) {

@@ -29,6 +29,10 @@ struct RigidTransform {
   }
 };
 
+inline bool is_finite(const RigidTransform& X) {
+  return X.translation.allFinite() && X.rotation.coeffs().allFinite();
+}
+
 /// `quaternion` as a rotation: as it is where its length is 1 within 1e-9, so that what was written
 /// out comes back the same; normalized where it is 0.9 to 1.1; none otherwise.
 std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion);

@@ -1,10 +1,11 @@
 /// @file
-/// A reader's antenna and the reads it makes.
+/// A reader's antenna: the paper's, or a physical one.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "tagfield/base/time.h"
 #include "tagfield/channel/paper_model.h"
@@ -14,18 +15,27 @@
 
 namespace tagfield {
 
-/// An antenna's parameters; the defaults are Table 1's mobile antenna with gain 1.
+/// The paper's antenna reads all tags within a range; the defaults are Table 1's mobile antenna with
+/// gain 1.
+struct PaperAntenna {
+  PaperModel model;
+  double range_m = 7.0;       ///< Nominal range r; greater than 0.
+  double range_sigma = 0.05;  ///< σr: relative spread of the range; 0 or more.
+};
+
+/// What an antenna is simulated by. Of what it is, field/ alone asks.
+using AntennaModel = std::variant<PaperAntenna, std::shared_ptr<const RadioModel>>;
+
+/// An antenna's parameters.
 struct AntennaParameters {
   std::string reader = "reader";  ///< Name of the reader that the antenna belongs to.
   std::string name;               ///< Unique over all readers.
   double rate_hz = 15.0;          ///< Updates a second; greater than 0.
-  double range_m = 7.0;           ///< Nominal range r; greater than 0.
-  double range_sigma = 0.05;      ///< σr: relative spread of the range; 0 or more.
-  PaperModel model;
-  std::shared_ptr<const RadioModel> radio;  ///< Instead of `model` and the range, where it is set.
+  AntennaModel model;
 };
 
-/// Throws Error naming the parameter that is out of its range or not finite.
+/// Throws Error naming the parameter that is out of its range or not finite. A physical model is
+/// checked where it is made.
 void check(const AntennaParameters& antenna);
 
 /// Stamp of the antenna's update `number` (0, 1, …): number/rate, to the nanosecond.
@@ -33,6 +43,22 @@ Time update_stamp(const AntennaParameters& antenna, std::int64_t number);
 
 /// Number of the first update at or after `time`.
 std::int64_t first_update_at(const AntennaParameters& antenna, Time time);
+
+/// The paper's parameters of an antenna that has them; throws std::bad_variant_access otherwise.
+inline PaperAntenna& paper(AntennaParameters& antenna) {
+  return std::get<PaperAntenna>(antenna.model);
+}
+inline const PaperAntenna& paper(const AntennaParameters& antenna) {
+  return std::get<PaperAntenna>(antenna.model);
+}
+
+/// The physical model of an antenna that has one; null for the paper's.
+inline const RadioModel* physical(const AntennaParameters& antenna) {
+  const auto* const model = std::get_if<std::shared_ptr<const RadioModel>>(&antenna.model);
+  return model == nullptr ? nullptr : model->get();
+}
+
+// Of paper's antennas alone:
 
 /// How far the antenna reads in its update at `stamp` [m]: r·|1 + n_r|, n_r ~ N(0, σr²), drawn once
 /// for each update (section III-A of the paper). The draw is a function of seed, antenna, stamp.
@@ -43,8 +69,7 @@ double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64
 Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
                    std::uint64_t tag_key, const LinkGeometry& link, Time stamp, std::uint64_t seed);
 
-/// The read of the tag `tag` at the other end of `link`, with the noise of
-/// read_signal().
+/// The read of the tag `tag` at the other end of `link`, with the noise of read_signal().
 TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,
                  Time stamp, std::uint64_t seed);
 

@@ -107,4 +107,12 @@ struct Scenario {
   TrackingSpec tracking;
 };
 
+/// IDs of all tags, in the scenario's order.
+inline std::vector<std::string> tags_of(const Scenario& scenario) {
+  std::vector<std::string> tags;
+  tags.reserve(scenario.tags.size());
+  for (const TagSpec& tag : scenario.tags) tags.push_back(tag.id);
+  return tags;
+}
+
 }  // namespace tagfield

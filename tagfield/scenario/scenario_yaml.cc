@@ -8,8 +8,9 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
+#include "tagfield/field/antenna_facts.h"
+#include "tagfield/scenario/internal/antenna_model_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
-#include "tagfield/scenario/internal/radio_yaml.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/recorded_motion.h"
 #include "tagfield/scenario/tag_table.h"
@@ -88,31 +89,6 @@ Lift lift_of(YamlMap map) {
   return lift;
 }
 
-OptionalDistribution distribution_of(YamlMap& map) {
-  const std::vector<double> parameters = map.has("optional_distribution_params")
-                                             ? map.at("optional_distribution_params").numbers(0)
-                                             : std::vector<double>{};
-  if (!map.has("optional_distribution")) return {};
-  if (parameters.empty()) map.complain_of_slip("optional_distribution_params");
-  const YamlValue name = map.at("optional_distribution");
-  try {
-    return make_distribution(name.text(), parameters);
-  } catch (const Error& error) {
-    fail(name.location(), fmt::format("{}: {}", name.path(), error.what()));
-  }
-}
-
-PaperModel paper_model_of(YamlMap& map) {
-  PaperModel model;
-  model.frequency_hz = map.number("frequency_hz", model.frequency_hz, kPositive);
-  model.phase_offset_rad = map.number("phase_offset_rad", model.phase_offset_rad);
-  model.phase_noise_rad = map.number("phase_noise_rad", model.phase_noise_rad, kNotNegative);
-  model.rssi_noise = map.number("rssi_noise", model.rssi_noise, kNotNegative);
-  model.communication_gain = map.number("communication_gain", model.communication_gain, kPositive);
-  model.optional = distribution_of(map);
-  return model;
-}
-
 AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics) {
   AntennaSpec antenna;
   AntennaParameters& parameters = antenna.parameters;
@@ -120,10 +96,7 @@ AntennaSpec antenna_of(YamlMap map, const RadioDefaults& radio, Diagnostics& dia
   parameters.name = map.at("name").text();
   parameters.reader = map.text("reader", parameters.reader);
   parameters.rate_hz = map.number("rate_hz", parameters.rate_hz, kPositive);
-  parameters.range_m = map.number("range_m", parameters.range_m, kPositive);
-  parameters.range_sigma = map.number("range_sigma", parameters.range_sigma, kNotNegative);
-  parameters.model = paper_model_of(map);
-  parameters.radio = radio_model_of(map, radio, diagnostics);
+  parameters.model = antenna_model_of(map, radio, diagnostics);
   antenna.on = map.text("on", "");
   const bool is_recorded = map.has("recorded");
   if (!is_recorded || map.has("pose")) antenna.X_PA = pose_of(map.at("pose"));
@@ -276,9 +249,9 @@ TrackingSpec tracking_of(YamlMap map) {
 void require_power_for_tags(const Scenario& scenario) {
   double most_dbm = -std::numeric_limits<double>::infinity();
   for (const AntennaSpec& antenna : scenario.antennas) {
-    const auto& radio = antenna.parameters.radio;
-    if (!radio) return;
-    most_dbm = std::max(most_dbm, radio->transmit_power_dbm);
+    const std::optional<double> power_dbm = transmit_power_dbm(antenna.parameters);
+    if (!power_dbm) return;
+    most_dbm = std::max(most_dbm, *power_dbm);
   }
   for (const TagSpec& tag : scenario.tags) {
     if (!tag.model || tag.model->sensitivity_dbm < most_dbm) continue;
@@ -357,7 +330,7 @@ Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
 bool any_physical(const Scenario& scenario) {
   return std::any_of(
       scenario.antennas.begin(), scenario.antennas.end(),
-      [](const AntennaSpec& antenna) { return antenna.parameters.radio != nullptr; });
+      [](const AntennaSpec& antenna) { return meets_world(antenna.parameters); });
 }
 
 void require_end(const Scenario& scenario, const std::string& path) {
@@ -366,6 +339,30 @@ void require_end(const Scenario& scenario, const std::string& path) {
     fail({path, 0},
          "has no 'duration_s', which must be given where no robot has waypoints and no antenna is "
          "recorded");
+  }
+}
+
+/// A scenario, and what is wrong with it if none of its antennas is a physical one.
+struct ReadScenario {
+  Scenario scenario;
+  std::optional<Error> without_physical_antenna;
+};
+
+void require_use_of_keys(const ReadScenario& read) {
+  if (read.without_physical_antenna && !any_physical(read.scenario)) {
+    throw Error(*read.without_physical_antenna);
+  }
+}
+
+ReadScenario read_scenario(const std::string& path, const std::vector<Override>& overrides,
+                           Diagnostics& diagnostics) {
+  const YAML::Node root = read_yaml(path);
+  for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
+  try {
+    YamlMap map(YamlValue(root, path, ""));
+    return {scenario_of(map, diagnostics), key_without_physical_antenna(map)};
+  } catch (const YAML::Exception& error) {
+    fail({path, error.mark.line + 1}, error.msg);
   }
 }
 
@@ -381,13 +378,10 @@ Override parse_override(const std::string& argument) {
 
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
                        Diagnostics& diagnostics) {
-  const YAML::Node root = read_yaml(path);
-  for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
-  try {
-    return scenario_of(YamlMap(YamlValue(root, path, "")), diagnostics);
-  } catch (const YAML::Exception& error) {
-    fail({path, error.mark.line + 1}, error.msg);
-  }
+  const ReadScenario read = read_scenario(path, overrides, diagnostics);
+  // The world of one that has it may bring antennas.
+  if (read.scenario.world.path.empty()) require_use_of_keys(read);
+  return read.scenario;
 }
 
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
@@ -400,7 +394,8 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            Diagnostics& diagnostics) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
-  scenario = load_scenario(path, overrides, diagnostics);
+  ReadScenario read = read_scenario(path, overrides, diagnostics);
+  scenario = read.scenario;
   if (!scenario.world.path.empty()) {
     loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
     add_placements(loaded.scene, scenario, diagnostics);
@@ -409,6 +404,8 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
     scenario.radio_world = std::make_shared<const RadioWorld>(
         radio_world(loaded.scene, scenario.materials, diagnostics));
   }
+  read.scenario.antennas = scenario.antennas;
+  require_use_of_keys(read);
   if (scenario.antennas.empty()) {
     fail({path, 0}, "no antennas: neither the scenario nor its world has one");
   }

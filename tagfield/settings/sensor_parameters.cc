@@ -23,28 +23,34 @@ double number_of(const RawParameter& parameter, const std::string& text) {
   return *value;
 }
 
+/// All numbers that a sensor's plugin may tell, with the published defaults, which differ from a
+/// scenario's.
+struct Numbers {
+  PaperAntenna paper{{865.7e6, 0.0, 0.1, 0.005, 250.0, {}}, 5.0, 0.05};
+  double rate_hz = 15.0;
+};
+
 struct NumberSetting {
   const char* key;
   bool published;  ///< And so to be missed where it is not given,
   bool physical;   ///< by physical models too.
-  double& (*field)(AntennaParameters&);
+  double& (*field)(Numbers&);
 };
 
 const std::array<NumberSetting, 8>& number_settings() {
   static const std::array<NumberSetting, 8> all = {{
       {"frequency", true, true,
-       [](AntennaParameters& a) -> double& { return a.model.frequency_hz; }},
+       [](Numbers& n) -> double& { return n.paper.model.frequency_hz; }},
       {"noisephi", true, false,
-       [](AntennaParameters& a) -> double& { return a.model.phase_noise_rad; }},
-      {"noiserssi", true, false,
-       [](AntennaParameters& a) -> double& { return a.model.rssi_noise; }},
-      {"range", true, false, [](AntennaParameters& a) -> double& { return a.range_m; }},
+       [](Numbers& n) -> double& { return n.paper.model.phase_noise_rad; }},
+      {"noiserssi", true, false, [](Numbers& n) -> double& { return n.paper.model.rssi_noise; }},
+      {"range", true, false, [](Numbers& n) -> double& { return n.paper.range_m; }},
       {"communication_gain", true, false,
-       [](AntennaParameters& a) -> double& { return a.model.communication_gain; }},
-      {"update_rate", true, true, [](AntennaParameters& a) -> double& { return a.rate_hz; }},
+       [](Numbers& n) -> double& { return n.paper.model.communication_gain; }},
+      {"update_rate", true, true, [](Numbers& n) -> double& { return n.rate_hz; }},
       {"phase_offset", false, true,
-       [](AntennaParameters& a) -> double& { return a.model.phase_offset_rad; }},
-      {"range_sigma", false, false, [](AntennaParameters& a) -> double& { return a.range_sigma; }},
+       [](Numbers& n) -> double& { return n.paper.model.phase_offset_rad; }},
+      {"range_sigma", false, false, [](Numbers& n) -> double& { return n.paper.range_sigma; }},
   }};
   return all;
 }
@@ -62,15 +68,6 @@ const std::vector<std::string>& text_settings() {
   return all;
 }
 
-/// The published defaults, which differ from a scenario's.
-AntennaParameters published_defaults() {
-  AntennaParameters antenna;
-  antenna.range_m = 5.0;
-  antenna.model.rssi_noise = 0.005;
-  antenna.model.communication_gain = 250.0;
-  return antenna;
-}
-
 const RawParameter* find(const std::vector<RawParameter>& parameters, const std::string& key) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](const RawParameter& p) { return p.key == key; });
@@ -83,20 +80,23 @@ std::string text_of(const std::vector<RawParameter>& parameters, const std::stri
   return given == nullptr || given->value.empty() ? otherwise : given->value;
 }
 
-void set_numbers(const std::vector<RawParameter>& parameters, const Location& location,
-                 AntennaParameters& antenna, Diagnostics& diagnostics) {
+Numbers numbers_in(const std::vector<RawParameter>& parameters, const Location& location,
+                   const std::string& antenna, bool is_physical, Diagnostics& diagnostics) {
+  Numbers numbers;
   std::vector<std::string> missing;
   for (const NumberSetting& setting : number_settings()) {
-    double& field = setting.field(antenna);
+    double& field = setting.field(numbers);
     if (const RawParameter* const given = find(parameters, setting.key)) {
       field = number_of(*given, given->value);
-    } else if (setting.published && (setting.physical || !antenna.radio)) {
+    } else if (setting.published && (setting.physical || !is_physical)) {
       missing.push_back(fmt::format("<{}> {:g}", setting.key, field));
     }
   }
-  if (missing.empty()) return;
-  diagnostics.warn(location, fmt::format("antenna '{}' leaves to their defaults: {}", antenna.name,
-                                         fmt::join(missing, ", ")));
+  if (!missing.empty()) {
+    diagnostics.warn(location, fmt::format("antenna '{}' leaves to their defaults: {}", antenna,
+                                           fmt::join(missing, ", ")));
+  }
+  return numbers;
 }
 
 void set_distribution(const std::vector<RawParameter>& parameters, PaperModel& model) {
@@ -167,12 +167,18 @@ std::vector<double> numbers_of(const RawParameter& parameter) {
 SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParameter>& parameters,
                            const Location& location, Diagnostics& diagnostics) {
   SensorAntenna antenna;
-  antenna.parameters = published_defaults();
   antenna.parameters.name = text_of(parameters, "antenna", sensor);
   antenna.parameters.reader = text_of(parameters, "reader", antenna.parameters.name);
-  antenna.parameters.radio = sensor_radio(parameters, location, diagnostics);
-  set_numbers(parameters, location, antenna.parameters, diagnostics);
-  set_distribution(parameters, antenna.parameters.model);
+  const auto radio = sensor_radio(parameters, location, diagnostics);
+  Numbers numbers =
+      numbers_in(parameters, location, antenna.parameters.name, radio != nullptr, diagnostics);
+  set_distribution(parameters, numbers.paper.model);
+  antenna.parameters.rate_hz = numbers.rate_hz;
+  if (radio) {
+    antenna.parameters.model = radio;
+  } else {
+    antenna.parameters.model = numbers.paper;
+  }
   antenna.seed = seed_from(parameters);
   antenna.name_space = text_of(parameters, "robotNamespace", "");
   antenna.frame_id = text_of(parameters, "frame_id", antenna.parameters.name);

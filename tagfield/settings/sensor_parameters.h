@@ -29,7 +29,7 @@ namespace tagfield {
 /// `frame_id` (of the messages; default: the antenna's name), `parent_frame` (the link of the same
 /// model that the frame is told to hang from; none where it is not told).
 ///
-/// With a physical model `parameters.radio` is set by sensor_radio() from all settings of
+/// With a physical model `parameters.model` is made by sensor_radio() from all settings of
 /// radio_settings.h, and of the published parameters only `frequency` and `update_rate` count.
 struct SensorAntenna {
   AntennaParameters parameters;

@@ -104,7 +104,7 @@ constexpr double kBeliefInterval = 0.1;
 
 /// The drive, once there is a map.
 void drive(const Scenario& scenario, const RunControl& control, const NavigationWorld& world,
-           Simulation& simulation, NavigationRun& navigation, Recording& recording) {
+           Simulation& simulation, NavigationRun& navigation) {
   TouchWatch touches(world, navigation);
   if (navigation.survey) {
     for (const StampedPose& pose : navigation.survey->true_path) {
@@ -116,7 +116,7 @@ void drive(const Scenario& scenario, const RunControl& control, const Navigation
   std::optional<Time> believed;
   while (!simulation.finished() && !stopped(control)) {
     const Time begin = simulation.now();
-    simulation.step(recording);
+    simulation.step();
     const bool is_due = !believed || to_seconds(begin - *believed) >= kBeliefInterval;
     if (is_due) believed = begin;
     for (const Robot& robot : simulation.robots()) {
@@ -144,11 +144,12 @@ void gather_outcomes(const Simulation& simulation, NavigationRun& navigation) {
 }  // namespace
 
 NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
-                            const NavigationWorld& world, Recording& recording) {
+                            const NavigationWorld& world, Outlets outlets) {
   NavigatedRun run;
   const SelfDriving driving = find_map(scenario, seed, control, world, run.navigation);
-  Simulation simulation(scenario, driving, seed);
-  drive(scenario, control, world, simulation, run.navigation, recording);
+  Simulation simulation(scenario, seed, std::move(outlets), &driving);
+  drive(scenario, control, world, simulation, run.navigation);
+  simulation.finish();
   gather_outcomes(simulation, run.navigation);
   run.complete = simulation.finished();
   run.simulated_s = to_seconds(simulation.now());

@@ -37,9 +37,9 @@ struct NavigatedRun {
   double path_length_m = 0.0;
 };
 
-/// Makes the map, where the scenario gives none, and drives by it. What antennas read goes into
-/// `recording`.
+/// Makes the map, where the scenario gives none, and drives by it. `outlets` are told what antennas
+/// read.
 NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
-                            const NavigationWorld& world, Recording& recording);
+                            const NavigationWorld& world, Outlets outlets);
 
 }  // namespace tagfield

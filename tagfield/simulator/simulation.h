@@ -1,54 +1,42 @@
 /// @file
-/// The headless simulator: a clock with a fixed step, robots, antennas and tags.
+/// The headless driver of a field: a clock with a fixed step, robots, lifts, and tags that move and
+/// come and go.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "tagfield/field/radio_air.h"
-#include "tagfield/field/tag_population.h"
+#include "tagfield/field/field_driver.h"
+#include "tagfield/field/rfid_field.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/simulator/navigation_world.h"
 #include "tagfield/simulator/robot.h"
-#include "tagfield/stream/truth.h"
+#include "tagfield/simulator/self_driving.h"
+#include "tagfield/simulator/tag_schedule.h"
 
 namespace tagfield {
 
-/// What a run yields, in order of time.
-struct Recording {
-  std::vector<TagRead> reads;
-  std::vector<AntennaPose> believed_poses;  ///< A fixed antenna has one row.
-  Truth truth;
-};
-
-/// What a robot that finds its way by itself begins with.
-struct SelfDriving {
-  const NavigationWorld* world = nullptr;
-  const OccupancyGrid* map = nullptr;
-  PlanarPose true_start;  ///< Of the robot that mapped; others begin where they are put.
-  PoseEstimate start;     ///< What that robot believes of it, where it is told.
-};
-
-/// Runs a scenario step by step. Tags and antennas can be added and removed between any two steps.
-/// The same scenario and seed give the same recording.
+/// Runs a scenario step by step and tells its outlets what comes of it. Tags and antennas can be
+/// added and removed between any two steps. The same scenario and seed tell the same.
 class Simulation {
  public:
-  /// Throws Error on a scenario that can't be simulated: an ID used twice, an unknown robot, a
-  /// parameter out of range.
-  Simulation(const Scenario& scenario, std::uint64_t seed);
-  /// Robots that have anywhere to go drive there by themselves. What `driving` points to must
-  /// outlive this.
-  Simulation(const Scenario& scenario, const SelfDriving& driving, std::uint64_t seed);
+  /// Robots that have anywhere to go drive there by themselves where `driving` is given; what it
+  /// points to must outlive this. Throws Error on a scenario that can't be simulated: an ID used
+  /// twice, an unknown robot, a parameter out of range.
+  Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets = {},
+             const SelfDriving* driving = nullptr);
 
-  /// Goes on by one time step and appends to `recording` what came of it. Reads are stamped with
-  /// the time of their antenna's update, wherever in the step that falls.
-  void step(Recording& recording);
-  /// Likewise, but antennas don't update: nothing is read or recorded.
+  /// Goes on by one time step. Reads are stamped with the time of their antenna's update, or of the
+  /// tag's answer, wherever in the step that falls.
+  void step();
+  /// Likewise, but antennas don't update: nothing is read or told.
   void skip_step();
+  /// Tells what is kept back so that reads come in order of time; the last step does so by itself.
+  void finish() { field_.finish(); }
 
   /// Time that the next step begins at.
   [[nodiscard]] Time now() const { return now_; }
@@ -77,27 +65,13 @@ class Simulation {
   void remove_antenna(const std::string& name);
 
  private:
-  struct Update {
-    Time stamp;
-    std::size_t antenna = 0;
-  };
-
-  Simulation(const Scenario& scenario, const SelfDriving* driving, std::uint64_t seed);
   void begin_step();
-  void plan_appearances(const std::vector<TagSpec>& tags);
-  [[nodiscard]] std::vector<Time> stamps_in_step(const AntennaSpec& antenna) const;
-  [[nodiscard]] std::vector<Update> updates_in_step() const;
   void handle_events(Time until);
-  void record_new_tags(Recording& recording);
-  void move_tags(Time stamp, Recording& recording);
-  void update_antenna(const Update& update, Recording& recording);
-  /// True pose of the antenna, recorded with the believed one.
-  RigidTransform place_antenna(const AntennaSpec& antenna, Time stamp, Recording& recording);
-  void record_robots(Time stamp, Recording& recording);
+  void update_at(Time stamp);
+  void place(AntennaDue& due, Time stamp) const;
   [[nodiscard]] const Robot* robot_named(const std::string& name) const;
-  [[nodiscard]] double seconds_into_step(Time stamp) const;
-  std::uint32_t place_new(const TagSpec& tag);
   void require_robot(const std::string& name, const Location& location) const;
+  [[nodiscard]] double seconds_into_step(Time stamp) const;
 
   std::uint64_t seed_;
   Duration time_step_;
@@ -105,23 +79,15 @@ class Simulation {
   Time now_{};         ///< End of the last step.
   Time step_begin_{};  ///< Beginning of the last step.
   std::vector<Robot> robots_;
-  std::vector<AntennaSpec> antennas_;
-  std::vector<std::string> recorded_fixed_;  ///< Fixed antennas whose pose is recorded.
-  TagPopulation tags_;
-  RadioAir air_;                             ///< Antennas of physical models.
-  std::vector<TagSpec> specs_;               ///< By slot.
-  std::vector<std::uint32_t> moving_slots_;  ///< Rising.
-  std::vector<std::uint32_t> new_slots_;     ///< Tags at rest whose place is not recorded yet.
-  std::vector<TagSpec> to_appear_;           ///< Latest first.
-  std::vector<std::pair<Time, std::string>> to_disappear_;  ///< Latest first.
-  std::vector<TagReply> replies_;                           ///< Kept to save allocations.
-  Time moved_to_ = Time::min();
+  std::unordered_map<std::string, AntennaSpec> antennas_;
+  std::unordered_map<std::string, std::uint32_t> tags_;  ///< Numbers by ID.
+  std::vector<std::pair<std::uint32_t, TagSpec>> moving_tags_;  ///< In rising order of numbers.
+  TagSchedule schedule_;
+  FieldDriver driver_;
+  RfidField field_;
 };
 
 /// The scenario's world as waves see it; empty space where it has none.
 std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario);
-
-/// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
-PoseEstimate placed_at(const PlanarPose& pose);
 
 }  // namespace tagfield

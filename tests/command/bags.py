@@ -110,7 +110,8 @@ class RunBag:
             message = self.types["tagfield_msgs/TagReads"](header, antenna, [
                 self.types["tagfield_msgs/TagRead"](
                     header, row["tag"], row["reader"], antenna, float(row["frequency_hz"]),
-                    float(row["phase_rad"]), float(row["rssi_dbm"])) for row in rows])
+                    float(row["phase_rad"]), float(row["rssi_dbm"]),
+                    float(row.get("doppler_hz") or "nan")) for row in rows])
             found.append(("/rfid/reads", stamp, message))
         return found
 

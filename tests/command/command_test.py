@@ -178,7 +178,7 @@ def check_incomplete_folder(folder):
     for name in ("reads.csv", "antenna_poses.csv", "estimates.csv", "report.html", "summary.json",
                  "truth/tags.csv", "truth/distances.csv"):
         check(name in files, f"the interrupted run left no {name}")
-    check(not any("staging" in name or "partial" in name for name in files),
+    check(not any("incomplete" in name or "partial" in name for name in files),
           f"half-written files: {sorted(files)}")
     summary = read_json(folder / "summary.json")
     check_equal(summary["complete"], False, "complete")

@@ -31,16 +31,16 @@ void report_cost(const RfidWorld& world) {
 std::shared_ptr<RfidWorld> make_world(const gazebo::physics::WorldPtr& world) {
   const std::shared_ptr<RosLink> link = RosLink::shared();
   if (!link->fault().empty()) gzerr << "Tagfield: no ROS: " << link->fault() << "\n";
-  std::vector<std::unique_ptr<FieldListener>> listeners;
-  listeners.push_back(std::make_unique<RfidPublisher>(link));
-  listeners.push_back(std::make_unique<RfidMarkers>(link));
-  listeners.push_back(std::make_unique<WindowMarkers>());
+  Outlets outlets;
+  attach(std::make_shared<RfidPublisher>(link), outlets);
+  attach(std::make_shared<RfidMarkers>(link), outlets);
+  attach(std::make_shared<WindowMarkers>(), outlets);
   const auto on_step = [link](Time now) { link->advance_clock(now); };
   const auto delete_and_report = [](RfidWorld* old) {
     report_cost(*old);
     delete old;
   };
-  return {new RfidWorld(world, std::move(listeners), on_step), delete_and_report};
+  return {new RfidWorld(world, std::move(outlets), on_step), delete_and_report};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "adapters/ros1/test/bag_writer.h"
 
+#include <limits>
 #include <nav_msgs/Odometry.h>
 #include <rfid_sensor/TagArray.h>
 #include <rosbag/bag.h>
@@ -123,6 +124,7 @@ void BagWriter::reads(Time stamp, const std::string& antenna, const std::vector<
     one.frequency = read.frequency_hz;
     one.phase = read.phase_rad;
     one.rssi = read.rssi_dbm;
+    one.doppler = read.doppler_hz.value_or(std::numeric_limits<double>::quiet_NaN());
     message.reads.push_back(one);
   }
   write("/any/reads", stamp, message);

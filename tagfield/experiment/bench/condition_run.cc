@@ -6,6 +6,7 @@
 
 #include "tagfield/experiment/bench/read_loss.h"
 #include "tagfield/experiment/bench/record.h"
+#include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/localization/bound.h"
 
@@ -72,7 +73,10 @@ MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
   run.tags_given = given.problem().samples.size();
   run.method = result.method.empty() ? method.method.name : result.method;
   run.bound = bound_of(run.method);
-  run.tags = records_of(scenario, given.problem(), recording.reads, result.estimates);
+  const std::vector<TagEstimate> estimates =
+      with_all_tags(result.estimates, {}, tags_of(scenario));
+  run.tags = records_of(given.problem(), judged(estimates, recording.reads, recording.truth,
+                                                given.problem().reference_tags));
   judge_by(given.bounds(run.bound), run);
   if (scenario.pose.source != PoseSource::kTrue) add_aligned_errors(run.tags);
   return run;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -61,12 +62,13 @@ void find_phase_noise(PreparedCondition& prepared) {
   const std::optional<double>& given = prepared.condition.phase_noise_rad;
   for (const AntennaSpec& antenna : prepared.scenario.antennas) {
     const AntennaParameters& parameters = antenna.parameters;
-    if (!given && parameters.radio) {
+    const std::optional<StatedPhase> stated = stated_phase(parameters);
+    if (!given && !stated) {
       prepared.no_bound =
           "the physical models state no phase noise, and phase_noise_rad is not given";
       return;
     }
-    const double noise_rad = given.value_or(parameters.model.phase_noise_rad);
+    const double noise_rad = given ? *given : stated->noise_rad;
     if (!(noise_rad > 0.0)) {
       prepared.no_bound = fmt::format("antenna '{}' has no phase noise", parameters.name);
       return;

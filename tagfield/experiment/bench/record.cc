@@ -55,23 +55,17 @@ void add_estimate(const TagEstimate& estimate, TagRecord& record) {
 
 }  // namespace
 
-std::vector<TagRecord> records_of(const Scenario& scenario, const LocalizationProblem& problem,
-                                  const std::vector<TagRead>& reads,
-                                  const std::vector<TagEstimate>& estimates) {
-  std::map<std::string, const TagEstimate*> by_tag;
-  for (const TagEstimate& estimate : estimates) by_tag[estimate.tag] = &estimate;
-  std::map<std::string, std::size_t> counts = count_by_tag(reads);
+std::vector<TagRecord> records_of(const LocalizationProblem& problem,
+                                  const std::vector<TagOutcome>& outcomes) {
   std::vector<TagRecord> records;
-  for (const TagSpec& tag : scenario.tags) {
-    if (problem.reference_tags.count(tag.id) > 0) continue;
+  for (const TagOutcome& outcome : outcomes) {
+    if (outcome.reference) continue;
     TagRecord record;
-    record.tag = tag.id;
-    record.reads = counts[tag.id];
-    record.reason = "cannot localize: never read";
-    record.height_estimated = side_to_estimate(problem, tag.id).has_value();
-    if (!moves(tag)) record.truth = tag.motion.front().X_WB.translation;
-    const auto found = by_tag.find(tag.id);
-    if (found != by_tag.end()) add_estimate(*found->second, record);
+    record.tag = outcome.estimate.tag;
+    record.reads = outcome.reads;
+    record.height_estimated = side_to_estimate(problem, record.tag).has_value();
+    record.truth = outcome.truth_m;
+    add_estimate(outcome.estimate, record);
     records.push_back(std::move(record));
   }
   return records;

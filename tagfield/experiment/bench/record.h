@@ -7,16 +7,14 @@
 #include "tagfield/experiment/bench/bench.h"
 #include "tagfield/localization/bound.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/scenario/scenario.h"
-#include "tagfield/stream/tag_read.h"
+#include "tagfield/report/summary.h"
 
 namespace tagfield {
 
-/// A record for each tag of the scenario that is no reference tag, with all that can be told
-/// without a bound.
-std::vector<TagRecord> records_of(const Scenario& scenario, const LocalizationProblem& problem,
-                                  const std::vector<TagRead>& reads,
-                                  const std::vector<TagEstimate>& estimates);
+/// A record for each outcome of a tag that is no reference tag, with all that can be told without a
+/// bound.
+std::vector<TagRecord> records_of(const LocalizationProblem& problem,
+                                  const std::vector<TagOutcome>& outcomes);
 
 /// Fills in the bounds of the tags that have one, and how their errors depend on each other.
 void judge_by(const Bounds& bounds, MethodRun& run);

@@ -28,7 +28,7 @@ Scenario passing_tags() {
   model.gen2->inventory.target = Target::kAlternate;
   AntennaSpec antenna;
   antenna.parameters.name = "mobile";
-  antenna.parameters.radio = std::make_shared<const RadioModel>(model);
+  antenna.parameters.model = std::make_shared<const RadioModel>(model);
   antenna.on = "robot";
   antenna.X_PA = from_xyz_rpy({0, 0, 1.0}, {0, 0, kPi / 2});
   scenario.antennas = {antenna};
@@ -48,18 +48,18 @@ TEST(EffectsIn, AreThoseThatDoAnything) {
             (std::set<std::string>{"patterns", "polarization", "occlusion", "noise", "quantization",
                                    "hopping", "phase_offsets", "half_turns", "inventory"}));
   Scenario paper = passing_tags();
-  paper.antennas[0].parameters.radio = nullptr;
+  paper.antennas[0].parameters.model = PaperAntenna{};
   EXPECT_TRUE(effects_in(paper).empty());
 }
 
 TEST(WithEffects, TurnsOffWhatIsNotWantedAndOnNothing) {
   Scenario scenario = passing_tags();
-  auto model = std::make_shared<RadioModel>(*scenario.antennas[0].parameters.radio);
+  auto model = std::make_shared<RadioModel>(*physical(scenario.antennas[0].parameters));
   model->effects.hopping = false;
-  scenario.antennas[0].parameters.radio = model;
+  scenario.antennas[0].parameters.model = std::shared_ptr<const RadioModel>(model);
   RadioEffects wanted = no_effects();
   wanted.noise = wanted.hopping = true;
-  const RadioEffects got = with_effects(scenario, wanted).antennas[0].parameters.radio->effects;
+  const RadioEffects got = physical(with_effects(scenario, wanted).antennas[0].parameters)->effects;
   EXPECT_TRUE(got.noise);
   EXPECT_FALSE(got.hopping);
   EXPECT_FALSE(got.patterns);

@@ -6,22 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/experiment/judge.h"
+
 namespace tagfield {
 namespace {
 
-TagSpec tag_at(const std::string& id, const Eigen::Vector3d& p_WT) {
-  TagSpec tag;
-  tag.id = id;
-  tag.motion = {{Time{}, from_translation(p_WT)}};
-  return tag;
-}
-
-Scenario hall() {
-  Scenario scenario;
-  scenario.tags = {tag_at("a", {1, 2, 3}), tag_at("b", {4, 5, 1}), tag_at("moving", {0, 0, 0}),
-                   tag_at("known", {7, 7, 1}), tag_at("unread", {8, 8, 1})};
-  scenario.tags[2].motion.push_back({time_from_seconds(1.0), from_translation({1, 0, 0})});
-  return scenario;
+Truth hall() {
+  Truth truth;
+  truth.tag_positions = {{Time{}, "a", {1, 2, 3}},      {Time{}, "b", {4, 5, 1}},
+                         {Time{}, "moving", {0, 0, 0}}, {time_from_seconds(1.0), "moving", {1, 0, 0}},
+                         {Time{}, "known", {7, 7, 1}},  {Time{}, "unread", {8, 8, 1}}};
+  return truth;
 }
 
 TagEstimate estimate_at(const std::string& tag, const std::vector<Eigen::Vector3d>& places) {
@@ -42,38 +37,44 @@ const std::vector<TagEstimate> kEstimates = {
     estimate_at("a", {{1.3, 2.4, 3.2}}), estimate_at("b", {{40, 50, 1}, {4, 5.1, 1}}),
     estimate_at("moving", {{0, 0, 0}}), estimate_at("known", {{7, 7, 1}})};
 
+std::vector<TagRecord> records(const LocalizationProblem& problem) {
+  const std::vector<std::string> order = {"a", "b", "moving", "known", "unread"};
+  return records_of(problem, judged(with_all_tags(kEstimates, {}, order), {}, hall(),
+                                    problem.reference_tags));
+}
+
 TEST(Records, PutEstimatesBesideTheTruth) {
   LocalizationProblem problem;
   problem.reference_tags["known"] = {7, 7, 1};
-  const std::vector<TagRecord> records = records_of(hall(), problem, {}, kEstimates);
-  ASSERT_EQ(records.size(), 4U);
-  EXPECT_EQ(records[0].tag, "a");
-  EXPECT_NEAR(records[0].error.value(), 0.5, 1e-12);
-  EXPECT_FALSE(records[0].error_3d);
-  EXPECT_NEAR(records[0].nees.value().value, 25.0, 1e-9);  // (0.3² + 0.4²) / 0.01
-  EXPECT_EQ(records[0].nees->dof, 2);
-  EXPECT_FALSE(records[1].error);
-  EXPECT_NEAR(records[1].nearest_candidate.value(), 0.1, 1e-12);
-  EXPECT_FALSE(records[1].nees);
-  EXPECT_EQ(records[2].verdict, Verdict::kLocated);
-  EXPECT_FALSE(records[2].truth);
-  EXPECT_FALSE(records[2].error);
-  EXPECT_EQ(records[3].verdict, Verdict::kNotLocated);
-  EXPECT_EQ(records[3].reason, "cannot localize: never read");
+  const std::vector<TagRecord> tags = records(problem);
+  ASSERT_EQ(tags.size(), 4U);
+  EXPECT_EQ(tags[0].tag, "a");
+  EXPECT_NEAR(tags[0].error.value(), 0.5, 1e-12);
+  EXPECT_FALSE(tags[0].error_3d);
+  EXPECT_NEAR(tags[0].nees.value().value, 25.0, 1e-9);  // (0.3² + 0.4²) / 0.01
+  EXPECT_EQ(tags[0].nees->dof, 2);
+  EXPECT_FALSE(tags[1].error);
+  EXPECT_NEAR(tags[1].nearest_candidate.value(), 0.1, 1e-12);
+  EXPECT_FALSE(tags[1].nees);
+  EXPECT_EQ(tags[2].verdict, Verdict::kLocated);
+  EXPECT_FALSE(tags[2].truth);
+  EXPECT_FALSE(tags[2].error);
+  EXPECT_EQ(tags[3].verdict, Verdict::kNotLocated);
+  EXPECT_EQ(tags[3].reason, "cannot localize: never read");
 }
 
 TEST(Records, CountHeightWhereItIsEstimated) {
   LocalizationProblem problem;
   problem.heights.estimated = HeightSide::kAbove;
-  const std::vector<TagRecord> records = records_of(hall(), problem, {}, kEstimates);
-  EXPECT_NEAR(records[0].error_3d.value(), std::sqrt(0.25 + 0.04), 1e-12);
-  EXPECT_NEAR(records[0].nees.value().value, 26.0, 1e-9);  // and 0.2² / 0.04
-  EXPECT_EQ(records[0].nees->dof, 3);
+  const std::vector<TagRecord> tags = records(problem);
+  EXPECT_NEAR(tags[0].error_3d.value(), std::sqrt(0.25 + 0.04), 1e-12);
+  EXPECT_NEAR(tags[0].nees.value().value, 26.0, 1e-9);  // and 0.2² / 0.04
+  EXPECT_EQ(tags[0].nees->dof, 3);
 }
 
 TEST(Records, AreJudgedByTheirBound) {
   MethodRun run;
-  run.tags = records_of(hall(), {}, {}, kEstimates);
+  run.tags = records({});
   Bounds bounds;
   bounds.tags = {"a", "unread"};
   bounds.covariance = 0.0004 * Eigen::MatrixXd::Identity(6, 6);

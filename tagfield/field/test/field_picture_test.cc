@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tagfield/field/rfid_field.h"
+
 namespace tagfield {
 namespace {
 
@@ -16,26 +18,26 @@ class Picture final : public FieldPicture {
   std::map<std::string, SeenAntenna> seen;
 
  protected:
-  void draw(Time stamp, const FieldTags& tags) override {
+  void draw(Time stamp) override {
     drawn.push_back(stamp);
     colors.clear();
     seen = antennas();
-    tags.population.for_each(
-        [&](std::uint32_t slot) { colors[tags.population.id(slot)] = color_of(slot, stamp); });
+    for (const auto& [id, tag] : tags()) colors[id] = color_of(tag, stamp);
   }
 };
 
 class PictureOfAField : public testing::Test {
  protected:
   PictureOfAField() {
-    auto owned = std::make_unique<Picture>(std::chrono::milliseconds(500));
-    picture = owned.get();
-    std::vector<std::unique_ptr<FieldListener>> listeners;
-    listeners.push_back(std::move(owned));
-    field = std::make_unique<RfidField>(std::move(listeners));
+    Outlets outlets;
+    attach(picture, outlets);
+    field = std::make_unique<RfidField>(outlets);
     antenna->parameters.name = "gate";
-    antenna->parameters.range_m = 6.0;
-    antenna->parameters.model.rssi_noise = 0.0;
+    paper(antenna->parameters).range_m = 6.0;
+    paper(antenna->parameters).model.rssi_noise = 0.0;
+    FieldStep step;
+    step.antennas_added = {antenna};
+    field->step(step);
   }
 
   void step(double seconds, const std::vector<TagAdded>& added = {},
@@ -49,7 +51,7 @@ class PictureOfAField : public testing::Test {
   }
 
   std::shared_ptr<FieldAntenna> antenna = std::make_shared<FieldAntenna>();
-  Picture* picture = nullptr;
+  std::shared_ptr<Picture> picture = std::make_shared<Picture>(std::chrono::milliseconds(500));
   std::unique_ptr<RfidField> field;
 };
 
@@ -100,6 +102,7 @@ TEST_F(PictureOfAField, ForgetsAnAntennaThatWent) {
   auto other = std::make_shared<FieldAntenna>();
   other->parameters.name = "other";
   FieldStep next;
+  next.antennas_added = {other};
   next.stamp = time_from_seconds(1.0);
   next.due = {{other, from_translation({0.0, 0.0, 0.0}), std::nullopt}};
   field->step(next);

@@ -14,7 +14,7 @@ AntennaParameters antenna(const std::string& reader, const std::string& name, do
   AntennaParameters parameters;
   parameters.reader = reader;
   parameters.name = name;
-  parameters.radio = radio;
+  parameters.model = std::shared_ptr<const RadioModel>(radio);
   return parameters;
 }
 

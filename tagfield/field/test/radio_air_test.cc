@@ -43,7 +43,7 @@ AntennaParameters antenna(const std::string& reader, const std::string& name,
   parameters.reader = reader;
   parameters.name = name;
   parameters.rate_hz = 15.0;
-  parameters.radio = std::make_shared<const RadioModel>(model);
+  parameters.model = std::make_shared<const RadioModel>(model);
   return parameters;
 }
 
@@ -71,8 +71,8 @@ double range_of_plain_link() {
 }
 
 TEST(RadioAir, WithoutInventoryReadsAllThatAnswersOnceAnUpdate) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", plain_model()));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", plain_model()), 1);
   const TagPopulation tags = row_of_tags(20, 0.5);
   std::vector<TagReply> replies;
   air.update("a", {}, at_update(0), tags, replies);
@@ -92,8 +92,8 @@ TEST(RadioAir, WithoutInventoryReadsAllThatAnswersOnceAnUpdate) {
 }
 
 TEST(RadioAir, InventoryStampsEachReadAndMeasuresItWhereTheAntennaWasThen) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", gen2_model()));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", gen2_model()), 1);
   TagPopulation tags = row_of_tags(5, 0.2);
   const Vector3d antenna_speed(0.0, 0.6, 0.0);
   const Vector3d tag_speed(-0.3, 0.0, 0.1);
@@ -128,8 +128,8 @@ TEST(RadioAir, InventoryStampsEachReadAndMeasuresItWhereTheAntennaWasThen) {
 }
 
 TEST(RadioAir, TagsThatAreOutOfPowerAreNotRead) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", gen2_model()));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", gen2_model()), 1);
   const TagPopulation tags = row_of_tags(20, 0.5);
   std::vector<TagReply> replies;
   for (int i = 0; i < 30; ++i) {
@@ -141,11 +141,11 @@ TEST(RadioAir, TagsThatAreOutOfPowerAreNotRead) {
 }
 
 TEST(RadioAir, PortsReadInTheirTurnsOnly) {
-  RadioAir air(free_space(), 1);
+  RadioAir air(free_space());
   RadioModel model = gen2_model();
   model.gen2->port_dwell_s = 0.25;
-  air.add(antenna("r", "a", model));
-  air.add(antenna("r", "b", model));
+  air.add(antenna("r", "a", model), 1);
+  air.add(antenna("r", "b", model), 1);
   const TagPopulation tags = row_of_tags(3, 0.3);
   std::vector<TagReply> replies;
   std::map<std::string, int> reads;
@@ -164,9 +164,9 @@ TEST(RadioAir, PortsReadInTheirTurnsOnly) {
 }
 
 TEST(RadioAir, TagsRememberInASessionWhoeverAsks) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", gen2_model(Session::kS2)));
-  air.add(antenna("q", "z", gen2_model(Session::kS2)));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", gen2_model(Session::kS2)), 1);
+  air.add(antenna("q", "z", gen2_model(Session::kS2)), 1);
   const TagPopulation tags = row_of_tags(10, 0.3);
   std::vector<TagReply> replies;
   std::multiset<std::uint32_t> read;
@@ -180,8 +180,8 @@ TEST(RadioAir, TagsRememberInASessionWhoeverAsks) {
 }
 
 TEST(RadioAir, TagInAFreedSlotIsAnother) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", gen2_model(Session::kS2)));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", gen2_model(Session::kS2)), 1);
   TagPopulation tags = row_of_tags(1, 0.3);
   std::vector<TagReply> replies;
   int reads = 0;
@@ -202,8 +202,8 @@ TEST(RadioAir, GivesTheSameReadsForTheSameSeedAndOthersForAnother) {
     RadioModel model = gen2_model();
     model.effects = {};
     model.plan = known_plan("etsi_low");
-    RadioAir air(free_space(), seed);
-    air.add(antenna("r", "a", model));
+    RadioAir air(free_space());
+    air.add(antenna("r", "a", model), seed);
     const TagPopulation tags = row_of_tags(6, 0.3);
     std::vector<TagReply> replies;
     std::string all;
@@ -222,8 +222,8 @@ TEST(RadioAir, GivesTheSameReadsForTheSameSeedAndOthersForAnother) {
 }
 
 TEST(RadioAir, AntennaThatIsNowhereReadsNothing) {
-  RadioAir air(free_space(), 1);
-  air.add(antenna("r", "a", gen2_model()));
+  RadioAir air(free_space());
+  air.add(antenna("r", "a", gen2_model()), 1);
   const TagPopulation tags = row_of_tags(3, 0.3);
   std::vector<TagReply> replies(3);
   air.update("a", from_translation(Vector3d::Constant(std::nan(""))), at_update(0), tags, replies);

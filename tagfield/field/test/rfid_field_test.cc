@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/settings/radio_settings.h"
@@ -13,57 +14,63 @@
 namespace tagfield {
 namespace {
 
-/// Writes down what it hears.
-struct Log {
+/// Writes down what it is told.
+struct Log final : ReadListener, TruthListener {
   std::vector<std::string> events;
   std::map<std::string, std::vector<TagRead>> reads;  ///< Of the last update, by antenna.
-  std::map<std::string, Eigen::Vector3d> places;      ///< As told by changes and moves.
+  std::vector<TagRead> all;                           ///< Of all, as they came.
+  std::map<std::string, Eigen::Vector3d> places;
   std::map<std::string, std::string> labels;
-};
 
-class Listener final : public FieldListener {
- public:
-  explicit Listener(Log& log) : log_(log) {}
-  void tags_changed(Time, const FieldTags& tags) override {
-    log_.events.emplace_back("changed");
-    log_.places.clear();
-    log_.labels.clear();
-    tags.population.for_each([&](std::uint32_t slot) {
-      log_.places[tags.population.id(slot)] = tags.population.position(slot);
-      log_.labels[tags.population.id(slot)] = tags.labels[slot];
-    });
+  void on_read(const TagRead& read) override {
+    fresh_[read.antenna].push_back(read);
+    all.push_back(read);
   }
-  void tags_moved(Time, const std::vector<std::uint32_t>& slots, const FieldTags& tags) override {
-    log_.events.emplace_back("moved");
-    for (const std::uint32_t slot : slots) {
-      log_.places[tags.population.id(slot)] = tags.population.position(slot);
-    }
+  void on_update(const AntennaInfo& antenna, Time) override {
+    events.push_back("updated " + antenna.name);
+    reads[antenna.name] = std::exchange(fresh_[antenna.name], {});
   }
-  void antenna_updated(const AntennaUpdate& update) override {
-    const std::string& name = update.antenna.parameters.name;
-    log_.events.push_back("updated " + name);
-    log_.reads[name].clear();
-    for (const TagReply& reply : update.replies) {
-      log_.reads[name].push_back(
-          to_read(update.antenna.parameters, update.tags.population.id(reply.slot), reply));
-    }
+  void on_antenna_added(const AntennaInfo& antenna) override {
+    events.push_back("added " + antenna.name);
   }
-  void antenna_added(const FieldAntenna& antenna) override {
-    log_.events.push_back("added " + antenna.parameters.name);
+  void on_antenna_removed(const std::string& name) override { events.push_back("removed " + name); }
+  void on_restart() override { events.emplace_back("restarted"); }
+  void on_tag_added(const TagPosition& tag, const std::string& label) override {
+    events.push_back("came " + tag.tag);
+    places[tag.tag] = tag.p_WT;
+    labels[tag.tag] = label;
   }
-  void antenna_removed(const std::string& antenna) override {
-    log_.events.push_back("removed " + antenna);
+  void on_tag_moved(const TagPosition& tag) override {
+    events.push_back("moved " + tag.tag);
+    places[tag.tag] = tag.p_WT;
   }
+  void on_tag_removed(const std::string& id) override { places.erase(id); }
 
  private:
-  Log& log_;
+  std::map<std::string, std::vector<TagRead>> fresh_;
 };
 
-RfidField field_with(Log& log) {
-  std::vector<std::unique_ptr<FieldListener>> listeners;
-  listeners.push_back(std::make_unique<Listener>(log));
-  return RfidField(std::move(listeners));
-}
+/// A field with a log, and antennas that are added as they are first due.
+struct LoggedField {
+  std::shared_ptr<Log> log = std::make_shared<Log>();
+  std::set<std::string> known;
+  RfidField field;
+
+  LoggedField() : field(outlets_of(log)) {}
+  static Outlets outlets_of(const std::shared_ptr<Log>& log) {
+    Outlets outlets;
+    attach(log, outlets);
+    return outlets;
+  }
+  void step(FieldStep step) {
+    for (const AntennaDue& due : step.due) {
+      if (known.insert(due.antenna->parameters.name).second) {
+        step.antennas_added.push_back(due.antenna);
+      }
+    }
+    field.step(step);
+  }
+};
 
 AntennaDue antenna_at(const Eigen::Vector3d& p_WA, const std::string& name = "gate") {
   auto antenna = std::make_shared<FieldAntenna>();
@@ -81,16 +88,15 @@ FieldStep step_at(double seconds) {
 }
 
 TEST(RfidField, TellsChangesBeforeUpdates) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.1);
   step.added = {{0, "A", "shelf::a", at(1.0, 0.0, 0.0)}, {1, "B", "shelf::b", at(2.0, 0.0, 0.0)}};
   step.moved = {{1, at(3.0, 0.0, 0.0)}};
   step.due = {antenna_at({0.0, 0.0, 0.0})};
   step.antennas_removed = {"old"};
-  step.antennas_added = {step.due[0].antenna};
   field.step(step);
-  EXPECT_EQ(log.events, (std::vector<std::string>{"removed old", "added gate", "changed", "moved",
+  EXPECT_EQ(log.events, (std::vector<std::string>{"removed old", "added gate", "came A", "came B",
                                                   "updated gate"}));
   EXPECT_EQ(log.labels.at("A"), "shelf::a");
   EXPECT_EQ(log.places.at("B"), Eigen::Vector3d(3.0, 0.0, 0.0));
@@ -98,8 +104,8 @@ TEST(RfidField, TellsChangesBeforeUpdates) {
 }
 
 TEST(RfidField, ReadsAsReadTagDoes) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.25);
   step.added = {{0, "A", "a", at(1.0, 2.0, 2.0)}};
   const AntennaDue due = antenna_at({0.0, 0.0, 0.0});
@@ -112,31 +118,31 @@ TEST(RfidField, ReadsAsReadTagDoes) {
 }
 
 TEST(RfidField, LeavesOutWhatIsNowhere) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.1);
   step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
   step.moved = {{0, at(std::nan(""), 0.0, 0.0)}};
   step.due = {antenna_at({std::nan(""), 0.0, 0.0}, "lost"), antenna_at({0.0, 0.0, 0.0})};
   field.step(step);
-  EXPECT_EQ(log.events, (std::vector<std::string>{"changed", "updated gate"}));
+  EXPECT_EQ(log.events, (std::vector<std::string>{"added lost", "added gate", "came A", "updated gate"}));
   EXPECT_EQ(log.reads.at("gate").size(), 1U);
 }
 
 TEST(RfidField, RefusesTagsThatAreThereOrNot) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.1);
   step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
   field.step(step);
   FieldStep again = step_at(0.2);
   again.added = {{1, "A", "a", at(1.0, 0.0, 0.0)}};
-  EXPECT_TRUE(contains(error_of([&] { field.step(again); }), "'A'"));
+  EXPECT_TRUE(contains(error_of([&] { field.field.step(again); }), "'A'"));
   again.added = {{0, "B", "b", at(1.0, 0.0, 0.0)}};
-  EXPECT_TRUE(contains(error_of([&] { field.step(again); }), "number 0"));
+  EXPECT_TRUE(contains(error_of([&] { field.field.step(again); }), "number 0"));
   FieldStep gone = step_at(0.3);
   gone.removed = {7};
-  EXPECT_TRUE(contains(error_of([&] { field.step(gone); }), "number 7"));
+  EXPECT_TRUE(contains(error_of([&] { field.field.step(gone); }), "number 7"));
 }
 
 /// A hall with one metal wall at x = 2 m.
@@ -151,18 +157,17 @@ AntennaDue physical_antenna(const std::string& name, const std::vector<RawParame
   Diagnostics diagnostics;
   auto antenna = std::make_shared<FieldAntenna>();
   antenna->parameters.name = name;
-  antenna->parameters.radio =
+  antenna->parameters.model =
       radio_model_from(PropagationModel::kLinkBudget, settings, {}, diagnostics);
   antenna->seed = 5;
   return {antenna, at(0.0, 0.0, 0.0), std::nullopt};
 }
 
 TEST(RfidField, LetsWavesMeetTheWorld) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.0);
   step.due = {physical_antenna("gate", {})};
-  step.antennas_added = {step.due[0].antenna};
   step.added = {{0, "near", "", at(1.5, 0.0, 0.0)}, {1, "behind", "", at(3.0, 0.0, 0.0)}};
   field.step(step);
   EXPECT_EQ(log.reads.at("gate").size(), 2U);
@@ -172,26 +177,26 @@ TEST(RfidField, LetsWavesMeetTheWorld) {
   field.step(walled);
   ASSERT_EQ(log.reads.at("gate").size(), 1U);
   EXPECT_EQ(log.reads.at("gate")[0].tag, "near");
-  EXPECT_TRUE(field.take_warnings().empty());
+  EXPECT_TRUE(field.field.take_warnings().empty());
 }
 
 TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   FieldStep step = step_at(0.0);
   auto broken = std::make_shared<FieldWorld>();
   broken->scene.collisions = {{"wall::link::box", Box{{1.0, 1.0, 1.0}}, at(1e12, 0.0, 0.0)}};
   step.world = broken;
   field.step(step);
-  const std::vector<std::string> warnings = field.take_warnings();
+  const std::vector<std::string> warnings = field.field.take_warnings();
   ASSERT_FALSE(warnings.empty());
   EXPECT_TRUE(contains(warnings.back(), "wall::link::box"));
-  EXPECT_TRUE(field.take_warnings().empty());
+  EXPECT_TRUE(field.field.take_warnings().empty());
 }
 
 /// Two seconds of inventory among three tags, beginning at 0; the reads of all updates.
-std::vector<TagRead> inventory_run(RfidField& field, Log& log, const AntennaDue& antenna) {
-  std::vector<TagRead> reads;
+std::vector<TagRead> inventory_run(LoggedField& field, const AntennaDue& antenna) {
+  const std::size_t before = field.log->all.size();
   for (int n = 0; n <= 30; ++n) {
     FieldStep step = step_at(n / 15.0);
     step.due = {antenna};
@@ -199,23 +204,22 @@ std::vector<TagRead> inventory_run(RfidField& field, Log& log, const AntennaDue&
       step.moved.push_back({number, at(1.0 + number, 0.01 * n, 0.0)});
     }
     field.step(step);
-    const std::vector<TagRead>& more = log.reads.at("gate");
-    reads.insert(reads.end(), more.begin(), more.end());
   }
-  return reads;
+  field.field.finish();
+  const auto begin = field.log->all.begin() + static_cast<std::ptrdiff_t>(before);
+  return {begin, field.log->all.end()};
 }
 
 TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   const AntennaDue antenna =
       physical_antenna("gate", {{"inventory", "gen2", {}}, {"target", "alternate", {}}});
   FieldStep begin = step_at(0.0);
-  begin.antennas_added = {antenna.antenna};
   begin.added = {{0, "a", "", at(1, 0, 0)}, {1, "b", "", at(2, 0, 0)}, {2, "c", "", at(3, 0, 0)}};
   field.step(begin);
-  const std::vector<TagRead> first = inventory_run(field, log, antenna);
-  const std::vector<TagRead> second = inventory_run(field, log, antenna);
+  const std::vector<TagRead> first = inventory_run(field, antenna);
+  const std::vector<TagRead> second = inventory_run(field, antenna);
   ASSERT_GT(first.size(), 30U);
   ASSERT_EQ(second.size(), first.size());
   bool between_updates = false;
@@ -234,8 +238,8 @@ TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
 // Any sequence of tags that come, go and move: the antenna, whose range is not perturbed here
 // beyond the tags' reach, reads exactly the set that a plain map holds.
 RC_GTEST_PROP(RfidField, ReadsExactlyTheTagsThatAreThere, ()) {
-  Log log;
-  RfidField field = field_with(log);
+  LoggedField field;
+  Log& log = *field.log;
   std::map<std::uint32_t, std::string> present;
   int made = 0;
   for (int n = 1; n <= 20; ++n) {

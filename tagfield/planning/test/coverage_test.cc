@@ -91,8 +91,8 @@ TEST(Coverage, IsTheSameForAnyNumberOfThreads) {
 TEST(Coverage, OfThePapersModelHalvesAtTheRange) {
   Scenario scenario = one_gate();
   AntennaParameters& parameters = scenario.antennas.front().parameters;
-  parameters.radio = nullptr;
-  parameters.range_m = 5.05;
+  parameters.model = PaperAntenna{};
+  paper(parameters).range_m = 5.05;
   const Coverage coverage = covered(scenario, kAround);
   // A cell's middle is at 5.05, 0.05 m.
   EXPECT_NEAR(cell_at(coverage, 5.05, 0.05).probability, 0.5, 0.01);

@@ -145,9 +145,9 @@ TEST(LinkExplanation, KnowsWhoseTurnItIs) {
 TEST(LinkExplanation, OfThePapersModelIsRangeAndMeans) {
   Scenario scenario = three_metres_apart();
   AntennaParameters& parameters = scenario.antennas.front().parameters;
-  parameters.radio = nullptr;
-  parameters.range_sigma = 0.0;
-  parameters.range_m = 7.0;
+  parameters.model = PaperAntenna{};
+  paper(parameters).range_sigma = 0.0;
+  paper(parameters).range_m = 7.0;
   const LinkExplanation link = explained(scenario);
   ASSERT_TRUE(link.paper);
   EXPECT_EQ(link.verdict, "read: 4.00 m inside the range of 7.00 m (7.00 m in this update)");
@@ -158,13 +158,13 @@ TEST(LinkExplanation, OfThePapersModelIsRangeAndMeans) {
 
 TEST(LinkExplanation, PapersProbabilityIsThatOfItsNormalDistribution) {
   AntennaParameters antenna;
-  antenna.range_m = 7.0;
-  antenna.range_sigma = 0.05;
+  paper(antenna).range_m = 7.0;
+  paper(antenna).range_sigma = 0.05;
   EXPECT_NEAR(read_probability(antenna, 7.0), 0.5, 1e-9);
   // One, and two, sigma beyond and within: the normal distribution's table.
   EXPECT_NEAR(read_probability(antenna, 7.35), 0.158655, 1e-5);
   EXPECT_NEAR(read_probability(antenna, 6.30), 0.977250, 1e-5);
-  antenna.range_sigma = 0.0;
+  paper(antenna).range_sigma = 0.0;
   EXPECT_EQ(read_probability(antenna, 7.0), 1.0);
   EXPECT_EQ(read_probability(antenna, 7.01), 0.0);
 }

@@ -33,7 +33,7 @@ inline AntennaSpec physical_antenna(const std::string& name, const Eigen::Vector
   AntennaSpec antenna;
   antenna.parameters.name = name;
   antenna.parameters.reader = name;
-  antenna.parameters.radio = std::make_shared<const RadioModel>(model);
+  antenna.parameters.model = std::make_shared<const RadioModel>(model);
   antenna.X_PA = from_translation(p_WA);
   return antenna;
 }

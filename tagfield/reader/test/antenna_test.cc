@@ -34,7 +34,7 @@ std::vector<double> phase_residuals(const AntennaParameters& antenna, const std:
                                     double distance_m, std::uint64_t seed = 1,
                                     std::int64_t first = 0) {
   std::vector<double> residuals;
-  const double expected = 4.0 * kPi * distance_m * antenna.model.frequency_hz / kSpeedOfLight;
+  const double expected = 4.0 * kPi * distance_m * paper(antenna).model.frequency_hz / kSpeedOfLight;
   for (std::int64_t i = first; i < first + kUpdates; ++i) {
     const TagRead read = read_tag(antenna, tag, {distance_m}, update_stamp(antenna, i), seed);
     residuals.push_back(std::remainder(read.phase_rad - expected, kTwoPi));
@@ -103,10 +103,10 @@ class PerturbedRange : public testing::TestWithParam<double> {};
 
 TEST_P(PerturbedRange, GivesTheChanceOfAReadAtEachDistance) {
   AntennaParameters antenna = antenna_named("mobile");
-  antenna.range_sigma = GetParam();
+  paper(antenna).range_sigma = GetParam();
   for (const double deviation : {-3.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
-    const double distance = antenna.range_m * std::abs(1.0 + deviation * GetParam());
-    const double chance = chance_of_read(distance / antenna.range_m, GetParam());
+    const double distance = paper(antenna).range_m * std::abs(1.0 + deviation * GetParam());
+    const double chance = chance_of_read(distance / paper(antenna).range_m, GetParam());
     double reads = 0.0;
     for (std::int64_t i = 0; i < kUpdates; ++i) {
       if (perturbed_range(antenna, update_stamp(antenna, i), 9) >= distance) reads += 1.0;
@@ -145,7 +145,7 @@ TEST(PerturbedRangeDraw, IsOneForAnUpdateAndAnotherForEachOther) {
 
 TEST(PerturbedRangeDraw, WithoutSpreadIsTheRange) {
   AntennaParameters antenna = antenna_named("mobile");
-  antenna.range_sigma = 0.0;
+  paper(antenna).range_sigma = 0.0;
   for (std::int64_t i = 0; i < 100; ++i) EXPECT_EQ(perturbed_range(antenna, at(i), 1), 7.0);
 }
 
@@ -168,9 +168,9 @@ TEST(PerturbedRangeDraw, AntennasAndUpdatesAreIndependent) {
 TEST(ReadTag, ReportsWhoReadWhatAndWhen) {
   AntennaParameters antenna = antenna_named("left");
   antenna.reader = "r1";
-  antenna.model.frequency_hz = 915e6;
-  antenna.model.phase_noise_rad = 0.0;
-  antenna.model.rssi_noise = 0.0;
+  paper(antenna).model.frequency_hz = 915e6;
+  paper(antenna).model.phase_noise_rad = 0.0;
+  paper(antenna).model.rssi_noise = 0.0;
   const TagRead read = read_tag(antenna, "E280::1", {2.0}, at(123), 1);
   EXPECT_EQ(read.stamp, at(123));
   EXPECT_EQ(read.reader, "r1");
@@ -198,7 +198,7 @@ TEST(ReadTag, IsAFunctionOfSeedAntennaTagAndStamp) {
 
 TEST(ReadTag, IsTheSameWhateverElseIsRead) {
   AntennaParameters antenna = antenna_named("a");
-  antenna.model.optional = make_distribution("gamma_distribution", {2.0, 0.1});
+  paper(antenna).model.optional = make_distribution("gamma_distribution", {2.0, 0.1});
   const TagRead alone = read_tag(antenna, "t", {2.0}, at(1000), 1);
   for (int others = 0; others < 20; ++others) {
     perturbed_range(antenna, at(1000), 1);
@@ -238,20 +238,20 @@ std::string complaint(const Change& change) {
 
 TEST(CheckAntenna, TakesTheDefaultsAndTheEdges) {
   EXPECT_EQ(complaint([](AntennaParameters& /*antenna*/) {}), "(no error)");
-  EXPECT_EQ(complaint([](auto& antenna) { antenna.range_sigma = 0.0; }), "(no error)");
+  EXPECT_EQ(complaint([](auto& antenna) { paper(antenna).range_sigma = 0.0; }), "(no error)");
   EXPECT_EQ(complaint([](auto& antenna) { antenna.rate_hz = 1e6; }), "(no error)");
 }
 
 TEST(CheckAntenna, NamesTheParameterThatIsBad) {
   for (const double bad : {kNan, kInfinite, -kInfinite, -1.0}) {
     EXPECT_TRUE(contains(complaint([&](auto& a) { a.rate_hz = bad; }), "rate_hz must"));
-    EXPECT_TRUE(contains(complaint([&](auto& a) { a.range_m = bad; }), "range_m must"));
-    EXPECT_TRUE(contains(complaint([&](auto& a) { a.range_sigma = bad; }), "range_sigma must"));
-    EXPECT_TRUE(contains(complaint([&](auto& a) { a.model.rssi_noise = bad; }), "rssi_noise must"));
+    EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).range_m = bad; }), "range_m must"));
+    EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).range_sigma = bad; }), "range_sigma must"));
+    EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).model.rssi_noise = bad; }), "rssi_noise must"));
   }
   EXPECT_TRUE(contains(complaint([](auto& a) { a.rate_hz = 0.0; }), "rate_hz must"));
   EXPECT_TRUE(contains(complaint([](auto& a) { a.rate_hz = 1.1e6; }), "rate_hz must"));
-  EXPECT_TRUE(contains(complaint([](auto& a) { a.range_m = 0.0; }), "range_m must"));
+  EXPECT_TRUE(contains(complaint([](auto& a) { paper(a).range_m = 0.0; }), "range_m must"));
 }
 
 }  // namespace

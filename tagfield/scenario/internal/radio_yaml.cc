@@ -33,15 +33,6 @@ void append_settings(YamlMap& map, const std::vector<SettingHelp>& settings,
   }
 }
 
-/// Keys that the paper's model has too, with ranges of its own.
-void drop_the_papers_own(std::vector<RawParameter>& parameters) {
-  const auto is_papers = [](const RawParameter& parameter) {
-    return parameter.key == "frequency_hz" || parameter.key == "phase_offset_rad";
-  };
-  parameters.erase(std::remove_if(parameters.begin(), parameters.end(), is_papers),
-                   parameters.end());
-}
-
 Material material_of(YamlMap map) {
   Material material;
   material.name = map.at("name").text();
@@ -106,24 +97,16 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
   return defaults;
 }
 
-std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, const RadioDefaults& defaults,
+std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationModel model,
+                                                 const RadioDefaults& defaults,
                                                  Diagnostics& diagnostics) {
-  PropagationModel model = defaults.model;
-  if (antenna.has("model")) {
-    model = propagation_model(raw_parameter("model", antenna.at("model")));
-  }
   std::vector<RawParameter> parameters;
   for (const YamlValue& file : antenna.list("profiles")) {
     append_profile(file, {ProfileKind::kReader, ProfileKind::kAntenna}, parameters);
   }
   append_settings(antenna, antenna_settings(), parameters);
   parameters.insert(parameters.end(), defaults.antenna.begin(), defaults.antenna.end());
-  if (model == PropagationModel::kPaper) drop_the_papers_own(parameters);
-  Diagnostics of_model;
-  auto radio = radio_model_from(model, parameters, antenna.self().location(), of_model);
-  if (model == PropagationModel::kPaper) return nullptr;
-  for (const std::string& warning : of_model.warnings()) diagnostics.warn(warning);
-  return radio;
+  return radio_model_from(model, parameters, antenna.self().location(), diagnostics);
 }
 
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,

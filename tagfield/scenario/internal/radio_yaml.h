@@ -26,9 +26,9 @@ struct RadioDefaults {
 /// Takes `model`, `without` and `tag_profile`.
 RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics);
 
-/// The antenna's physical model from its `model`, `profiles` and settings; null for the paper's.
-/// The settings are checked either way.
-std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, const RadioDefaults& defaults,
+/// The antenna's physical model from its `profiles` and settings.
+std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationModel model,
+                                                 const RadioDefaults& defaults,
                                                  Diagnostics& diagnostics);
 
 /// The tag's kind from its `profile` and settings, or the default.

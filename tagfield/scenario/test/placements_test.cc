@@ -27,14 +27,14 @@ TEST(AddPlacements, GivesParametersTheirPublishedMeaning) {
   add_placements(scene, scenario, diagnostics);
   ASSERT_EQ(scenario.antennas.size(), 1U);
   const AntennaParameters& antenna = scenario.antennas[0].parameters;
-  EXPECT_EQ(antenna.model.frequency_hz, 915e6);
-  EXPECT_EQ(antenna.model.phase_noise_rad, 0.2);
-  EXPECT_EQ(antenna.model.rssi_noise, 0.008);  // the published plugin reads <noisephi> here
-  EXPECT_EQ(antenna.range_m, 7.0);
-  EXPECT_EQ(antenna.model.communication_gain, 3.0);
+  EXPECT_EQ(paper(antenna).model.frequency_hz, 915e6);
+  EXPECT_EQ(paper(antenna).model.phase_noise_rad, 0.2);
+  EXPECT_EQ(paper(antenna).model.rssi_noise, 0.008);  // the published plugin reads <noisephi> here
+  EXPECT_EQ(paper(antenna).range_m, 7.0);
+  EXPECT_EQ(paper(antenna).model.communication_gain, 3.0);
   EXPECT_EQ(antenna.rate_hz, 20.0);
-  EXPECT_EQ(antenna.model.optional.kind, DistributionKind::kNormal);
-  EXPECT_EQ(antenna.model.optional.parameters[1], 0.5);
+  EXPECT_EQ(paper(antenna).model.optional.kind, DistributionKind::kNormal);
+  EXPECT_EQ(paper(antenna).model.optional.parameters[1], 0.5);
   EXPECT_EQ(scenario.antennas[0].X_PA.translation, Eigen::Vector3d(1.0, 2.0, 3.0));
   ASSERT_EQ(scenario.tags.size(), 1U);
   EXPECT_EQ(scenario.tags[0].motion.front().X_WB.translation, Eigen::Vector3d(4.0, 5.0, 6.0));
@@ -57,8 +57,8 @@ TEST(AddPlacements, WarnsOfPublishedDefaults) {
   Scenario scenario;
   Diagnostics diagnostics;
   add_placements(scene, scenario, diagnostics);
-  EXPECT_EQ(scenario.antennas[0].parameters.range_m, 5.0);
-  EXPECT_EQ(scenario.antennas[0].parameters.model.communication_gain, 250.0);
+  EXPECT_EQ(paper(scenario.antennas[0].parameters).range_m, 5.0);
+  EXPECT_EQ(paper(scenario.antennas[0].parameters).model.communication_gain, 250.0);
   EXPECT_EQ(diagnostics.warnings().size(), 1U);
 }
 

@@ -61,8 +61,8 @@ TEST(LoadScenario, TakesEveryPart) {
   EXPECT_EQ(antenna.on, "r");
   EXPECT_NEAR(yaw_of(antenna.X_PA.rotation), kPi / 2.0, 1e-12);
   EXPECT_EQ(antenna.lift.travel_m, 1.5);
-  EXPECT_EQ(antenna.parameters.model.frequency_hz, 915e6);
-  EXPECT_EQ(antenna.parameters.model.optional.kind, DistributionKind::kGamma);
+  EXPECT_EQ(paper(antenna.parameters).model.frequency_hz, 915e6);
+  EXPECT_EQ(paper(antenna.parameters).model.optional.kind, DistributionKind::kGamma);
   ASSERT_EQ(scenario.tags.size(), 2U);
   EXPECT_EQ(scenario.tags[0].disappears, time_from_seconds(2.0));
   EXPECT_FALSE(moves(scenario.tags[0]));
@@ -103,7 +103,7 @@ TEST(LoadScenario, ComplainsByLine) {
 
 TEST(LoadScenario, TakesOverridesWithTheirOwnPlace) {
   const std::string path = write_scenario(kWhole);
-  EXPECT_EQ(load_scenario(path, {{"antennas.a.range_m", "5"}}).antennas[0].parameters.range_m, 5.0);
+  EXPECT_EQ(paper(load_scenario(path, {{"antennas.a.range_m", "5"}}).antennas[0].parameters).range_m, 5.0);
   EXPECT_EQ(load_scenario(path, {{"seed", "9"}}).seed, 9U);
   try {
     load_scenario(path, {{"antennas.a.range_m", "-5"}});

@@ -18,13 +18,13 @@ std::string complaint_about(const RawParameter& bad) {
 
 TEST(AntennaFrom, HasThePublishedDefaults) {
   const SensorAntenna antenna = antenna_with({});
-  EXPECT_EQ(antenna.parameters.model.frequency_hz, 865.7e6);
-  EXPECT_EQ(antenna.parameters.model.phase_noise_rad, 0.1);
-  EXPECT_EQ(antenna.parameters.model.rssi_noise, 0.005);
-  EXPECT_EQ(antenna.parameters.model.communication_gain, 250.0);
-  EXPECT_EQ(antenna.parameters.model.optional.kind, DistributionKind::kNone);
-  EXPECT_EQ(antenna.parameters.range_m, 5.0);
-  EXPECT_EQ(antenna.parameters.range_sigma, 0.05);
+  EXPECT_EQ(paper(antenna.parameters).model.frequency_hz, 865.7e6);
+  EXPECT_EQ(paper(antenna.parameters).model.phase_noise_rad, 0.1);
+  EXPECT_EQ(paper(antenna.parameters).model.rssi_noise, 0.005);
+  EXPECT_EQ(paper(antenna.parameters).model.communication_gain, 250.0);
+  EXPECT_EQ(paper(antenna.parameters).model.optional.kind, DistributionKind::kNone);
+  EXPECT_EQ(paper(antenna.parameters).range_m, 5.0);
+  EXPECT_EQ(paper(antenna.parameters).range_sigma, 0.05);
   EXPECT_EQ(antenna.parameters.name, "gate");
   EXPECT_EQ(antenna.parameters.reader, "gate");
   EXPECT_EQ(antenna.frame_id, "gate");
@@ -44,8 +44,8 @@ TEST(AntennaFrom, TakesTagfieldsOwnParameters) {
                                               {"robotNamespace", "robot1", {}}});
   EXPECT_EQ(antenna.parameters.name, "a1");
   EXPECT_EQ(antenna.parameters.reader, "r1");
-  EXPECT_EQ(antenna.parameters.model.phase_offset_rad, 0.5);
-  EXPECT_EQ(antenna.parameters.range_sigma, 0.0);
+  EXPECT_EQ(paper(antenna.parameters).model.phase_offset_rad, 0.5);
+  EXPECT_EQ(paper(antenna.parameters).range_sigma, 0.0);
   EXPECT_EQ(antenna.seed, ~std::uint64_t{0});
   EXPECT_EQ(antenna.frame_id, "a1_frame");
   EXPECT_EQ(antenna.parent_frame, "base_link");

@@ -85,7 +85,7 @@ TEST(SensorTagModel, IsWhatTheSettingsSay) {
 TEST(AntennaFrom, MissesOnlyWhatItsModelNeeds) {
   Diagnostics diagnostics;
   const SensorAntenna antenna = antenna_from("gate", {{"model", "multipath", {}}}, {}, diagnostics);
-  EXPECT_TRUE(antenna.parameters.radio);
+  EXPECT_TRUE(physical(antenna.parameters));
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
   EXPECT_EQ(diagnostics.warnings()[0],
             "antenna 'gate' leaves to their defaults: <frequency> 8.657e+08, <update_rate> 15");

@@ -12,6 +12,7 @@
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/simulator/simulation.h"
+#include "tagfield/stream/recording.h"
 
 namespace tagfield {
 namespace {
@@ -23,9 +24,9 @@ std::string write(const std::string& name, const std::string& text) {
 }
 
 Recording run(const Scenario& scenario) {
-  Simulation simulation(scenario, scenario.seed);
   Recording recording;
-  while (!simulation.finished()) simulation.step(recording);
+  Simulation simulation(scenario, scenario.seed, recorded_in(recording));
+  while (!simulation.finished()) simulation.step();
   return recording;
 }
 

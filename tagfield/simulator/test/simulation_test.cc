@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tagfield/base/units.h"
+#include "tagfield/stream/recording.h"
 
 namespace tagfield {
 namespace {
@@ -21,9 +22,9 @@ TagSpec tag_at(const std::string& id, const Eigen::Vector3d& position) {
 AntennaSpec antenna_at(const std::string& name, const Eigen::Vector3d& position) {
   AntennaSpec antenna;
   antenna.parameters.name = name;
-  antenna.parameters.range_sigma = 0.0;
-  antenna.parameters.model.phase_noise_rad = 0.0;
-  antenna.parameters.model.rssi_noise = 0.0;
+  paper(antenna.parameters).range_sigma = 0.0;
+  paper(antenna.parameters).model.phase_noise_rad = 0.0;
+  paper(antenna.parameters).model.rssi_noise = 0.0;
   antenna.X_PA = from_translation(position);
   return antenna;
 }
@@ -37,9 +38,9 @@ Scenario fixed_antenna_and_tag() {
 }
 
 Recording run(const Scenario& scenario, std::uint64_t seed = 1) {
-  Simulation simulation(scenario, seed);
   Recording recording;
-  while (!simulation.finished()) simulation.step(recording);
+  Simulation simulation(scenario, seed, recorded_in(recording));
+  while (!simulation.finished()) simulation.step();
   return recording;
 }
 
@@ -68,7 +69,7 @@ TEST(Simulation, StampsReadsAtTheAntennasRateAndNotAtItsOwnSteps) {
 
 TEST(Simulation, StepLengthDoesNotChangeWhatIsRead) {
   Scenario scenario = fixed_antenna_and_tag();
-  scenario.antennas[0].parameters.model.phase_noise_rad = 0.1;
+  paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
   scenario.tags[0].motion.push_back({time_from_seconds(2.0), from_translation({4.0, 1.0, 1.0})});
   const Recording fine = run(scenario);
   scenario.time_step_s = 0.25;
@@ -149,27 +150,27 @@ TEST(Simulation, TagsAppearAndDisappearByTheScenario) {
 
 TEST(Simulation, TagsCanBeAddedAndRemovedAtAnyTime) {
   Scenario scenario = fixed_antenna_and_tag();
-  Simulation simulation(scenario, 1);
   Recording recording;
-  while (simulation.now() < time_from_seconds(0.5)) simulation.step(recording);
+  Simulation simulation(scenario, 1, recorded_in(recording));
+  while (simulation.now() < time_from_seconds(0.5)) simulation.step();
   simulation.add_tag(tag_at("new", {1.0, 0.0, 1.0}));
   simulation.remove_tag("tag");
   EXPECT_THROW(simulation.add_tag(tag_at("new", {0.0, 1.0, 1.0})), Error);
   EXPECT_THROW(simulation.remove_tag("tag"), Error);
-  while (!simulation.finished()) simulation.step(recording);
+  while (!simulation.finished()) simulation.step();
   EXPECT_EQ(tags_read_between(recording, 0.0, 0.5), (std::set<std::string>{"tag"}));
   EXPECT_EQ(tags_read_between(recording, 0.5, 2.0), (std::set<std::string>{"new"}));
 }
 
 TEST(Simulation, AntennasCanBeAddedAndRemovedAtAnyTime) {
-  Simulation simulation(fixed_antenna_and_tag(), 1);
   Recording recording;
-  simulation.step(recording);
+  Simulation simulation(fixed_antenna_and_tag(), 1, recorded_in(recording));
+  simulation.step();
   simulation.remove_antenna("antenna");
   simulation.add_antenna(antenna_at("other", {2.0, 0.0, 1.0}));
   EXPECT_THROW(simulation.add_antenna(antenna_at("other", {0.0, 0.0, 0.0})), Error);
   EXPECT_THROW(simulation.remove_antenna("antenna"), Error);
-  while (!simulation.finished()) simulation.step(recording);
+  while (!simulation.finished()) simulation.step();
   EXPECT_EQ(recording.reads.front().antenna, "antenna");
   EXPECT_EQ(std::count_if(recording.reads.begin(), recording.reads.end(),
                           [](const TagRead& read) { return read.antenna == "other"; }),
@@ -178,7 +179,7 @@ TEST(Simulation, AntennasCanBeAddedAndRemovedAtAnyTime) {
 
 TEST(Simulation, OtherTagsAndAntennasDoNotChangeARead) {
   Scenario scenario = fixed_antenna_and_tag();
-  scenario.antennas[0].parameters.model.phase_noise_rad = 0.1;
+  paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
   const Recording alone = run(scenario);
   scenario.tags.insert(scenario.tags.begin(), tag_at("other", {1.0, 1.0, 1.0}));
   scenario.antennas.insert(scenario.antennas.begin(), antenna_at("second", {1.0, 0.0, 0.0}));
@@ -192,7 +193,7 @@ TEST(Simulation, OtherTagsAndAntennasDoNotChangeARead) {
 
 TEST(Simulation, SeedsDiffer) {
   Scenario scenario = fixed_antenna_and_tag();
-  scenario.antennas[0].parameters.model.phase_noise_rad = 0.1;
+  paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
   EXPECT_EQ(run(scenario, 5).reads[3].phase_rad, run(scenario, 5).reads[3].phase_rad);
   EXPECT_NE(run(scenario, 5).reads[3].phase_rad, run(scenario, 6).reads[3].phase_rad);
 }

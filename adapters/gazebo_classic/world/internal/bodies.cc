@@ -47,13 +47,22 @@ void add_distribution(XMLElement* plugin, const OptionalDistribution& distributi
       one ? fmt::format("{}", parameters[0]) : fmt::format("{}", fmt::join(parameters, " ")));
 }
 
-void add_paper_model(XMLElement* plugin, const AntennaParameters& parameters) {
-  add(plugin, "noisephi", parameters.model.phase_noise_rad);
-  add(plugin, "noiserssi", parameters.model.rssi_noise);
-  add(plugin, "range", parameters.range_m);
-  add(plugin, "range_sigma", parameters.range_sigma);
-  add(plugin, "communication_gain", parameters.model.communication_gain);
-  add_distribution(plugin, parameters.model.optional);
+void add_model(XMLElement* plugin, const PaperAntenna& antenna) {
+  add(plugin, "frequency", antenna.model.frequency_hz);
+  add(plugin, "phase_offset", antenna.model.phase_offset_rad);
+  add(plugin, "noisephi", antenna.model.phase_noise_rad);
+  add(plugin, "noiserssi", antenna.model.rssi_noise);
+  add(plugin, "range", antenna.range_m);
+  add(plugin, "range_sigma", antenna.range_sigma);
+  add(plugin, "communication_gain", antenna.model.communication_gain);
+  add_distribution(plugin, antenna.model.optional);
+}
+
+/// A carrier and an offset among the settings go before the published elements.
+void add_model(XMLElement* plugin, const std::shared_ptr<const RadioModel>& radio) {
+  add(plugin, "frequency", PaperModel{}.frequency_hz);
+  add(plugin, "phase_offset", PaperModel{}.phase_offset_rad);
+  add_settings(plugin, radio->settings);
 }
 
 void add_antenna_sensor(Builder& builder, const AntennaSpec& antenna, XMLElement* link,
@@ -72,13 +81,7 @@ void add_antenna_sensor(Builder& builder, const AntennaSpec& antenna, XMLElement
   add(plugin, "frame_id", parameters.name);
   if (!parent_frame.empty()) add(plugin, "parent_frame", parent_frame);
   add(plugin, "seed", fmt::format("{}", builder.scenario.seed));
-  add(plugin, "frequency", parameters.model.frequency_hz);
-  add(plugin, "phase_offset", parameters.model.phase_offset_rad);
-  if (parameters.radio) {
-    add_settings(plugin, parameters.radio->settings);
-  } else {
-    add_paper_model(plugin, parameters);
-  }
+  std::visit([&](const auto& model) { add_model(plugin, model); }, parameters.model);
 }
 
 void add_lift_plugin(XMLElement* model, const std::string& joint, const Lift& lift) {

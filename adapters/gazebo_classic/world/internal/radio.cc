@@ -1,6 +1,8 @@
 #include "adapters/gazebo_classic/world/internal/radio.h"
 
 #include <algorithm>
+
+#include "tagfield/field/antenna_facts.h"
 #include <cstring>
 
 namespace tagfield::gazebo_world_internal {
@@ -52,7 +54,7 @@ void add_settings(XMLElement* plugin, const std::vector<RawParameter>& settings)
 void add_materials(const Scenario& scenario, XMLElement* world) {
   const bool is_of_use =
       std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
-                  [](const AntennaSpec& antenna) { return antenna.parameters.radio != nullptr; });
+                  [](const AntennaSpec& antenna) { return meets_world(antenna.parameters); });
   if (!is_of_use) return;
   drop_materials(world);
   const RadioWorldOptions& options = scenario.materials;

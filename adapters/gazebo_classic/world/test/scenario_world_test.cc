@@ -154,10 +154,10 @@ TEST(GazeboWorld, HoldsPhysicalModels) {
   add_placements(read_back(path), read, diagnostics);
   ASSERT_EQ(read.antennas.size(), 3U);
   for (std::size_t i = 0; i < 2; ++i) {
-    ASSERT_TRUE(read.antennas[i].parameters.radio);
-    expect_same(*read.antennas[i].parameters.radio, *given.antennas[i].parameters.radio);
+    ASSERT_TRUE(physical(read.antennas[i].parameters));
+    expect_same(*physical(read.antennas[i].parameters), *physical(given.antennas[i].parameters));
   }
-  EXPECT_EQ(read.antennas[2].parameters.radio, nullptr);
+  EXPECT_EQ(physical(read.antennas[2].parameters), nullptr);
   ASSERT_EQ(read.tags.size(), 2U);
   EXPECT_EQ(read.tags[1].model->sensitivity_dbm, -20.5);
   EXPECT_LT(

@@ -1,7 +1,7 @@
-#include "adapters/gazebo_classic/field_worker.h"
+#include "tagfield/field/field_worker.h"
 
 #include <ctime>
-#include <gazebo/common/Console.hh>
+#include <exception>
 #include <utility>
 
 namespace tagfield {
@@ -18,8 +18,8 @@ double cpu_time_s() {
 
 }  // namespace
 
-FieldWorker::FieldWorker(std::vector<std::unique_ptr<FieldListener>> listeners)
-    : field_(std::move(listeners)), thread_([this] { work(); }) {}
+FieldWorker::FieldWorker(Outlets outlets, FieldConsole console)
+    : field_(std::move(outlets)), console_(std::move(console)), thread_([this] { work(); }) {}
 
 FieldWorker::~FieldWorker() {
   {
@@ -27,7 +27,6 @@ FieldWorker::~FieldWorker() {
     stop_ = true;
   }
   changed_.notify_all();
-  thread_.join();
 }
 
 void FieldWorker::post(FieldStep step) {
@@ -49,26 +48,29 @@ void FieldWorker::work() {
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
-      if (waiting_.empty()) return;
+      if (waiting_.empty()) break;
       step = std::move(waiting_.front());
       waiting_.pop_front();
     }
     changed_.notify_all();
     take(step);
   }
+  guarded([this] { field_.finish(); });
+}
+
+/// Nothing that comes of reads may end the simulation.
+void FieldWorker::guarded(const std::function<void()>& task) const {
+  try {
+    task();
+  } catch (const std::exception& error) {
+    console_.complain(error.what());
+  }
 }
 
 void FieldWorker::take(const FieldStep& step) {
   const double begin = cpu_time_s();
-  try {
-    field_.step(step);
-    for (const std::string& warning : field_.take_warnings()) {
-      gzwarn << "Tagfield: " << warning << "\n";
-    }
-  } catch (const std::exception& error) {
-    // Nothing that comes of reads may end the simulation.
-    gzerr << "Tagfield: " << error.what() << "\n";
-  }
+  guarded([&] { field_.step(step); });
+  for (const std::string& warning : field_.take_warnings()) console_.warn(warning);
   const double took = cpu_time_s() - begin;
   const std::lock_guard lock(mutex_);
   done_.busy_s += took;

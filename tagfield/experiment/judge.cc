@@ -1,4 +1,4 @@
-#include "apps/tagfield/judge.h"
+#include "tagfield/experiment/judge.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -66,12 +66,14 @@ std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const
 
 std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
                                const std::vector<TagRead>& reads, const Truth& truth,
-                               const std::map<std::string, Eigen::Vector3d>& references) {
+                               const std::map<std::string, Eigen::Vector3d>& references,
+                               std::uint64_t seed) {
   std::map<std::string, std::size_t> counts = count_by_tag(reads);
   const std::map<std::string, Places> places = places_of(truth);
   std::vector<TagOutcome> outcomes;
   for (const TagEstimate& estimate : estimates) {
     TagOutcome outcome;
+    outcome.seed = seed;
     outcome.estimate = estimate;
     outcome.reads = counts[estimate.tag];
     outcome.reference = references.count(estimate.tag) > 0;

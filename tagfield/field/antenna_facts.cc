@@ -1,0 +1,29 @@
+#include "tagfield/field/antenna_facts.h"
+
+namespace tagfield {
+
+bool meets_world(const AntennaParameters& antenna) { return physical(antenna) != nullptr; }
+
+double nominal_range_m(const AntennaParameters& antenna) {
+  const RadioModel* const radio = physical(antenna);
+  return radio == nullptr ? paper(antenna).range_m : most_range_m(*radio, *default_tag_model());
+}
+
+double nominal_frequency_hz(const AntennaParameters& antenna) {
+  const RadioModel* const radio = physical(antenna);
+  return radio == nullptr ? paper(antenna).model.frequency_hz : radio->plan.carriers_hz.front();
+}
+
+std::optional<StatedPhase> stated_phase(const AntennaParameters& antenna) {
+  if (physical(antenna) != nullptr) return std::nullopt;
+  const PaperModel& model = paper(antenna).model;
+  return StatedPhase{model.phase_offset_rad, model.phase_noise_rad};
+}
+
+std::optional<double> transmit_power_dbm(const AntennaParameters& antenna) {
+  const RadioModel* const radio = physical(antenna);
+  if (radio == nullptr) return std::nullopt;
+  return radio->transmit_power_dbm;
+}
+
+}  // namespace tagfield

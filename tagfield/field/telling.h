@@ -1,0 +1,75 @@
+/// @file
+/// What antennas' updates yield, told in order of time although it does not come so.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tagfield/base/time.h"
+#include "tagfield/field/field_step.h"
+#include "tagfield/stream/listeners.h"
+
+namespace tagfield {
+
+/// Slots of an inventory go on between updates, so an antenna's update yields reads from before
+/// other antennas' updates. They are kept here until nothing earlier can come.
+class Telling {
+ public:
+  explicit Telling(Outlets outlets) : outlets_(std::move(outlets)) {}
+
+  [[nodiscard]] const Outlets& outlets() const { return outlets_; }
+
+  void add(const TagRead& read, double distance_m);
+  /// `antenna`'s update at `stamp`, after its reads were added.
+  void add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
+           const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA);
+  /// A tag's place, from `stamp` on; `label` where it is new.
+  void add(Time stamp, const TagPosition& tag, std::optional<std::string> label);
+  void add_removed(Time stamp, const std::string& tag);
+  void add_placed(Time stamp);
+  void add_robot(const AntennaPose& robot);
+
+  /// Tells all up to `until`, which nothing earlier will be added to.
+  void tell(Time until);
+
+ private:
+  struct Read {
+    TagRead read;
+    double distance_m;
+  };
+  struct Update {
+    std::shared_ptr<const AntennaInfo> antenna;
+    RigidTransform X_WA;
+    std::optional<RigidTransform> X_PA;
+  };
+  struct Place {
+    TagPosition tag;
+    std::optional<std::string> label;
+  };
+  struct Removed {
+    std::string tag;
+  };
+  struct Placed {};
+  using What = std::variant<Read, Update, Place, Removed, Placed, AntennaPose>;
+  struct Event {
+    Time stamp;
+    What what;
+  };
+  void push(Time stamp, What what);
+  void tell(Time stamp, const Read& read) const;
+  void tell(Time stamp, const Update& update) const;
+  void tell(Time stamp, const Place& place) const;
+  void tell(Time stamp, const Removed& removed) const;
+  void tell(Time stamp, const Placed& placed) const;
+  void tell(Time stamp, const AntennaPose& robot) const;
+
+  Outlets outlets_;
+  std::vector<Event> events_;
+  bool is_sorted_ = true;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+/// @file
+/// A run as CSV files, written while it runs: memory does not grow with its length.
+#pragma once
+
+#include <memory>
+
+#include "tagfield/files/files.h"
+#include "tagfield/stream/recording.h"
+
+namespace tagfield {
+
+/// Writes reads.csv, antenna_poses.csv and the truth's tables (docs/files.md) into a staged folder,
+/// which must outlive it. Errors are those of GrowingFile; besides, Error where an antenna that
+/// tells Doppler comes after reads of others were written without that column.
+class CsvOutlet final : public ReadListener, public PoseListener, public TruthListener {
+ public:
+  explicit CsvOutlet(StagedFolder& folder);
+  ~CsvOutlet() override;
+
+  void on_read(const TagRead& read) override;
+  void on_update(const AntennaInfo& antenna, Time stamp) override;
+  void on_antenna_added(const AntennaInfo& antenna) override;
+  void on_antenna_removed(const std::string& name) override;
+  void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override;
+  void on_tag_added(const TagPosition& tag, const std::string& label) override;
+  void on_tag_moved(const TagPosition& tag) override;
+  void on_robot_pose(const AntennaPose& robot) override;
+  void on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) override;
+  void on_distance(const TrueDistance& distance) override;
+
+ private:
+  void begin_reads();
+
+  std::shared_ptr<GrowingFile> reads_;
+  std::shared_ptr<GrowingFile> poses_;
+  std::shared_ptr<GrowingFile> antennas_;
+  std::shared_ptr<GrowingFile> robots_;
+  std::shared_ptr<GrowingFile> tags_;
+  std::shared_ptr<GrowingFile> distances_;
+  bool has_doppler_ = false;  ///< An antenna tells it.
+  bool has_begun_ = false;    ///< The header of reads.csv stands.
+  FirstPoses told_;
+  FirstPoses placed_;
+};
+
+}  // namespace tagfield

@@ -1,0 +1,74 @@
+/// @file
+/// All of a run, kept in memory.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tagfield/stream/listeners.h"
+
+namespace tagfield {
+
+/// What a run yields, in order of time.
+struct Recording {
+  std::vector<TagRead> reads;
+  std::vector<AntennaPose> believed_poses;  ///< A fixed antenna has one row.
+  Truth truth;
+};
+
+/// Tells which poses are worth a row: of a fixed antenna the first one alone.
+class FirstPoses {
+ public:
+  bool is_new(const AntennaInfo& antenna) {
+    return !antenna.is_fixed || seen_.insert(antenna.name).second;
+  }
+  void forget(const std::string& antenna) { seen_.erase(antenna); }
+
+ private:
+  std::set<std::string> seen_;
+};
+
+/// Appends all that it is told to a recording, which must outlive it.
+class Recorder final : public ReadListener, public PoseListener, public TruthListener {
+ public:
+  explicit Recorder(Recording& recording) : recording_(recording) {}
+
+  void on_read(const TagRead& read) override { recording_.reads.push_back(read); }
+  void on_antenna_removed(const std::string& name) override {
+    told_.forget(name);
+    placed_.forget(name);
+  }
+  void on_pose(const AntennaInfo& antenna, const AntennaPose& pose) override {
+    if (told_.is_new(antenna)) recording_.believed_poses.push_back(pose);
+  }
+  void on_tag_added(const TagPosition& tag, const std::string& /*label*/) override {
+    recording_.truth.tag_positions.push_back(tag);
+  }
+  void on_tag_moved(const TagPosition& tag) override {
+    recording_.truth.tag_positions.push_back(tag);
+  }
+  void on_robot_pose(const AntennaPose& robot) override {
+    recording_.truth.robot_poses.push_back(robot);
+  }
+  void on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) override {
+    if (placed_.is_new(antenna)) recording_.truth.antenna_poses.push_back(pose);
+  }
+  void on_distance(const TrueDistance& distance) override {
+    recording_.truth.distances.push_back(distance);
+  }
+
+ private:
+  Recording& recording_;
+  FirstPoses told_;
+  FirstPoses placed_;
+};
+
+/// What keeps all of a run in `recording`, which must outlive it.
+inline Outlets recorded_in(Recording& recording) {
+  Outlets outlets;
+  attach(std::make_shared<Recorder>(recording), outlets);
+  return outlets;
+}
+
+}  // namespace tagfield
