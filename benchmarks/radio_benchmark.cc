@@ -25,7 +25,7 @@ TagPopulation tags_around(std::int64_t count, const Eigen::Vector3d& middle) {
   for (std::int64_t i = 0; i < count; ++i) {
     const double radius = 5.0 * std::sqrt(uniform());
     const double around = kTwoPi * uniform();
-    tags.add(fmt::format("tag{}", i),
+    tags.add(static_cast<std::uint32_t>(i), fmt::format("tag{}", i),
              middle + Eigen::Vector3d(radius * std::cos(around), radius * std::sin(around),
                                       1.0 + 1.5 * uniform()));
   }

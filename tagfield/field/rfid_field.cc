@@ -25,10 +25,10 @@ std::shared_ptr<const RadioWorld> empty_unless(std::shared_ptr<const RadioWorld>
 
 std::shared_ptr<const AntennaInfo> info_of(const FieldAntenna& antenna) {
   const AntennaParameters& parameters = antenna.parameters;
-  return std::make_shared<const AntennaInfo>(AntennaInfo{
-      parameters.name, parameters.reader, antenna.sensor, antenna.name_space, antenna.frame_id,
-      antenna.parent_frame, nominal_range_m(parameters), antenna.is_fixed,
-      meets_world(parameters)});
+  return std::make_shared<const AntennaInfo>(
+      AntennaInfo{parameters.name, parameters.reader, antenna.sensor, antenna.name_space,
+                  antenna.frame_id, antenna.parent_frame, nominal_range_m(parameters),
+                  antenna.is_fixed, meets_world(parameters)});
 }
 
 }  // namespace
@@ -83,11 +83,8 @@ std::vector<std::string> RfidField::take_warnings() {
   return fresh;
 }
 
-std::uint32_t RfidField::slot_of(std::uint32_t number) const {
-  if (number >= slots_.size() || !slots_[number]) {
-    throw Error(fmt::format("there is no tag of number {}", number));
-  }
-  return *slots_[number];
+void RfidField::require_tag(std::uint32_t number) const {
+  if (!tags_.has(number)) throw Error(fmt::format("there is no tag of number {}", number));
 }
 
 /// What knows the antenna by its name; a driver may tell more of it than when it was added.
@@ -104,55 +101,49 @@ const std::shared_ptr<const AntennaInfo>& RfidField::info(
 }
 
 void RfidField::remove(std::uint32_t number, Time stamp) {
-  const std::uint32_t slot = slot_of(number);
-  telling_.add_removed(stamp, tags_.id(slot));
-  air_.forget_tag(slot);
-  tags_.remove(slot);
-  slots_[number].reset();
+  require_tag(number);
+  telling_.add_removed(stamp, tags_.id(number));
+  air_.forget_tag(number);
+  tags_.remove(number);
 }
 
 void RfidField::add(const TagAdded& tag) {
   if (!is_finite(tag.X_WT)) {
     throw Error(fmt::format("tag '{}' is not at a finite place", tag.id));
   }
-  if (tag.number < slots_.size() && slots_[tag.number]) {
-    throw Error(fmt::format("there is a tag of number {} already", tag.number));
-  }
-  const std::uint32_t slot = tags_.add(tag.id, tag.X_WT.translation);
-  tags_.turn(slot, tag.X_WT.rotation);
-  if (tag.model) tags_.set_model(slot, tag.model);
-  if (tag.number >= slots_.size()) slots_.resize(tag.number + std::size_t{1});
-  slots_[tag.number] = slot;
+  tags_.add(tag.number, tag.id, tag.X_WT.translation);
+  tags_.turn(tag.number, tag.X_WT.rotation);
+  if (tag.model) tags_.set_model(tag.number, tag.model);
 }
 
 void RfidField::move(const std::vector<TagMoved>& moved) {
   moved_.clear();
   for (const TagMoved& tag : moved) {
     if (!is_finite(tag.X_WT)) continue;
-    const std::uint32_t slot = slot_of(tag.number);
-    tags_.move(slot, tag.X_WT.translation);
-    tags_.turn(slot, tag.X_WT.rotation);
-    moved_.push_back(slot);
+    require_tag(tag.number);
+    tags_.move(tag.number, tag.X_WT.translation);
+    tags_.turn(tag.number, tag.X_WT.rotation);
+    moved_.push_back(tag.number);
   }
 }
 
-/// Tags that came and rest, by their slots; then those that moved, new ones among them.
+/// Tags that came and rest, by their numbers; then those that moved, new ones among them.
 void RfidField::tell_places(const FieldStep& step) {
   if (telling_.outlets().truth.empty()) return;
   std::map<std::uint32_t, const TagAdded*> fresh;
-  for (const TagAdded& tag : step.added) fresh[slot_of(tag.number)] = &tag;
+  for (const TagAdded& tag : step.added) fresh[tag.number] = &tag;
   std::map<std::uint32_t, const TagAdded*> at_rest = fresh;
-  for (const std::uint32_t slot : moved_) at_rest.erase(slot);
-  const auto place = [&](std::uint32_t slot, Time since) {
-    return TagPosition{since, tags_.id(slot), tags_.position(slot)};
+  for (const std::uint32_t number : moved_) at_rest.erase(number);
+  const auto place = [&](std::uint32_t number, Time since) {
+    return TagPosition{since, tags_.id(number), tags_.position(number)};
   };
-  for (const auto& [slot, tag] : at_rest) {
-    telling_.add(step.stamp, place(slot, tag->since), tag->label);
+  for (const auto& [number, tag] : at_rest) {
+    telling_.add(step.stamp, place(number, tag->since), tag->label);
   }
-  for (const std::uint32_t slot : moved_) {
-    const auto found = fresh.find(slot);
+  for (const std::uint32_t number : moved_) {
+    const auto found = fresh.find(number);
     const bool is_new = found != fresh.end();
-    telling_.add(step.stamp, place(slot, step.stamp),
+    telling_.add(step.stamp, place(number, step.stamp),
                  is_new ? std::optional(found->second->label) : std::nullopt);
   }
   if (!step.removed.empty() || !step.added.empty() || !moved_.empty()) {

@@ -49,7 +49,7 @@ class RfidField {
   void remove_antenna(const std::string& name);
   void set_world(const FieldWorld& world);
   void begin_anew();
-  [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const;
+  void require_tag(std::uint32_t number) const;
   const std::shared_ptr<const AntennaInfo>& info(
       const std::shared_ptr<const FieldAntenna>& antenna);
   void remove(std::uint32_t number, Time stamp);
@@ -59,15 +59,14 @@ class RfidField {
   void update(const AntennaDue& due, Time stamp);
 
   Telling telling_;
-  TagPopulation tags_;
-  std::vector<std::optional<std::uint32_t>> slots_;  ///< By number.
-  std::vector<Antenna> antennas_;                    ///< As they came.
+  TagPopulation tags_;             ///< Slots are the driver's numbers.
+  std::vector<Antenna> antennas_;  ///< As they came.
   std::shared_ptr<const RadioWorld> world_;
   RadioAir air_;
   std::optional<Time> updated_;  ///< Stamp of the last step in which antennas were due.
   Diagnostics diagnostics_;
   std::size_t warnings_taken_ = 0;
-  std::vector<std::uint32_t> moved_;  ///< Slots; kept to save allocations.
+  std::vector<std::uint32_t> moved_;  ///< Numbers; kept to save allocations.
   std::vector<TagReply> replies_;     ///< Likewise.
   std::int64_t reads_ = 0;
 };

@@ -9,24 +9,15 @@
 
 namespace tagfield {
 
-std::uint32_t TagPopulation::free_slot() {
-  if (free_slots_.empty()) return static_cast<std::uint32_t>(tags_.size());
-  return free_slots_.back();
-}
-
-std::uint32_t TagPopulation::add(const std::string& id, const Eigen::Vector3d& p_WT) {
-  if (slots_.count(id) != 0)
+void TagPopulation::add(std::uint32_t slot, const std::string& id, const Eigen::Vector3d& p_WT) {
+  if (has(slot)) throw Error(fmt::format("there is a tag of number {} already", slot));
+  if (ids_.count(id) != 0) {
     throw Error(fmt::format("there is a tag with the ID '{}' already", id));
-  const std::uint32_t slot = free_slot();
-  index_.place(slot, p_WT);
-  if (slot == tags_.size()) {
-    tags_.emplace_back();
-  } else {
-    free_slots_.pop_back();
   }
+  index_.place(slot, p_WT);
+  if (slot >= tags_.size()) tags_.resize(slot + std::size_t{1});
   tags_[slot] = {id, stream_key(id), true, Eigen::Quaterniond::Identity(), models_.front().get()};
-  slots_.emplace(id, slot);
-  return slot;
+  ids_.insert(id);
 }
 
 void TagPopulation::set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model) {
@@ -37,16 +28,9 @@ void TagPopulation::set_model(std::uint32_t slot, std::shared_ptr<const TagModel
 }
 
 void TagPopulation::remove(std::uint32_t slot) {
-  slots_.erase(tags_[slot].id);
+  ids_.erase(tags_[slot].id);
   tags_[slot].present = false;
   index_.remove(slot);
-  free_slots_.push_back(slot);
-}
-
-std::optional<std::uint32_t> TagPopulation::find(const std::string& id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end()) return std::nullopt;
-  return found->second;
 }
 
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tagfield/base/time.h"
@@ -24,9 +24,9 @@ class TagPopulation {
   /// `cell_m` > 0 as in TagIndex: half of the antennas' range serves well.
   explicit TagPopulation(double cell_m) : index_(cell_m), models_{default_tag_model()} {}
 
-  /// Adds a tag at `p_WT` [m] and gives its slot; those of removed tags are used again. Throws
-  /// Error if the ID is present already or the position not finite.
-  std::uint32_t add(const std::string& id, const Eigen::Vector3d& p_WT);
+  /// Adds a tag at `p_WT` [m] in a slot that its driver chose, best among the lowest that are free.
+  /// Throws Error if the slot or the ID is taken, or the position not finite.
+  void add(std::uint32_t slot, const std::string& id, const Eigen::Vector3d& p_WT);
   /// Moves the tag in `slot`. Throws Error if the position is not finite.
   void move(std::uint32_t slot, const Eigen::Vector3d& p_WT) { index_.place(slot, p_WT); }
   /// Turns the tag in `slot`, which lies as the world does where it is not told.
@@ -36,8 +36,9 @@ class TagPopulation {
   /// Takes out the tag in `slot`, which must hold one.
   void remove(std::uint32_t slot);
 
-  /// Slot of the tag with this ID.
-  [[nodiscard]] std::optional<std::uint32_t> find(const std::string& id) const;
+  [[nodiscard]] bool has(std::uint32_t slot) const {
+    return slot < tags_.size() && tags_[slot].present;
+  }
   [[nodiscard]] const std::string& id(std::uint32_t slot) const { return tags_[slot].id; }
   [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
     return index_.position(slot);
@@ -53,7 +54,7 @@ class TagPopulation {
   /// stream_key() of the ID.
   [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return tags_[slot].key; }
   [[nodiscard]] const TagIndex& index() const { return index_; }
-  [[nodiscard]] std::size_t size() const { return slots_.size(); }
+  [[nodiscard]] std::size_t size() const { return ids_.size(); }
   /// Calls `visit(slot)` for each tag, in rising order of slots.
   template <class Visit>
   void for_each(const Visit& visit) const {
@@ -70,13 +71,11 @@ class TagPopulation {
     Eigen::Quaterniond R_WT = Eigen::Quaterniond::Identity();
     const TagModel* model = nullptr;  ///< One of `models_`.
   };
-  std::uint32_t free_slot();
 
   TagIndex index_;
   std::vector<std::shared_ptr<const TagModel>> models_;
   std::vector<Tag> tags_;
-  std::vector<std::uint32_t> free_slots_;
-  std::unordered_map<std::string, std::uint32_t> slots_;
+  std::unordered_set<std::string> ids_;
 };
 
 /// What an antenna sees of one tag: a TagRead without what all of an antenna have in common.

@@ -44,7 +44,9 @@ QUIET = {
     r"<sys/socket\.h>|<netinet/": "opens sockets",
 }
 # sdformat prints to std::cerr whatever it is told; read_root.cc takes the stream away for a while.
-QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints")}
+# field_worker.cc says what CPU time its thread took.
+QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints"),
+                ("tagfield/field/field_worker.cc", "looks at a clock")}
 # Who makes the truth known, or judges by it.
 TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "experiment"}
 # In step with real time, or to say how long a method took.

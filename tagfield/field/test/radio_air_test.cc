@@ -57,7 +57,8 @@ TagPopulation row_of_tags(int count, double spacing_m) {
   TagPopulation tags(3.0);
   const auto kind = isotropic_tag();
   for (int i = 0; i < count; ++i) {
-    const std::uint32_t slot = tags.add("tag" + std::to_string(i), {2.0, spacing_m * i, 0.0});
+    const auto slot = static_cast<std::uint32_t>(i);
+    tags.add(slot, "tag" + std::to_string(i), {2.0, spacing_m * i, 0.0});
     tags.set_model(slot, kind);
   }
   return tags;
@@ -189,7 +190,8 @@ TEST(RadioAir, TagInAFreedSlotIsAnother) {
     if (i == 20) {
       air.forget_tag(0);
       tags.remove(0);
-      tags.set_model(tags.add("new", {2.0, 0.1, 0.0}), isotropic_tag());
+      tags.add(0, "new", {2.0, 0.1, 0.0});
+      tags.set_model(0, isotropic_tag());
     }
     air.update("a", {}, at_update(i), tags, replies);
     reads += static_cast<int>(replies.size());

@@ -21,31 +21,33 @@ AntennaParameters antenna() {
   return antenna;
 }
 
-TEST(TagPopulation, FindsTagsByTheirId) {
+TEST(TagPopulation, HoldsTagsUnderTheirSlots) {
   TagPopulation tags(3.5);
-  const std::uint32_t a = tags.add("A", {1.0, 2.0, 3.0});
-  const std::uint32_t b = tags.add("B", kOrigin);
-  EXPECT_EQ(tags.find("A"), a);
-  EXPECT_EQ(tags.find("B"), b);
-  EXPECT_EQ(tags.find("C"), std::nullopt);
-  EXPECT_EQ(tags.id(a), "A");
-  EXPECT_EQ(tags.position(a), Eigen::Vector3d(1.0, 2.0, 3.0));
+  tags.add(0, "A", {1.0, 2.0, 3.0});
+  tags.add(3, "B", kOrigin);
+  EXPECT_TRUE(tags.has(0));
+  EXPECT_FALSE(tags.has(1));
+  EXPECT_FALSE(tags.has(9));
+  EXPECT_EQ(tags.id(3), "B");
+  EXPECT_EQ(tags.position(0), Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(tags.size(), 2U);
 }
 
-TEST(TagPopulation, RefusesASecondTagOfTheSameId) {
+TEST(TagPopulation, RefusesASecondTagOfTheSameIdOrInTheSameSlot) {
   TagPopulation tags(3.5);
-  tags.add("A", kOrigin);
-  EXPECT_EQ(error_of([&] { tags.add("A", kOrigin); }), "there is a tag with the ID 'A' already");
+  tags.add(0, "A", kOrigin);
+  EXPECT_EQ(error_of([&] { tags.add(1, "A", kOrigin); }), "there is a tag with the ID 'A' already");
+  EXPECT_EQ(error_of([&] { tags.add(0, "B", kOrigin); }), "there is a tag of number 0 already");
   EXPECT_EQ(tags.size(), 1U);
 }
 
 TEST(TagPopulation, RefusesAPlaceThatIsNowhereAndStaysWhole) {
   TagPopulation tags(3.5);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(error_of([&] { tags.add("A", {nan, 0.0, 0.0}); }), "finite"));
+  EXPECT_TRUE(contains(error_of([&] { tags.add(0, "A", {nan, 0.0, 0.0}); }), "finite"));
   EXPECT_EQ(tags.size(), 0U);
-  EXPECT_EQ(tags.add("A", kOrigin), 0U);
+  tags.add(0, "A", kOrigin);
+  EXPECT_TRUE(tags.has(0));
 }
 
 // Against a map: whatever is added, moved and removed, the population holds what the map holds, and
@@ -59,17 +61,17 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
                            0.01 * (*rc::gen::inRange(0, 300)));
   };
   for (const int what : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 90))) {
-    const std::string id = "tag" + std::to_string(what / 3);
+    const auto slot = static_cast<std::uint32_t>(what / 3);
+    const std::string id = "tag" + std::to_string(slot);
     const Eigen::Vector3d place = any_place();
-    const std::optional<std::uint32_t> slot = tags.find(id);
-    if (!slot) {
-      tags.add(id, place);
+    if (!tags.has(slot)) {
+      tags.add(slot, id, place);
       expected[id] = place;
     } else if (what % 3 == 0) {
-      tags.remove(*slot);
+      tags.remove(slot);
       expected.erase(id);
     } else {
-      tags.move(*slot, place);
+      tags.move(slot, place);
       expected[id] = place;
     }
   }
@@ -97,7 +99,7 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
 
 TEST(ReadTags, GiveNothingForAnAntennaThatIsNowhere) {
   TagPopulation tags(3.5);
-  tags.add("A", kOrigin);
+  tags.add(0, "A", kOrigin);
   std::vector<TagReply> replies(3);
   read_tags(antenna(), {std::nan(""), 0.0, 0.0}, Time{}, 1, tags, replies);
   EXPECT_TRUE(replies.empty());
