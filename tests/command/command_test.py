@@ -180,6 +180,7 @@ def check_incomplete_folder(folder):
         check(name in files, f"the interrupted run left no {name}")
     check(not any("incomplete" in name or "partial" in name for name in files),
           f"half-written files: {sorted(files)}")
+    check("INCOMPLETE" in files, "nothing says that the run is incomplete")
     summary = read_json(folder / "summary.json")
     check_equal(summary["complete"], False, "complete")
     reads = read_csv(folder / "reads.csv")
@@ -211,6 +212,54 @@ def an_interrupted_run_keeps_what_it_had(context):
             whole = files_in(context.simulate("paper_warehouse", name="whole"))["reads.csv"]
             check(whole.startswith((out / "reads.csv").read_bytes()),
                   "its reads are not the first of a whole run")
+
+
+@case
+def a_run_that_only_records_writes_the_same_tables(context):
+    context.run_well("run", context.shipped("two_antennas"), "--out", "whole", "--no-page")
+    result = context.run_well("run", context.shipped("two_antennas"), "--out", "tables",
+                              "--record-only")
+    check_in("folder: tables", result.out, "what is printed")
+    tables = files_in(context.folder / "tables")
+    check_equal(sorted(tables), ["antenna_poses.csv", "reads.csv", "truth/antenna_poses.csv",
+                                 "truth/distances.csv", "truth/robot_poses.csv", "truth/tags.csv"],
+                "files")
+    whole = files_in(context.folder / "whole")
+    for name, content in tables.items():
+        check(content == whole[name], f"{name} differs")
+    for option in (["--seeds", "2"], ["--breakdown"]):
+        result = context.run("run", context.shipped("two_antennas"), "--record-only", *option)
+        check_equal(result.code, 2, f"exit code with {option}")
+
+
+@case
+def an_interrupted_recording_is_whole_and_says_that_it_ends_early(context):
+    out = context.folder / "out"
+    session = OnTerminal(context, "run", context.shipped("paper_warehouse"), "--set",
+                         "real_time=1", "--record-only", "--out", out)
+    check(session.wait_for(r"\b[23] %"), f"no progress: {session.seen!r}")
+    session.process.send_signal(signal.SIGINT)
+    check_equal(session.finish()[0], 130, "exit code")
+    check_in("whole up to then", (out / "INCOMPLETE").read_text(encoding="utf-8"), "INCOMPLETE")
+    check(len(read_csv(out / "reads.csv")) > 20, "few reads")
+    context.run_well("run", context.shipped("paper_warehouse"), "--record-only", "--out", out)
+    check(not (out / "INCOMPLETE").exists(), "INCOMPLETE stays after a whole run")
+
+
+@case
+def a_killed_run_leaves_what_it_wrote_in_a_folder_that_says_so(context):
+    out = context.folder / "out"
+    session = OnTerminal(context, "run", context.shipped("paper_warehouse"), "--set",
+                         "real_time=40", "--record-only", "--out", out)
+    check(session.wait_for(r"\b9\d %"), f"no progress: {session.seen!r}")
+    session.process.kill()
+    session.process.wait()
+    left = [path for path in out.iterdir() if path.name.startswith("incomplete-")]
+    check_equal(len(left), 1, "folders left")
+    text = (left[0] / "reads.csv").read_text(encoding="utf-8")
+    check(text.endswith("\n"), "the last line is cut off")
+    check(len(text) > 65536, "little was written")
+    check(not (out / "reads.csv").exists(), "reads.csv is there")
 
 
 @case

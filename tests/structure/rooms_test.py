@@ -193,8 +193,37 @@ def sources(root):
                 yield str(path.relative_to(root)), path.read_text(encoding="utf-8")
 
 
+def table_faults(text):
+    """What is wrong about the rooms' table of docs/architecture.md."""
+    rows = re.findall(r"^\| `tagfield/(\w+)/` \| (.*) \|$", text, re.MULTILINE)
+    if [room for room, _ in rows] != ROOMS:
+        yield f"docs/architecture.md: its rooms are not, in this order, {', '.join(ROOMS)}"
+    for room, clause in rows:
+        if len(clause) > 80 or re.search(r"[;.(]", clause):
+            yield f"docs/architecture.md: {room}/ is not one plain clause: {clause}"
+
+
+def link_faults(path, text):
+    """Rooms that a room's CMake target links although they stand below it."""
+    room = room_of(path)
+    for other in re.findall(r"tagfield::(\w+)", without_tests(text)):
+        if other in ROOMS and ROOMS.index(other) > ROOMS.index(room):
+            yield f"{path}: links {other}/, which is below {room}/"
+
+
+def without_tests(cmake):
+    """What a room's CMakeLists.txt says of the room itself."""
+    return re.sub(r"^if\(TAGFIELD_TESTS\)$.*?^endif\(\)$", "", cmake, flags=re.MULTILINE | re.DOTALL)
+
+
 def faults(root):
     found = []
+    table = root / "docs/architecture.md"
+    if table.exists():
+        found.extend(table_faults(table.read_text(encoding="utf-8")))
+    for path in sorted((root / "tagfield").glob("*/CMakeLists.txt")):
+        if path.parent.name in ROOMS:
+            found.extend(link_faults(str(path.relative_to(root)), path.read_text(encoding="utf-8")))
     rooms = sorted(path.name for path in (root / "tagfield").iterdir() if path.is_dir())
     for room in rooms:
         if room not in ROOMS:
@@ -280,6 +309,9 @@ PLANTED = (  # a file, its content, what must be said of it
      "/// @file\n/// It.\n#pragma once\nnamespace tagfield {\nusing Truth = int;\n",
      "defines tagfield::Truth, as tagfield/stream/truth.h:5 does"),
     ("tagfield/kitchen/a.cc", "\n", "kitchen: is no room"),
+    ("tagfield/world/CMakeLists.txt", "LINKS tagfield::base tagfield::reader\n",
+     "links reader/, which is below world/"),
+    ("docs/architecture.md", "| `tagfield/base/` | units |\n", "its rooms are not"),
 )
 
 

@@ -131,7 +131,6 @@ TEST(RfidField, LeavesOutWhatIsNowhere) {
 
 TEST(RfidField, RefusesTagsThatAreThereOrNot) {
   LoggedField field;
-  Log& log = *field.log;
   FieldStep step = step_at(0.1);
   step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
   field.step(step);
@@ -182,7 +181,6 @@ TEST(RfidField, LetsWavesMeetTheWorld) {
 
 TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
   LoggedField field;
-  Log& log = *field.log;
   FieldStep step = step_at(0.0);
   auto broken = std::make_shared<FieldWorld>();
   broken->scene.collisions = {{"wall::link::box", Box{{1.0, 1.0, 1.0}}, at(1e12, 0.0, 0.0)}};
@@ -212,7 +210,6 @@ std::vector<TagRead> inventory_run(LoggedField& field, const AntennaDue& antenna
 
 TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
   LoggedField field;
-  Log& log = *field.log;
   const AntennaDue antenna =
       physical_antenna("gate", {{"inventory", "gen2", {}}, {"target", "alternate", {}}});
   FieldStep begin = step_at(0.0);

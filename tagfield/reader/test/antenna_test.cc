@@ -177,8 +177,8 @@ TEST(ReadTag, ReportsWhoReadWhatAndWhen) {
   EXPECT_EQ(read.antenna, "left");
   EXPECT_EQ(read.tag, "E280::1");
   EXPECT_EQ(read.frequency_hz, 915e6);
-  EXPECT_EQ(read.phase_rad, paper_phase(antenna.model, 2.0, 0.0));
-  EXPECT_EQ(read.rssi_dbm, paper_rssi_dbm(antenna.model, 2.0, 0.0));
+  EXPECT_EQ(read.phase_rad, paper_phase(paper(antenna).model, 2.0, 0.0));
+  EXPECT_EQ(read.rssi_dbm, paper_rssi_dbm(paper(antenna).model, 2.0, 0.0));
 }
 
 TEST(ReadTag, IsAFunctionOfSeedAntennaTagAndStamp) {
