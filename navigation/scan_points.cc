@@ -42,4 +42,38 @@ std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points,
   return kept;
 }
 
+std::vector<Eigen::Vector2f> sparse_ends(const LaserScan& scan, const RigidTransform& X_RL,
+                                         int beams, double least_apart_m) {
+  const std::size_t all = scan.ranges_m.size();
+  const std::size_t skip =
+      std::max<std::size_t>(all / static_cast<std::size_t>(std::max(beams, 1)), 1);
+  const std::size_t count = (all - 1) / skip + 1;
+  const double each = scan.angle_step_rad * static_cast<double>(skip);
+  const double last = scan.first_angle_rad + each * static_cast<double>(count - 1);
+  const double aperture = static_cast<float>(last - scan.first_angle_rad);
+  const double middle = 0.5 * (scan.first_angle_rad + last);
+  const double yaw = yaw_of(X_RL.rotation) + middle;
+  const auto c = static_cast<float>(std::cos(yaw));
+  const auto s = static_cast<float>(std::sin(yaw));
+  const Eigen::Vector2f from = X_RL.translation.head<2>().cast<float>();
+  const auto d = static_cast<float>(least_apart_m);
+  std::vector<Eigen::Vector2f> ends;
+  double angle = -0.5 * aperture;
+  bool after_return = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range = scan.ranges_m[i * skip];
+    const bool is_return = beam_of(scan, range) == Beam::kReturn;
+    if (is_return) {
+      const float x = range * static_cast<float>(std::cos(angle));
+      const float y = range * static_cast<float>(std::sin(angle));
+      const Eigen::Vector2f end(from.x() + (x * c - y * s), from.y() + (x * s + y * c));
+      const bool far = after_return && (ends.empty() || (end - ends.back()).squaredNorm() > d * d);
+      if (ends.empty() || far || i + 1 == count) ends.push_back(end);
+    }
+    after_return = is_return;
+    angle += aperture / static_cast<double>(count - 1);
+  }
+  return ends;
+}
+
 }  // namespace tagfield

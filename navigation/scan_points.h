@@ -27,4 +27,8 @@ ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double
 /// beams lie dense, near the laser, they would outweigh all others.
 std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points, double spacing_m);
 
+/// Ends of about `beams` of the scan's beams, evenly.
+std::vector<Eigen::Vector2f> sparse_ends(const LaserScan& scan, const RigidTransform& X_RL,
+                                         int beams, double least_apart_m);
+
 }  // namespace tagfield
