@@ -159,8 +159,8 @@ void GridMapper::resample() {
   std::vector<double> log_weights;
   log_weights.reserve(particles_.size());
   for (const Particle& particle : particles_) log_weights.push_back(particle.log_weight);
-  RandomStream stream(seed_, Purpose::kMapping, particles_.size(), updates_);
-  std::mt19937 generator(static_cast<std::uint32_t>(stream()));
+  std::mt19937 generator =
+      generator_of(RandomStream(seed_, Purpose::kMapping, particles_.size(), updates_));
   std::vector<Particle> next;
   next.reserve(particles_.size());
   for (const std::size_t i : systematic_resampling(log_weights, generator)) {

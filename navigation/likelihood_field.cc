@@ -10,37 +10,58 @@ namespace {
 
 constexpr float kHit = 0.9F;
 constexpr float kNotOnMap = 0.1F / 3.0F;  // [1/m]
-constexpr float kReach = 4.0F;            // [σ]
+constexpr double kReach = 4.0;            // [σ]
+
+/// Squares of the distances from the nearest occupied cell, at most of `most_m` [cells²].
+std::vector<long> squared_distances(const OccupancyGrid& map, double most_m) {
+  std::vector<bool> occupied;
+  occupied.reserve(map.cells.size());
+  for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
+  std::vector<long> squares;
+  squares.reserve(occupied.size());
+  for (const float distance : distance_field(map, occupied, most_m)) {
+    const double cells = static_cast<double>(distance) / map.resolution_m;
+    squares.push_back(std::lrint(cells * cells));
+  }
+  return squares;
+}
 
 }  // namespace
 
+CellFrame::CellFrame(const OccupancyGrid& map)
+    : resolution_m(static_cast<float>(map.resolution_m)),
+      origin(resolution_m * (map.origin.cast<float>() / resolution_m).array().round().matrix()) {}
+
+Eigen::Vector2f CellFrame::centre_of(int x, int y) const {
+  return {origin.x() + (static_cast<float>(x) + 0.5F) * resolution_m,
+          origin.y() + (static_cast<float>(y) + 0.5F) * resolution_m};
+}
+
 LikelihoodField::LikelihoodField(const OccupancyGrid& map, double sigma_m)
-    : width_(static_cast<unsigned>(map.width)),
-      height_(static_cast<unsigned>(map.height)),
-      resolution_m_(static_cast<float>(map.resolution_m)) {
-  const auto whole = [&](double x) {
-    return resolution_m_ * std::round(static_cast<float>(x) / resolution_m_);
-  };
-  origin_ = {whole(map.origin.x()), whole(map.origin.y())};
-  std::vector<bool> occupied;
-  for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
+    : frame_(map), width_(map.width), height_(map.height) {
   const auto sigma = static_cast<float>(sigma_m);
-  const float reach = static_cast<float>(4.0 * sigma_m);
-  const double res = resolution_m_;
-  const double Q = -0.5F / (sigma * sigma);
-  const double per = 100 / (res * res);
-  const double inv = 1.0 / per;
-  const double reach2 = reach * reach;
-  const long cap = std::lrint(reach2 * per);
-  for (const float d : distance_field(map, occupied, reach + 2.0 * map.resolution_m)) {
-    const double cells = static_cast<double>(d) / map.resolution_m;
-    const long n = std::min(100 * std::lrint(cells * cells), cap);
-    const float d2 = static_cast<float>(static_cast<double>(n) * inv);
-    const float lik = kNotOnMap + kHit * std::exp(static_cast<float>(Q) * d2);
-    logs_.push_back(std::log(static_cast<double>(lik)));
+  const float falloff = -0.5F / (sigma * sigma);
+  const double cell_m = frame_.resolution_m;
+  logs_.reserve(map.cells.size());
+  for (const long square : squared_distances(map, kReach * sigma_m)) {
+    const auto square_m2 = static_cast<float>(static_cast<double>(square) * cell_m * cell_m);
+    const float likelihood = kNotOnMap + kHit * std::exp(falloff * square_m2);
+    logs_.push_back(std::log(static_cast<double>(likelihood)));
   }
-  outside_ =
-      std::log(static_cast<double>(kNotOnMap) + static_cast<double>(kHit) * std::exp(Q * reach2));
+  const auto reach = static_cast<float>(kReach * sigma_m);
+  off_map_ = std::log(kNotOnMap + kHit * std::exp(static_cast<double>(falloff) * (reach * reach)));
+}
+
+double LikelihoodField::log_at(double x, double y) const {
+  // In this order NaN becomes 1e9, and no conversion overflows.
+  const auto whole = [&](double cells) {
+    return static_cast<int>(std::max(-1.0, std::min(1e9, cells)));
+  };
+  const int column = whole((x - frame_.origin.x()) / frame_.resolution_m);
+  const int row = whole((y - frame_.origin.y()) / frame_.resolution_m);
+  if (column < 0 || row < 0 || column >= width_ - 1 || row >= height_ - 1) return off_map_;
+  return logs_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(column)];
 }
 
 double LikelihoodField::log_likelihood(const PlanarPose& pose_M,
@@ -49,14 +70,8 @@ double LikelihoodField::log_likelihood(const PlanarPose& pose_M,
   const double s = std::sin(wrap_to_pi(pose_M.yaw));
   double sum = 0.0;
   for (const Eigen::Vector2f& end_R : ends_R) {
-    const double px = end_R.x();
-    const double py = end_R.y();
-    const double gx = pose_M.x + px * c - py * s;
-    const double gy = pose_M.y + px * s + py * c;
-    const auto x = static_cast<unsigned>(static_cast<int>((gx - origin_.x()) / resolution_m_));
-    const auto y = static_cast<unsigned>(static_cast<int>((gy - origin_.y()) / resolution_m_));
-    const bool inside = x < width_ - 1 && y < height_ - 1;
-    sum += inside ? logs_[x + static_cast<std::size_t>(y) * width_] : outside_;
+    const Eigen::Vector2d p = end_R.cast<double>();
+    sum += log_at(pose_M.x + p.x() * c - p.y() * s, pose_M.y + p.x() * s + p.y() * c);
   }
   return sum;
 }

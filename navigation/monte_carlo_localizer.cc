@@ -11,6 +11,7 @@
 
 #include "navigation/likelihood_field.h"
 #include "navigation/pose_particles.h"
+#include "navigation/resampling.h"
 #include "navigation/scan_points.h"
 #include "tagfield/base/error.h"
 #include "tagfield/motion/planar_pose.h"
@@ -114,22 +115,19 @@ void require_usable(const OccupancyGrid& map) {
 }  // namespace
 
 struct MonteCarloLocalizer::Impl {
-  Impl(const OccupancyGrid& on_map, const LocalizerSettings& with, const RigidTransform& X,
-       std::uint64_t of_seed);
-
   LocalizerSettings settings;
   RigidTransform X_RL;
   std::uint64_t seed;
-  LikelihoodField tracking_field;   ///< What weighs particles when tracking,
-  LikelihoodField searching_field;  ///< and when searching, where they lie thin.
+  OccupancyGrid map;
   HitGrid walls;
   std::vector<float> wall_distance;
-  OccupancyGrid map;
-  std::vector<PoseParticle> particles;
+  LikelihoodField tracking_field;   ///< What weighs particles when tracking,
+  LikelihoodField searching_field;  ///< and when searching, where they lie thin.
+  std::vector<PoseParticle> particles = {};
   std::uint64_t draws = 0;
   bool has_odometry = false;
-  PlanarPose odometry;  ///< At the last scan that was used.
-  PoseEstimate estimate;
+  PlanarPose odometry = {};  ///< At the last scan that was used.
+  PoseEstimate estimate = {};
   Localization state = Localization::kSearching;
   double fit = 0.0;
   int good_scans = 0;
@@ -140,8 +138,7 @@ struct MonteCarloLocalizer::Impl {
   int times_lost = 0;
 
   std::mt19937 random() {
-    return std::mt19937(
-        static_cast<std::uint32_t>(RandomStream(seed, Purpose::kLocalization, draws++)()));
+    return generator_of(RandomStream(seed, Purpose::kLocalization, draws++));
   }
 
   void use(Localization next);
@@ -443,24 +440,14 @@ bool MonteCarloLocalizer::Impl::update(const LaserScan& scan, const PlanarPose& 
   return true;
 }
 
-MonteCarloLocalizer::Impl::Impl(const OccupancyGrid& on_map, const LocalizerSettings& with,
-                                const RigidTransform& X, std::uint64_t of_seed)
-    : settings(with),
-      X_RL(X),
-      seed(of_seed),
-      tracking_field(on_map, with.sigma_hit_m),
-      searching_field(on_map, with.search_sigma_m),
-      walls(walls_of(on_map)),
-      wall_distance(wall_distances(on_map)),
-      map(on_map) {
-  search();
-}
-
 MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map,
                                          const LocalizerSettings& settings,
                                          const RigidTransform& X_RL, std::uint64_t seed) {
   require_usable(map);
-  impl_ = std::make_unique<Impl>(map, settings, X_RL, seed);
+  impl_ = std::make_unique<Impl>(Impl{settings, X_RL, seed, map, walls_of(map), wall_distances(map),
+                                      LikelihoodField(map, settings.sigma_hit_m),
+                                      LikelihoodField(map, settings.search_sigma_m)});
+  impl_->search();
 }
 
 MonteCarloLocalizer::~MonteCarloLocalizer() = default;

@@ -25,12 +25,13 @@ Bin bin_of(const PlanarPose& pose, const KldOptions& options) {
 
 /// With a heading in [-π, π].
 PlanarPose moved(const PlanarPose& pose, const PlanarPose& step) {
-  const double c = std::cos(wrap_to_pi(pose.yaw));
-  const double s = std::sin(wrap_to_pi(pose.yaw));
-  const double step_c = std::cos(wrap_to_pi(step.yaw));
-  const double step_s = std::sin(wrap_to_pi(step.yaw));
-  return {pose.x + c * step.x - s * step.y, pose.y + s * step.x + c * step.y,
-          std::atan2(s * step_c + c * step_s, c * step_c - s * step_s)};
+  const PlanarPose wrapped{pose.x, pose.y, wrap_to_pi(pose.yaw)};
+  PlanarPose next = compose(wrapped, step);
+  const double c = std::cos(wrapped.yaw);
+  const double s = std::sin(wrapped.yaw);
+  next.yaw = std::atan2(s * std::cos(step.yaw) + c * std::sin(step.yaw),
+                        c * std::cos(step.yaw) - s * std::sin(step.yaw));
+  return next;
 }
 
 std::vector<double> log_weights_of(const std::vector<PoseParticle>& particles) {
@@ -57,22 +58,22 @@ StepDraw::StepDraw(const PlanarPose& step, const Eigen::Matrix3d& covariance) : 
 }
 
 PlanarPose StepDraw::operator()(std::mt19937& generator) {
-  Eigen::Vector3d z;
-  for (double& each : z) each = normal_(generator);
-  const Eigen::Vector3d d = root_ * z;
-  return {step_.x + d.x(), step_.y + d.y(), step_.yaw + d.z()};
+  Eigen::Vector3d d = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) d += normal_(generator) * root_.col(i);
+  return {step_.x + d.x(), step_.y + d.y(), wrap_to_pi(step_.yaw + d.z())};
 }
 
 std::vector<PoseParticle> spread_over_free(const OccupancyGrid& map, int count,
                                            std::mt19937& generator) {
-  std::vector<Eigen::Vector2d> free;
+  const CellFrame frame(map);
+  std::vector<Eigen::Vector2f> free;
   for (int x = 0; x < map.width; ++x) {
     for (int y = 0; y < map.height; ++y) {
-      if (is_free(map.at(x, y))) free.push_back(map.centre_of(x, y));
+      if (is_free(map.at(x, y))) free.push_back(frame.centre_of(x, y));
     }
   }
   const double last = static_cast<double>(free.size()) - 1.001;
-  const double cell = map.resolution_m;
+  const double cell = frame.resolution_m;
   std::vector<PoseParticle> particles(static_cast<std::size_t>(count));
   for (PoseParticle& particle : particles) {
     const auto chosen = static_cast<std::size_t>(std::lrint(uniform_draw(generator, 0.0, last)));
@@ -101,6 +102,7 @@ std::vector<PoseParticle> drawn_and_moved(const std::vector<PoseParticle>& parti
 void weigh(std::vector<PoseParticle>& particles, const LikelihoodField& field,
            const std::vector<Eigen::Vector2f>& ends_R, double trust) {
   for (PoseParticle& particle : particles) {
+    // The 1 is common to all: without it, only last digits would change.
     particle.log_weight += trust * (1.0 + field.log_likelihood(particle.pose_M, ends_R));
   }
   const auto lighter = [](const PoseParticle& a, const PoseParticle& b) {

@@ -6,11 +6,17 @@
 namespace tagfield {
 namespace {
 
-/// A draw looks for its particle from the twentieth of the sum that is below it.
+/// Places of the running sum of shares from which a draw looks for its particle.
 constexpr std::size_t kStarts = 20;
-constexpr double kAlmostOne = 0.999999;
+/// Draws are kept below 1, and a little below the place where they begin to look.
+constexpr double kMost = 0.999999;
+constexpr double kSafely = 0.05;
 
 }  // namespace
+
+std::mt19937 generator_of(RandomStream stream) {
+  return std::mt19937(static_cast<std::mt19937::result_type>(stream()));
+}
 
 double uniform_draw(std::mt19937& generator, double low, double high) {
   constexpr double kStep = 1.0 / std::mt19937::max();
@@ -58,8 +64,8 @@ WeightedDraw::WeightedDraw(const std::vector<double>& log_weights)
 }
 
 std::size_t WeightedDraw::operator()(std::mt19937& generator) const {
-  const double draw = uniform_draw(generator, 0.0, kAlmostOne);
-  const auto start = static_cast<std::size_t>(draw * (kStarts - 0.05));
+  const double draw = uniform_draw(generator, 0.0, kMost);
+  const auto start = static_cast<std::size_t>(draw * (kStarts - kSafely));
   double sum = static_cast<double>(start) / kStarts;
   std::size_t chosen = starts_[start];
   while (draw > sum + shares_[chosen] && chosen + 1 < shares_.size()) sum += shares_[chosen++];

@@ -6,7 +6,12 @@
 #include <random>
 #include <vector>
 
+#include "tagfield/base/random.h"
+
 namespace tagfield {
+
+/// Seeded by the stream's next word.
+std::mt19937 generator_of(RandomStream stream);
 
 /// From `low` to `high`, both included, by one word of the generator.
 double uniform_draw(std::mt19937& generator, double low, double high);
@@ -20,7 +25,9 @@ std::vector<std::size_t> systematic_resampling(const std::vector<double>& log_we
                                                std::mt19937& generator);
 
 /// Draws one particle at a time by its weight, independently: multinomial resampling of as many as
-/// it takes.
+/// it takes. Looks for it from the last of twenty places in the running sum of shares that the draw
+/// is beyond; a particle that lies across such a place counts as beginning there, so that it, and
+/// the one before the next place, may be drawn more or less often by up to its own share.
 class WeightedDraw {
  public:
   explicit WeightedDraw(const std::vector<double>& log_weights);
@@ -28,7 +35,7 @@ class WeightedDraw {
 
  private:
   std::vector<double> shares_;
-  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> starts_;  ///< The particle at each of the places.
 };
 
 }  // namespace tagfield

@@ -25,11 +25,12 @@ OccupancyGrid random_map(std::uint32_t seed) {
   return map;
 }
 
-/// Thrun's formula on the end's cell, by looking at all cells.
+/// Thrun's formula on the end's cell, by looking at all cells; at the map's border as promised.
 double brute_force(const OccupancyGrid& map, const Eigen::Vector2d& end_M, double sigma) {
   double least = 16.0 * sigma * sigma;
-  const Eigen::Vector2i cell = map.cell_of(end_M);
-  const bool inside = map.contains(cell.x(), cell.y());
+  Eigen::Vector2i cell = map.cell_of(end_M);
+  for (int& each : cell) each = each == -1 ? 0 : each;
+  const bool inside = cell.minCoeff() >= 0 && cell.x() < map.width - 1 && cell.y() < map.height - 1;
   for (int y = 0; inside && y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       if (!is_occupied(map.at(x, y))) continue;

@@ -124,7 +124,7 @@ def include_faults(path, text):
             yield f"{place}: only sdf/ includes sdformat"
         math = header.startswith(MATH) and path.startswith("tagfield/sdf/")
         if (header.startswith(ALIENS) and not math and
-                not path.startswith(("adapters/", "navigation/", "tests/gazebo/"))):
+                not path.startswith(("adapters/", "tests/gazebo/"))):
             yield f"{place}: no ROS, Gazebo, MRPT or MPI here"
         if (header.endswith("/truth.h") and not path.startswith(TRUTH_READERS) and
                 not is_test(path)):
