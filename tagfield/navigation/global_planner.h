@@ -1,10 +1,7 @@
 /// @file
 /// Ways over a map that keep clear of its walls. docs/driving.md has the equations.
 ///
-/// A* and Dijkstra's algorithm on the cells of a FloorRoom. MRPT's PlannerSimple2D would find ways
-/// too, but it is a wavefront over cells that are free or not: it knows no cost, so its ways brush
-/// along every corner at just the radius that it is given, and it can't tell the ways to many
-/// places at once, which choosing among frontiers needs.
+/// A* and Dijkstra's algorithm on the cells of a FloorRoom.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,5 @@
 #include "tagfield/navigation/grid_mapper.h"
 
-#include <mrpt/bayes/CParticleFilterCapable.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/navigation/internal/mrpt_random.h"
+#include "tagfield/navigation/resampling.h"
 
 namespace tagfield {
 namespace {
@@ -161,15 +159,13 @@ void GridMapper::resample() {
   std::vector<double> log_weights;
   log_weights.reserve(particles_.size());
   for (const Particle& particle : particles_) log_weights.push_back(particle.log_weight);
-  std::vector<std::size_t> chosen;
-  {
-    const MrptRandom random(RandomStream(seed_, Purpose::kMapping, particles_.size(), updates_));
-    mrpt::bayes::CParticleFilterCapable::computeResampling(
-        mrpt::bayes::CParticleFilter::prSystematic, log_weights, chosen);
-  }
+  std::mt19937 generator =
+      generator_of(RandomStream(seed_, Purpose::kMapping, particles_.size(), updates_));
   std::vector<Particle> next;
-  next.reserve(chosen.size());
-  for (const std::size_t i : chosen) next.push_back(particles_[i]);
+  next.reserve(particles_.size());
+  for (const std::size_t i : systematic_resampling(log_weights, generator)) {
+    next.push_back(particles_[i]);
+  }
   particles_ = std::move(next);
   for (Particle& particle : particles_) particle.log_weight = 0.0;
   normalize_weights();

@@ -1,22 +1,19 @@
 #include "tagfield/navigation/monte_carlo_localizer.h"
 
-#include <mrpt/bayes/CParticleFilter.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/slam/CMonteCarloLocalization2D.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <random>
 #include <utility>
 
 #include "tagfield/base/error.h"
 #include "tagfield/motion/planar_pose.h"
-#include "tagfield/navigation/internal/mrpt_conversions.h"
-#include "tagfield/navigation/internal/mrpt_random.h"
+#include "tagfield/navigation/likelihood_field.h"
+#include "tagfield/navigation/pose_particles.h"
+#include "tagfield/navigation/resampling.h"
 #include "tagfield/navigation/scan_points.h"
 
 namespace tagfield {
@@ -82,6 +79,13 @@ HitGrid walls_of(const OccupancyGrid& map) {
   return walls;
 }
 
+std::vector<float> wall_distances(const OccupancyGrid& map) {
+  std::vector<bool> occupied;
+  occupied.reserve(map.cells.size());
+  for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
+  return distance_field(map, occupied, 1.0);
+}
+
 double square(double x) { return x * x; }
 
 Eigen::Matrix3d diagonal_covariance(double sigma_m, double sigma_rad) {
@@ -113,17 +117,17 @@ void require_usable(const OccupancyGrid& map) {
 struct MonteCarloLocalizer::Impl {
   LocalizerSettings settings;
   RigidTransform X_RL;
-  std::uint64_t seed = 0;
-  mrpt::maps::COccupancyGridMap2D::Ptr sharp;  ///< The map as it weighs particles when tracking,
-  mrpt::maps::COccupancyGridMap2D::Ptr broad;  ///< and when searching, where particles lie thin.
-  HitGrid walls{0.05};
-  std::vector<float> wall_distance;
+  std::uint64_t seed;
   OccupancyGrid map;
-  mrpt::slam::CMonteCarloLocalization2D filter;
+  HitGrid walls;
+  std::vector<float> wall_distance;
+  LikelihoodField tracking_field;   ///< What weighs particles when tracking,
+  LikelihoodField searching_field;  ///< and when searching, where they lie thin.
+  std::vector<PoseParticle> particles = {};
   std::uint64_t draws = 0;
   bool has_odometry = false;
-  PlanarPose odometry;  ///< At the last scan that was used.
-  PoseEstimate estimate;
+  PlanarPose odometry = {};  ///< At the last scan that was used.
+  PoseEstimate estimate = {};
   Localization state = Localization::kSearching;
   double fit = 0.0;
   int good_scans = 0;
@@ -133,9 +137,10 @@ struct MonteCarloLocalizer::Impl {
   int searching_scans = 0;
   int times_lost = 0;
 
-  MrptRandom random() { return MrptRandom(RandomStream(seed, Purpose::kLocalization, draws++)); }
+  std::mt19937 random() {
+    return generator_of(RandomStream(seed, Purpose::kLocalization, draws++));
+  }
 
-  void configure();
   void use(Localization next);
   void search();
   bool update(const LaserScan& scan, const PlanarPose& now);
@@ -158,61 +163,27 @@ struct MonteCarloLocalizer::Impl {
   void scatter(const PoseEstimate& around, int count, double log_weight);
 };
 
-/// How a beam's end weighs a particle by its distance from the nearest occupied cell.
-void set_likelihood(mrpt::maps::COccupancyGridMap2D& grid, double sigma_m) {
-  mrpt::maps::COccupancyGridMap2D::TLikelihoodOptions& likelihood = grid.likelihoodOptions;
-  likelihood.likelihoodMethod = mrpt::maps::COccupancyGridMap2D::lmLikelihoodField_Thrun;
-  likelihood.LF_stdHit = static_cast<float>(sigma_m);
-  likelihood.LF_zHit = 0.9F;
-  likelihood.LF_zRandom = 0.1F;
-  likelihood.LF_maxRange = 3.0F;
-  likelihood.LF_maxCorrsDistance = static_cast<float>(4.0 * sigma_m);
-  likelihood.LF_decimation = 1;
-  likelihood.enableLikelihoodCache = true;
-}
-
-void MonteCarloLocalizer::Impl::configure() {
-  sharp = to_mrpt(map);
-  broad = to_mrpt(map);
-  set_likelihood(*sharp, settings.sigma_hit_m);
-  set_likelihood(*broad, settings.search_sigma_m);
-  mrpt::slam::TKLDParams& kld = filter.options.KLD_params;
-  kld.KLD_binSize_XY = settings.bin_m;
-  kld.KLD_binSize_PHI = settings.bin_rad;
-  kld.KLD_maxSampleSize = static_cast<unsigned>(settings.most_particles);
-  kld.KLD_epsilon = 0.05;
-  kld.KLD_delta = 0.01;
-}
-
 void MonteCarloLocalizer::Impl::use(Localization next) {
   state = next;
-  const bool tracking = next == Localization::kTracking;
-  filter.options.metricMap = tracking ? sharp : broad;
-  filter.options.KLD_params.KLD_minSampleSize =
-      static_cast<unsigned>(tracking ? settings.least_particles : settings.least_searching);
   good_scans = bad_scans = searching_scans = 0;
 }
 
 void MonteCarloLocalizer::Impl::search() {
-  const MrptRandom lent = random();
-  filter.resetUniformFreeSpace(broad.get(), 0.8, settings.first_particles);
+  std::mt19937 generator = random();
+  particles = spread_over_free(map, settings.first_particles, generator);
   use(Localization::kSearching);
 }
 
 void MonteCarloLocalizer::Impl::filter_scan(const LaserScan& scan, const PlanarPose& increment) {
-  mrpt::obs::CActionCollection actions;
-  actions.insert(to_mrpt(increment, settings.odometry));
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(to_mrpt(scan, X_RL, settings.beams));
-  mrpt::bayes::CParticleFilter run;
-  run.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-  // KLD sampling draws the next particles itself, which in MRPT needs multinomial resampling.
-  run.m_options.resamplingMethod = mrpt::bayes::CParticleFilter::prMultinomial;
-  run.m_options.adaptiveSampleSize = true;
-  run.m_options.powFactor =
-      state == Localization::kTracking ? settings.trust : settings.search_trust;
-  const MrptRandom lent = random();
-  run.executeOn(filter, &actions, &frame);
+  const bool tracking = state == Localization::kTracking;
+  const KldOptions kld{tracking ? settings.least_particles : settings.least_searching,
+                       settings.most_particles, settings.bin_m, settings.bin_rad};
+  std::mt19937 generator = random();
+  particles = drawn_and_moved(
+      particles, {increment, increment_covariance(increment, settings.odometry)}, kld, generator);
+  weigh(particles, tracking ? tracking_field : searching_field,
+        sparse_ends(scan, X_RL, settings.beams, 0.5 * map.resolution_m),
+        tracking ? settings.trust : settings.search_trust);
 }
 
 /// Mean and covariance of the particles near to `centre`.
@@ -223,11 +194,11 @@ PoseEstimate MonteCarloLocalizer::Impl::mean_near(PlanarPose centre) const {
     double weight = 0.0;
     mean.setZero();
     squares.setZero();
-    for (const auto& particle : filter.m_particles) {
-      const Eigen::Vector3d d(particle.d.x - centre.x, particle.d.y - centre.y,
-                              wrap_to_pi(particle.d.phi - centre.yaw));
+    for (const PoseParticle& particle : particles) {
+      const PlanarPose& q = particle.pose_M;
+      const Eigen::Vector3d d(q.x - centre.x, q.y - centre.y, wrap_to_pi(q.yaw - centre.yaw));
       if (d.head<2>().norm() > kCluster_m || std::abs(d.z()) > kCluster_rad) continue;
-      const double w = std::exp(particle.log_w);
+      const double w = std::exp(particle.log_weight);
       weight += w;
       mean += w * d;
       squares += w * d * d.transpose();
@@ -250,13 +221,13 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
   const auto cell = [](double value, double size) {
     return static_cast<int>(std::floor(value / size));
   };
-  for (const auto& particle : filter.m_particles) {
-    const auto& q = particle.d;
+  for (const PoseParticle& particle : particles) {
+    const PlanarPose& q = particle.pose_M;
     Bin& bin = bins[{cell(q.x, kCluster_m), cell(q.y, kCluster_m),
-                     cell(wrap_to_two_pi(q.phi), kCluster_rad)}];
-    const double w = std::exp(particle.log_w);
+                     cell(wrap_to_two_pi(q.yaw), kCluster_rad)}];
+    const double w = std::exp(particle.log_weight);
     bin.weight += w;
-    bin.sum += w * Eigen::Vector4d(q.x, q.y, std::cos(q.phi), std::sin(q.phi));
+    bin.sum += w * Eigen::Vector4d(q.x, q.y, std::cos(q.yaw), std::sin(q.yaw));
   }
   std::vector<Bin> sorted;
   sorted.reserve(bins.size());
@@ -402,8 +373,8 @@ void MonteCarloLocalizer::Impl::track(const std::vector<Eigen::Vector2d>& points
 /// Looks at the opinions there are; the robot is found where one fits, and no other.
 void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& points) {
   const PlanarPose expected = estimate.pose_M;
-  double heaviest = filter.m_particles.front().log_w;
-  for (const auto& particle : filter.m_particles) heaviest = std::max(heaviest, particle.log_w);
+  double heaviest = particles.front().log_weight;
+  for (const PoseParticle& particle : particles) heaviest = std::max(heaviest, particle.log_weight);
   std::vector<PlanarPose> to_see = opinions();
   // Always before it is found: a place like this one may have no particle left.
   if (searching_scans % kLatticeEvery == 0 || good_scans + 1 >= kGoodScans) {
@@ -421,7 +392,7 @@ void MonteCarloLocalizer::Impl::look_around(const std::vector<Eigen::Vector2d>& 
   good_scans = !good ? 0 : same ? good_scans + 1 : 1;
   good_way_m = good_scans > 1 ? good_way_m + way_m : 0.0;
   if (good_scans >= kGoodScans && good_way_m >= kGoodWay_m) {
-    filter.m_particles.clear();
+    particles.clear();
     scatter({estimate.pose_M, found_covariance()}, 2 * settings.least_particles, 0.0);
     use(Localization::kTracking);
   } else if (++searching_scans >= kPatience) {
@@ -442,10 +413,8 @@ void MonteCarloLocalizer::Impl::scatter(const PoseEstimate& around, int count, d
   for (int i = 0; i < count; ++i) {
     const auto [a, b] = standard_normal_pair(stream);
     const Eigen::Vector3d d = L * Eigen::Vector3d(a, b, standard_normal(stream));
-    filter.m_particles.emplace_back();
-    auto& particle = filter.m_particles.back();
-    particle.log_w = log_weight;
-    particle.d = {around.pose_M.x + d.x(), around.pose_M.y + d.y(), around.pose_M.yaw + d.z()};
+    const PlanarPose& q = around.pose_M;
+    particles.push_back({{q.x + d.x(), q.y + d.y(), q.yaw + d.z()}, log_weight});
   }
 }
 
@@ -473,19 +442,11 @@ bool MonteCarloLocalizer::Impl::update(const LaserScan& scan, const PlanarPose& 
 
 MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map,
                                          const LocalizerSettings& settings,
-                                         const RigidTransform& X_RL, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>()) {
+                                         const RigidTransform& X_RL, std::uint64_t seed) {
   require_usable(map);
-  impl_->settings = settings;
-  impl_->X_RL = X_RL;
-  impl_->seed = seed;
-  impl_->map = map;
-  impl_->walls = walls_of(map);
-  std::vector<bool> occupied;
-  occupied.reserve(map.cells.size());
-  for (const std::int8_t cell : map.cells) occupied.push_back(is_occupied(cell));
-  impl_->wall_distance = distance_field(map, occupied, 1.0);
-  impl_->configure();
+  impl_ = std::make_unique<Impl>(Impl{settings, X_RL, seed, map, walls_of(map), wall_distances(map),
+                                      LikelihoodField(map, settings.sigma_hit_m),
+                                      LikelihoodField(map, settings.search_sigma_m)});
   impl_->search();
 }
 
@@ -499,7 +460,7 @@ void MonteCarloLocalizer::start_at(const PoseEstimate& start) {
       !start.covariance.allFinite()) {
     throw Error("the starting pose and its covariance must be finite");
   }
-  impl.filter.m_particles.clear();
+  impl.particles.clear();
   impl.scatter(start, 2 * impl.settings.least_particles, 0.0);
   impl.estimate = start;
   impl.has_odometry = false;
@@ -534,10 +495,8 @@ int MonteCarloLocalizer::times_lost() const { return impl_->times_lost; }
 
 std::vector<PlanarPose> MonteCarloLocalizer::particles() const {
   std::vector<PlanarPose> poses;
-  poses.reserve(impl_->filter.m_particles.size());
-  for (const auto& particle : impl_->filter.m_particles) {
-    poses.push_back({particle.d.x, particle.d.y, particle.d.phi});
-  }
+  poses.reserve(impl_->particles.size());
+  for (const PoseParticle& particle : impl_->particles) poses.push_back(particle.pose_M);
   return poses;
 }
 

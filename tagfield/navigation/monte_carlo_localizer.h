@@ -47,7 +47,7 @@ struct PoseEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y [m], yaw [rad].
 };
 
-/// KLD-adaptive Monte Carlo localization (Fox, 2003) by MRPT, finished by a match of the scan on
+/// KLD-adaptive Monte Carlo localization (Fox, 2003), finished by a match of the scan on
 /// the map, which brings the pose below the particles' spread. Without a start it searches the
 /// whole map's free space; when scans stop to fit for a while, as after a kidnapping, it searches
 /// again. docs/localization_on_map.md has the method.

@@ -1,11 +1,39 @@
 #include "tagfield/navigation/scan_points.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
+namespace {
+
+/// Where the first, and from there each `skip`-th beam met something, in single precision.
+std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
+                                                          const RigidTransform& X_RL,
+                                                          std::size_t skip) {
+  const std::size_t last = (scan.ranges_m.size() - 1) / skip;
+  const double span = scan.angle_step_rad * static_cast<double>(skip * last);
+  const double half = 0.5 * static_cast<double>(static_cast<float>(span));
+  const double step = 2.0 * half / std::max(static_cast<double>(last), 1.0);
+  // Angles count from the middle one.
+  const Eigen::Rotation2Dd turn(yaw_of(X_RL.rotation) + scan.first_angle_rad + 0.5 * span);
+  const Eigen::Matrix2f R = turn.toRotationMatrix().cast<float>();
+  const Eigen::Vector2f sensor_R = X_RL.translation.head<2>().cast<float>();
+  std::vector<std::optional<Eigen::Vector2f>> ends(last + 1);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const float range = scan.ranges_m[i * skip];
+    if (beam_of(scan, range) != Beam::kReturn) continue;
+    const double angle = step * static_cast<double>(i) - half;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    ends[i] = sensor_R + R * (range * direction.cast<float>());
+  }
+  return ends;
+}
+
+}  // namespace
 
 ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double most_clear_m) {
   const PlanarPose q_RL = planar(X_RL);
@@ -40,6 +68,22 @@ std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points,
     }
   }
   return kept;
+}
+
+std::vector<Eigen::Vector2f> sparse_ends(const LaserScan& scan, const RigidTransform& X_RL,
+                                         int beams, double apart_m) {
+  if (scan.ranges_m.empty()) return {};
+  const std::size_t skip = scan.ranges_m.size() / static_cast<std::size_t>(std::max(beams, 1));
+  const auto all = ends_of_every(scan, X_RL, std::max<std::size_t>(skip, 1));
+  const auto apart = static_cast<float>(apart_m);
+  std::vector<Eigen::Vector2f> ends;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i]) continue;
+    const bool after_gap = i > 0 && !all[i - 1];
+    const auto is_far = [&] { return (*all[i] - ends.back()).squaredNorm() > apart * apart; };
+    if (ends.empty() || (!after_gap && is_far()) || i + 1 == all.size()) ends.push_back(*all[i]);
+  }
+  return ends;
 }
 
 }  // namespace tagfield

@@ -27,4 +27,10 @@ ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double
 /// beams lie dense, near the laser, they would outweigh all others.
 std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points, double spacing_m);
 
+/// Where about `beams` of the scan's beams, evenly, met something, in single precision. Left out
+/// are ends that are not farther than `apart_m` from the one before, and those right after a beam
+/// without an end, which may be of an edge; the last beam's is kept. Angles must be finite.
+std::vector<Eigen::Vector2f> sparse_ends(const LaserScan& scan, const RigidTransform& X_RL,
+                                         int beams, double apart_m);
+
 }  // namespace tagfield

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "tagfield/base/error.h"
@@ -82,6 +83,24 @@ TEST(MonteCarloLocalizer, TheSameSeedGivesTheSamePose) {
     if (i == 0) first = errors;
     EXPECT_EQ(errors, first);
   }
+}
+
+TEST(MonteCarloLocalizer, TwoInTwoThreadsAreAsOneAfterTheOther) {
+  const auto errors_of = [](std::uint64_t seed) {
+    MonteCarloLocalizer known = localizer(seed);
+    known.start_at(roughly(loop().start));
+    return errors_on_loop(known, 40 + seed);
+  };
+  const std::vector<double> first = errors_of(1);
+  const std::vector<double> second = errors_of(2);
+  std::vector<std::vector<double>> found(2);
+  std::thread one([&] { found[0] = errors_of(1); });
+  std::thread two([&] { found[1] = errors_of(2); });
+  one.join();
+  two.join();
+  EXPECT_EQ(found[0], first);
+  EXPECT_EQ(found[1], second);
+  EXPECT_NE(first, second);
 }
 
 TEST(MonteCarloLocalizer, TheBeliefGoesOnWithTheWheelsAndGrowsUnsure) {

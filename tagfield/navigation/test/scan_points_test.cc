@@ -45,5 +45,39 @@ TEST(ScanPoints, ThinnedKeepsADistance) {
   EXPECT_TRUE(thinned({}, 1.0).empty());
 }
 
+LaserScan turning_scan(std::size_t beams, float range) {
+  LaserScan scan;
+  scan.first_angle_rad = -2.0;
+  scan.angle_step_rad = 4.0 / static_cast<double>(beams - 1);
+  scan.least_range_m = 0.01;
+  scan.most_range_m = 10.0;
+  scan.ranges_m.assign(beams, range);
+  return scan;
+}
+
+TEST(ScanPoints, SparseEndsAreEvenlySomeOfAll) {
+  const RigidTransform X_RL = from_xyz_rpy({0.2, -0.1, 0.3}, {0.0, 0.0, 0.7});
+  const LaserScan scan = turning_scan(361, 4.0F);
+  const std::vector<Eigen::Vector2d> all = scan_points(scan, X_RL, 0.0).ends_R;
+  const std::vector<Eigen::Vector2f> few = sparse_ends(scan, X_RL, 90, 0.01);
+  ASSERT_EQ(few.size(), 91U);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_LT((few[i].cast<double>() - all[4 * i]).norm(), 1e-5) << i;
+  }
+  EXPECT_EQ(sparse_ends(scan, X_RL, 1000, 0.01).size(), 361U);
+  EXPECT_EQ(sparse_ends(scan, X_RL, 0, 0.01).size(), 1U);
+  EXPECT_TRUE(sparse_ends({}, X_RL, 90, 0.01).empty());
+}
+
+TEST(ScanPoints, SparseEndsLieApartAndNotRightAfterAGap) {
+  // Neighbours are 4 cm apart, every third of them 12 cm.
+  LaserScan scan = turning_scan(101, 1.0F);
+  EXPECT_EQ(sparse_ends(scan, {}, 101, 0.039).size(), 101U);
+  // The last is kept.
+  EXPECT_EQ(sparse_ends(scan, {}, 101, 0.1).size(), 1U + 33U + 1U);
+  scan.ranges_m[50] = 0.0F;
+  EXPECT_EQ(sparse_ends(scan, {}, 101, 0.039).size(), 99U);
+}
+
 }  // namespace
 }  // namespace tagfield
