@@ -19,6 +19,14 @@ constexpr const char* kWorldFrame = "world";
 /// Simulated time in which a fault may pass.
 constexpr Duration kPatience = std::chrono::milliseconds(200);
 
+void put_model_in_front(AntennaOnLink& antenna) {
+  FieldAntenna& field = antenna.antenna;
+  const std::string name = fmt::format("{}::{}", antenna.model, field.sensor);
+  if (field.parameters.reader == field.sensor) field.parameters.reader = name;
+  if (field.frame_id == field.sensor) field.frame_id = name;
+  field.parameters.name = name;
+}
+
 }  // namespace
 
 RfidWorld::RfidWorld(const gazebo::physics::WorldPtr& world, Outlets outlets,
@@ -56,10 +64,10 @@ void RfidWorld::remove_tags(Handle handle) {
 RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
   const std::lock_guard lock(mutex_);
   const std::string& name = antenna.antenna.parameters.name;
+  if (driver_.has_antenna(name) && name == antenna.antenna.sensor) put_model_in_front(antenna);
   if (driver_.has_antenna(name)) {
-    throw Error(
-        fmt::format("there is an antenna called '{}' already; give this one another <antenna>",
-                    name));
+    throw Error(fmt::format(
+        "there is an antenna called '{}' already; give this one another <antenna>", name));
   }
   driver_.add_antenna(std::make_shared<const FieldAntenna>(antenna.antenna));
   // At once, so that its topics can be subscribed to while the world is paused.
@@ -128,8 +136,8 @@ void RfidWorld::set_up(Antenna& antenna, Time now) {
 template <class Entry, class SetUp>
 void RfidWorld::find_link(Entry& entry, Time now, const SetUp& set_up, const char* consequence) {
   if (entry.link || entry.refused) return;
-  entry.link = boost::dynamic_pointer_cast<gazebo::physics::Link>(
-      world_->EntityByName(entry.on_link.link));
+  entry.link =
+      boost::dynamic_pointer_cast<gazebo::physics::Link>(world_->EntityByName(entry.on_link.link));
   all_found_ = all_found_ && entry.link;
   if (!entry.link) return;
   try {
@@ -151,10 +159,13 @@ void RfidWorld::find_link(Entry& entry, Time now, const SetUp& set_up, const cha
 void RfidWorld::find_links(Time now) {
   if (all_found_) return;
   all_found_ = true;
-  for (TagGroup& group : groups_) find_link(group, now, [&] { describe(group); }, "left out");
+  for (TagGroup& group : groups_)
+    find_link(
+        group, now, [&] { describe(group); }, "left out");
   for (auto& [handle, antenna] : antennas_) {
     Antenna& entry = antenna;
-    find_link(entry, now, [&] { set_up(entry, now); }, "stays off");
+    find_link(
+        entry, now, [&] { set_up(entry, now); }, "stays off");
   }
 }
 

@@ -42,6 +42,7 @@ struct AntennaOnLink {
   FieldAntenna antenna;
   std::string link;  ///< Scoped name.
   RigidTransform X_LA;
+  std::string model{};  ///< Scoped name of its model.
 };
 
 /// How long updates took, for benchmarks.
@@ -53,9 +54,9 @@ struct FieldCost {
 };
 
 /// One a world: drives a field by Gazebo's physics. At the end of each physics step it looks which
-/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands that
-/// to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on how
-/// fast Gazebo runs.
+/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands
+/// that to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on
+/// how fast Gazebo runs.
 ///
 /// Thread-safe: plugins load and unload on other threads than physics, even while physics still
 /// puts their model together. So links are given by name and looked up between two steps.
@@ -75,7 +76,8 @@ class RfidWorld {
   Handle add_tags(TagsOnLink tags);
   void remove_tags(Handle handle);
 
-  /// Throws Error if the name is taken. If its parent frame is no link of its model, that is one
+  /// A second antenna on sensors of one name gets its model's in front, as headless. Throws Error
+  /// if the name is taken all the same. If its parent frame is no link of its model, that is one
   /// error of Gazebo's, and it stays off.
   Handle add_antenna(AntennaOnLink antenna);
   void remove_antenna(Handle handle);

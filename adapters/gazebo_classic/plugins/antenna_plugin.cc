@@ -26,17 +26,6 @@ tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
   return antenna;
 }
 
-/// A second antenna on sensors of one name gets its model's in front, as headless.
-void make_unique(const tagfield::RfidWorld& world, const sensors::Sensor& sensor,
-                 tagfield::FieldAntenna& antenna) {
-  const std::string plain = sensor.Name();
-  if (antenna.parameters.name != plain || !world.has_antenna(plain)) return;
-  const std::string name = fmt::format("{}::{}", tagfield::model_name_of(sensor), plain);
-  if (antenna.parameters.reader == plain) antenna.parameters.reader = name;
-  if (antenna.frame_id == plain) antenna.frame_id = name;
-  antenna.parameters.name = name;
-}
-
 }  // namespace
 
 RfidAntennaPlugin::~RfidAntennaPlugin() {
@@ -70,7 +59,7 @@ void RfidAntennaPlugin::load(const sensors::SensorPtr& sensor, const sdf::Elemen
   antenna.X_LA = tagfield::from_gazebo(sensor->Pose());
   antenna.antenna = field_antenna(*sensor, described);
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
-  make_unique(*world, *sensor, antenna.antenna);
+  antenna.model = tagfield::model_name_of(*sensor);
   handle_ = world->add_antenna(std::move(antenna));
   world_ = world;
 }
