@@ -29,7 +29,8 @@ OccupancyGrid random_map(std::uint32_t seed) {
 double brute_force(const OccupancyGrid& map, const Eigen::Vector2d& end_M, double sigma) {
   double least = 16.0 * sigma * sigma;
   Eigen::Vector2i cell = map.cell_of(end_M);
-  for (int& each : cell) each = each == -1 ? 0 : each;
+  if (cell.x() == -1) cell.x() = 0;
+  if (cell.y() == -1) cell.y() = 0;
   const bool inside = cell.minCoeff() >= 0 && cell.x() < map.width - 1 && cell.y() < map.height - 1;
   for (int y = 0; inside && y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
