@@ -39,8 +39,7 @@ struct NumberSetting {
 
 const std::array<NumberSetting, 8>& number_settings() {
   static const std::array<NumberSetting, 8> all = {{
-      {"frequency", true, true,
-       [](Numbers& n) -> double& { return n.paper.model.frequency_hz; }},
+      {"frequency", true, true, [](Numbers& n) -> double& { return n.paper.model.frequency_hz; }},
       {"noisephi", true, false,
        [](Numbers& n) -> double& { return n.paper.model.phase_noise_rad; }},
       {"noiserssi", true, false, [](Numbers& n) -> double& { return n.paper.model.rssi_noise; }},

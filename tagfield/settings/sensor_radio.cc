@@ -1,5 +1,7 @@
 #include "tagfield/settings/sensor_radio.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -78,6 +80,17 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
   }
 }
 
+/// The paper's model has elements of its own.
+void require_no_setting(const std::vector<RawParameter>& parameters) {
+  for (const RawParameter& parameter : parameters) {
+    if (!is_antenna_setting(parameter.key)) continue;
+    throw Error(
+        fmt::format("{} belongs to <model> link_budget or multipath, but the antenna is "
+                    "simulated by <model> paper",
+                    parameter.key));
+  }
+}
+
 std::vector<std::string> keys_of(const std::vector<SettingHelp>& settings) {
   std::vector<std::string> keys;
   keys.reserve(settings.size());
@@ -94,7 +107,10 @@ std::shared_ptr<const RadioModel> sensor_radio(const std::vector<RawParameter>& 
     const RawParameter* const model = last_of(parameters, "model");
     const PropagationModel kind = model == nullptr ? PropagationModel::kPaper
                                                    : propagation_model({"model", model->value, {}});
-    if (kind == PropagationModel::kPaper) return std::shared_ptr<const RadioModel>();
+    if (kind == PropagationModel::kPaper) {
+      require_no_setting(parameters);
+      return std::shared_ptr<const RadioModel>();
+    }
     return radio_model_from(kind, settings, {}, found);
   };
   return made(parameters, location, is_antenna_setting, diagnostics, make);

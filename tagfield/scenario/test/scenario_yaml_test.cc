@@ -103,7 +103,9 @@ TEST(LoadScenario, ComplainsByLine) {
 
 TEST(LoadScenario, TakesOverridesWithTheirOwnPlace) {
   const std::string path = write_scenario(kWhole);
-  EXPECT_EQ(paper(load_scenario(path, {{"antennas.a.range_m", "5"}}).antennas[0].parameters).range_m, 5.0);
+  EXPECT_EQ(
+      paper(load_scenario(path, {{"antennas.a.range_m", "5"}}).antennas[0].parameters).range_m,
+      5.0);
   EXPECT_EQ(load_scenario(path, {{"seed", "9"}}).seed, 9U);
   try {
     load_scenario(path, {{"antennas.a.range_m", "-5"}});
@@ -145,6 +147,31 @@ TEST(ParseOverride, SplitsAtTheFirstEqualsSign) {
   EXPECT_THROW(parse_override("a.b"), Error);
   EXPECT_THROW(parse_override("=1"), Error);
   EXPECT_THROW(parse_override("a.b="), Error);
+}
+
+TEST(LoadScenario, RefusesPhysicalKeysBesideThePapersModel) {
+  const std::string belongs = " belongs to model: link_budget or model: multipath, but ";
+  EXPECT_EQ(
+      complaint("frequency_hz: 915e6", "transmit_power_dbm: 30"),
+      "11: antennas[0].transmit_power_dbm" + belongs + "the antenna is simulated by model: paper");
+  EXPECT_EQ(complaint("frequency_hz: 915e6", "profiles: [reader.yaml]"),
+            "11: antennas[0].profiles" + belongs + "the antenna is simulated by model: paper");
+  EXPECT_EQ(complaint("{id: t1,", "{id: t1, sensitivity_dbm: -20,"),
+            "14: tags[0].sensitivity_dbm" + belongs + "all antennas are simulated by model: paper");
+  EXPECT_EQ(complaint("seed: 7", "without: [noise]"),
+            "2: without" + belongs + "all antennas are simulated by model: paper");
+}
+
+TEST(LoadScenario, WarnsOfThePapersKeysBesideAPhysicalModel) {
+  std::string text = kWhole;
+  text.replace(text.find("    frequency_hz"), 0, "    model: link_budget\n    range_m: 5\n");
+  Diagnostics diagnostics;
+  const Scenario scenario = load_scenario(write_scenario(text), {}, diagnostics);
+  EXPECT_NE(physical(scenario.antennas[0].parameters), nullptr);
+  ASSERT_EQ(diagnostics.warnings().size(), 3U);
+  EXPECT_NE(diagnostics.warnings()[0].find("antennas[0].range_m belongs to model: paper and has no "
+                                           "effect with model: link_budget"),
+            std::string::npos);
 }
 
 }  // namespace

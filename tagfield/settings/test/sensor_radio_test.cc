@@ -91,5 +91,18 @@ TEST(AntennaFrom, MissesOnlyWhatItsModelNeeds) {
             "antenna 'gate' leaves to their defaults: <frequency> 8.657e+08, <update_rate> 15");
 }
 
+TEST(SensorRadio, RefusesASettingBesideThePapersModel) {
+  Diagnostics diagnostics;
+  for (const std::vector<RawParameter>& parameters :
+       {std::vector<RawParameter>{{"gain_dbi", "6", {"w.sdf", 7}}},
+        std::vector<RawParameter>{{"model", "paper", {}}, {"gain_dbi", "6", {"w.sdf", 7}}}}) {
+    EXPECT_EQ(error_of([&] {
+                sensor_radio(parameters, {"w.sdf", 3}, diagnostics);
+              }),
+              "w.sdf:7: <gain_dbi> belongs to <model> link_budget or multipath, but the antenna is "
+              "simulated by <model> paper");
+  }
+}
+
 }  // namespace
 }  // namespace tagfield
