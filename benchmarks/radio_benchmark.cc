@@ -21,13 +21,12 @@ namespace {
 TagPopulation tags_around(std::int64_t count, const Eigen::Vector3d& middle) {
   TagPopulation tags(3.5);
   RandomStream stream(1, Purpose::kPlaces);
-  const auto uniform = [&] { return static_cast<double>(stream() >> 11U) * 0x1.0p-53; };
   for (std::int64_t i = 0; i < count; ++i) {
-    const double radius = 5.0 * std::sqrt(uniform());
-    const double around = kTwoPi * uniform();
+    const double radius = 5.0 * std::sqrt(uniform(stream));
+    const double around = kTwoPi * uniform(stream);
     tags.add(static_cast<std::uint32_t>(i), fmt::format("tag{}", i),
              middle + Eigen::Vector3d(radius * std::cos(around), radius * std::sin(around),
-                                      1.0 + 1.5 * uniform()));
+                                      1.0 + 1.5 * uniform(stream)));
   }
   return tags;
 }

@@ -131,17 +131,22 @@ std::shared_ptr<RosLink> RosLink::shared() {
 RosLink::RosLink() : clock_(std::make_unique<Clock>()) {
   try {
     initialize();
+    if (!fault_.empty()) return;
+    watcher_ = std::thread([this] { watch_master(); });
+    hearer_ = std::thread([this] { hear(); });
   } catch (const std::exception& error) {
+    end_threads();
     fault_ = error.what();
+    return;
   }
-  if (!fault_.empty()) return;
-  watcher_ = std::thread([this] { watch_master(); });
-  hearer_ = std::thread([this] { hear(); });
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kFirstLook, [this] { return looked_; });
 }
 
-RosLink::~RosLink() {
+// ROS itself stays up: it can't be started twice in a process, and another plugin may come.
+RosLink::~RosLink() { end_threads(); }
+
+void RosLink::end_threads() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -149,7 +154,6 @@ RosLink::~RosLink() {
   changed_.notify_all();
   if (watcher_.joinable()) watcher_.join();
   if (hearer_.joinable()) hearer_.join();
-  // ROS itself stays up: it can't be started twice in a process, and another plugin may come.
 }
 
 void RosLink::initialize() {

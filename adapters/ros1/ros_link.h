@@ -130,7 +130,8 @@ class RosLink {
  public:
   /// The process' link: ROS has one node in a process, so there is one link, which lives as long as
   /// anybody holds it. Waits up to a second for the first look at the master. Never throws: where
-  /// ROS can't be initialized, `fault()` says why and all publishing is void.
+  /// ROS can't be initialized or a thread can't be started, `fault()` says why and all publishing
+  /// is void.
   static std::shared_ptr<RosLink> shared();
   ~RosLink();
   RosLink(const RosLink&) = delete;
@@ -171,6 +172,7 @@ class RosLink {
   void connect_all();
   void hear();
   bool wait(std::chrono::milliseconds time);
+  void end_threads();
 
   std::string fault_;
   std::atomic<bool> connected_{false};
@@ -185,6 +187,7 @@ class RosLink {
 
   ros::CallbackQueue callbacks_;
   std::unique_ptr<Clock> clock_;
+  // Not std::jthread, which those who include this as C++17 don't know.
   std::thread watcher_;
   std::thread hearer_;
 };

@@ -1,8 +1,8 @@
 // A localization method of one's own: a tag is where its reads are strongest. It is compared with
 // the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
-#include <cmath>
 #include <cstdio>
 
+#include "tagfield/base/units.h"
 #include "tagfield/experiment/bench/bench_text.h"
 #include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/localization/locate.h"
@@ -20,7 +20,7 @@ tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, con
   double weights = 0.0;
   for (const auto& [antenna, series] : samples) {
     for (const tagfield::PhaseSample& sample : series) {
-      const double milliwatts = std::pow(10.0, sample.rssi_dbm / 10.0);
+      const double milliwatts = from_db(sample.rssi_dbm);
       sum += milliwatts * sample.p_WA;
       weights += milliwatts;
       ++estimate.reads;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -47,10 +48,14 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
   const std::size_t helpers =
       std::min<std::size_t>(count, static_cast<std::size_t>(std::max(threads, 1)));
-  std::vector<std::thread> pool;
-  for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
+  std::vector<std::jthread> pool;
+  try {
+    for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The machine gives no more threads; those that there are do the work.
+  }
   work();
-  for (std::thread& thread : pool) thread.join();
+  pool.clear();  // Waits for all.
   first_error.rethrow();
 }
 

@@ -56,6 +56,14 @@ class RandomStream {
   std::size_t used_ = 4;
 };
 
+/// A draw of [0, 1), a multiple of 2⁻⁵³.
+inline double uniform(RandomStream& stream) {
+  return static_cast<double>(stream() >> 11U) * 0x1p-53;
+}
+
+/// A draw of (0, 1], which has a logarithm.
+inline double uniform_above_0(RandomStream& stream) { return uniform(stream) + 0x1p-53; }
+
 /// Two independent draws of N(0, 1), by Box and Muller's method from two words of the stream.
 std::array<double, 2> standard_normal_pair(RandomStream& stream);
 

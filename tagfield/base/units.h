@@ -3,6 +3,7 @@
 /// not the plain SI one or could be mistaken (`_dbm`, `_hz`, `_rad`).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,24 @@ inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 inline double wavelength(double frequency_hz) { return kSpeedOfLight / frequency_hz; }
 
 inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+inline constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
+
+/// Gain of a half-wave dipole [dBi], which is EIRP over ERP.
+inline constexpr double kDipole_dbi = 2.15;
+
+/// Weaker than anything that could be received, so that no logarithm of zero comes out [dB].
+inline constexpr double kNothing_db = -400.0;
+
+/// A ratio of powers in decibels, `kNothing_db` or more; of milliwatts, in dBm.
+inline double to_db(double power) {
+  return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
+}
+/// A ratio of powers from decibels; from dBm, in milliwatts.
+inline double from_db(double db) { return std::pow(10.0, db / 10.0); }
+/// A ratio of amplitudes from decibels.
+inline double amplitude_from_db(double db) { return std::pow(10.0, db / 20.0); }
+/// A ratio of amplitudes > 0 in decibels.
+inline double amplitude_to_db(double amplitude) { return 20.0 * std::log10(amplitude); }
 
 /// `angle` [rad] wrapped to [0, 2π). Finite for every finite input; never 2π itself.
 inline double wrap_to_two_pi(double angle) {

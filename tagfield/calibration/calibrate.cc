@@ -10,6 +10,7 @@
 
 #include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/circular_fit.h"
 #include "tagfield/localization/half_turns.h"
@@ -341,18 +342,13 @@ std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
   return data;
 }
 
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
-}
-
 }  // namespace
 
 void check(const CalibrationOptions& options) {
-  require_positive(options.place_sigma_m, "place_sigma_m");
-  require_positive(options.time_offset_sigma_s, "time_offset_sigma_s");
-  require_positive(options.most_time_offset_s, "most_time_offset_s");
-  require_positive(options.max_pose_gap_s, "max_pose_gap_s");
+  require_positive("place_sigma_m", options.place_sigma_m);
+  require_positive("time_offset_sigma_s", options.time_offset_sigma_s);
+  require_positive("most_time_offset_s", options.most_time_offset_s);
+  require_positive("max_pose_gap_s", options.max_pose_gap_s);
 }
 
 Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<AntennaPose>& poses,

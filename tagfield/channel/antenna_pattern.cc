@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -22,7 +23,7 @@ constexpr double kMostBeam_rad = radians(179.0);
 constexpr int kIntegrationSteps = 720;
 
 /// 10^(db/10), by the quicker of the two functions that give it.
-double from_db(double db) { return std::exp(db * (0.1 * std::numbers::ln10)); }
+double power_from_db(double db) { return std::exp(db * (0.1 * std::numbers::ln10)); }
 
 /// cosⁿ falls to ½ at half of the width.
 double lobe_exponent(double beam_width_rad) {
@@ -39,7 +40,7 @@ double between_cuts(double horizontal, double vertical, const Eigen::Vector3d& u
 }
 
 double patch_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
-  const double back = from_db(-pattern.front_to_back_db);
+  const double back = power_from_db(-pattern.front_to_back_db);
   if (u_A.x() <= 0.0) return back;
   double exponent = lobe_exponent(pattern.beam_width_rad);
   if (pattern.vertical_beam_width_rad != pattern.beam_width_rad) {
@@ -68,17 +69,14 @@ double table_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
       std::upper_bound(table.begin(), table.end(), angle,
                        [](double a, const PatternSample& sample) { return a < sample.angle_rad; });
   if (after == table.begin())
-    return from_db(between_cuts(after->horizontal_dbi, after->vertical_dbi, u_A));
+    return power_from_db(between_cuts(after->horizontal_dbi, after->vertical_dbi, u_A));
   const PatternSample& a = *std::prev(after);
-  if (after == table.end()) return from_db(between_cuts(a.horizontal_dbi, a.vertical_dbi, u_A));
+  if (after == table.end())
+    return power_from_db(between_cuts(a.horizontal_dbi, a.vertical_dbi, u_A));
   const double share = (angle - a.angle_rad) / (after->angle_rad - a.angle_rad);
   const double horizontal = a.horizontal_dbi + share * (after->horizontal_dbi - a.horizontal_dbi);
   const double vertical = a.vertical_dbi + share * (after->vertical_dbi - a.vertical_dbi);
-  return from_db(between_cuts(horizontal, vertical, u_A));
-}
-
-void require(bool holds, const char* what, const char* allowed, double value) {
-  if (!holds) throw Error(fmt::format("{} must be {}, is {:g}", what, allowed, value));
+  return power_from_db(between_cuts(horizontal, vertical, u_A));
 }
 
 void check_table(const std::vector<PatternSample>& table) {
@@ -86,10 +84,9 @@ void check_table(const std::vector<PatternSample>& table) {
   double before = -1.0;
   for (const PatternSample& sample : table) {
     require(sample.angle_rad > before && sample.angle_rad <= kPi + 1e-9, "table's angles",
-            "rising, from 0 to 180 degrees", sample.angle_rad * 180.0 / kPi);
+            "rising, from 0 to 180 degrees", degrees(sample.angle_rad));
     for (const double gain_dbi : {sample.horizontal_dbi, sample.vertical_dbi}) {
-      require(gain_dbi >= -200.0 && gain_dbi <= kMostGain, "table's gain", "from -200 to 40 dBi",
-              gain_dbi);
+      require_in_range("table's gain", gain_dbi, -200.0, kMostGain, "dBi");
     }
     before = sample.angle_rad;
   }
@@ -138,23 +135,21 @@ Eigen::Vector3cd of_crossed_wires(double hand, const Eigen::Vector3d& u_A) {
 
 }  // namespace
 
-double peak_gain(const AntennaPattern& pattern) { return from_db(peak_dbi(pattern)); }
+double peak_gain(const AntennaPattern& pattern) { return power_from_db(peak_dbi(pattern)); }
 
 double directivity_dbi(const AntennaPattern& pattern) {
-  return 10.0 * std::log10(peak_gain(pattern) / mean_gain(pattern));
+  return to_db(peak_gain(pattern) / mean_gain(pattern));
 }
 
 void check(const AntennaPattern& pattern, Diagnostics& diagnostics) {
-  require(pattern.gain_dbi >= kLeastGain && pattern.gain_dbi <= kMostGain, "gain_dbi",
-          "from -60 to 40 dBi", pattern.gain_dbi);
+  require_in_range("gain_dbi", pattern.gain_dbi, kLeastGain, kMostGain, "dBi");
   require(std::isfinite(pattern.tilt_rad), "tilt_deg", "finite", pattern.tilt_rad);
   if (pattern.shape == PatternShape::kPatch) {
     for (const double width : {pattern.beam_width_rad, pattern.vertical_beam_width_rad}) {
       require(width >= kLeastBeam_rad && width <= kMostBeam_rad, "beam_width_deg",
-              "from 2 to 179 degrees", width * 180.0 / kPi);
+              "from 2 to 179 degrees", degrees(width));
     }
-    require(pattern.front_to_back_db >= 0.0 && pattern.front_to_back_db <= 100.0,
-            "front_to_back_db", "from 0 to 100 dB", pattern.front_to_back_db);
+    require_in_range("front_to_back_db", pattern.front_to_back_db, 0.0, 100.0, "dB");
   }
   if (pattern.shape == PatternShape::kTable) check_table(pattern.table);
   const double stated_dbi = peak_dbi(pattern);
@@ -169,11 +164,11 @@ void check(const AntennaPattern& pattern, Diagnostics& diagnostics) {
 double gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
   switch (pattern.shape) {
     case PatternShape::kIsotropic:
-      return from_db(pattern.gain_dbi);
+      return power_from_db(pattern.gain_dbi);
     case PatternShape::kPatch:
-      return from_db(pattern.gain_dbi) * patch_gain(pattern, u_A);
+      return power_from_db(pattern.gain_dbi) * patch_gain(pattern, u_A);
     case PatternShape::kDipole:
-      return from_db(pattern.gain_dbi) * dipole_gain(pattern, u_A);
+      return power_from_db(pattern.gain_dbi) * dipole_gain(pattern, u_A);
     case PatternShape::kTable:
       return table_gain(pattern, u_A);
   }

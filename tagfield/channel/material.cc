@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 
@@ -44,10 +45,6 @@ std::vector<Material> make_materials() {
           cardboard};
 }
 
-void require(bool holds, const char* what, const char* allowed, double value) {
-  if (!holds) throw Error(fmt::format("{} must be {}, is {:g}", what, allowed, value));
-}
-
 }  // namespace
 
 const std::vector<Material>& known_materials() {
@@ -66,22 +63,16 @@ const Material& find_material(const std::vector<Material>& materials, const std:
 }
 
 void check(const Material& material) {
-  const auto finite = [](double value) { return std::isfinite(value); };
-  require(material.permittivity_a >= 1.0 && material.permittivity_a <= 1e4, "permittivity",
-          "from 1 to 10000", material.permittivity_a);
-  require(std::abs(material.permittivity_b) <= 10.0, "permittivity's exponent", "from -10 to 10",
-          material.permittivity_b);
-  require(material.conductivity_c >= 0.0 && finite(material.conductivity_c), "conductivity",
-          "a finite number, 0 or more", material.conductivity_c);
-  require(std::abs(material.conductivity_d) <= 10.0, "conductivity's exponent", "from -10 to 10",
-          material.conductivity_d);
+  require_in_range("permittivity", material.permittivity_a, 1.0, 1e4);
+  require_in_range("permittivity's exponent", material.permittivity_b, -10.0, 10.0);
+  require_not_negative("conductivity", material.conductivity_c);
+  require_in_range("conductivity's exponent", material.conductivity_d, -10.0, 10.0);
   if (material.wall_m) {
     require(*material.wall_m > 0.0 && *material.wall_m <= 10.0, "wall_m",
             "greater than 0, up to 10 m", *material.wall_m);
   }
   if (material.crossing_db) {
-    require(*material.crossing_db >= 0.0 && *material.crossing_db <= 300.0, "crossing_db",
-            "from 0 to 300 dB", *material.crossing_db);
+    require_in_range("crossing_db", *material.crossing_db, 0.0, 300.0, "dB");
   }
 }
 

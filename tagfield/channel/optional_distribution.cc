@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
 
 namespace tagfield {
@@ -70,13 +71,10 @@ void check_parameters(const Entry& entry, const std::vector<double>& parameters)
                             fmt::join(entry.parameters, ", "), parameters.size()));
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!std::isfinite(parameters[i])) {
-      throw Error(fmt::format("{}: {} must be finite", entry.name, entry.parameters[i]));
-    }
-    if (must_be_positive(entry.kind)[i] && !(parameters[i] > 0.0)) {
-      throw Error(fmt::format("{}: {} must be greater than 0, is {}", entry.name,
-                              entry.parameters[i], parameters[i]));
-    }
+    const std::string name = fmt::format("{}: {}", entry.name, entry.parameters[i]);
+    require(std::isfinite(parameters[i]), name, "finite", parameters[i]);
+    require(!must_be_positive(entry.kind)[i] || parameters[i] > 0.0, name, "greater than 0",
+            parameters[i]);
   }
   // The width of [a, b) must be finite too.
   if (entry.kind == DistributionKind::kUniform &&

@@ -1,30 +1,13 @@
 #include "tagfield/channel/paper_model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
-namespace {
-
-void require(bool holds, const char* parameter, const char* expected, double value) {
-  if (!holds) throw Error(fmt::format("{} must be {}, is {}", parameter, expected, value));
-}
-
-void require_positive(const char* parameter, double value) {
-  require(value > 0.0 && std::isfinite(value), parameter, "a finite number greater than 0", value);
-}
-
-void require_not_negative(const char* parameter, double value) {
-  require(value >= 0.0 && std::isfinite(value), parameter, "a finite number, 0 or more", value);
-}
-
-}  // namespace
 
 void check(const PaperModel& model) {
   require_positive("frequency_hz", model.frequency_hz);

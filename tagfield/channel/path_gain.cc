@@ -13,13 +13,6 @@ using Complex = std::complex<double>;
 using Eigen::Vector3cd;
 using Eigen::Vector3d;
 
-/// Loss of what cannot be heard at all, so that no logarithm of zero comes out [dB].
-constexpr double kNothing_db = -400.0;
-
-double to_db(double power) {
-  return std::max(kNothing_db, 10.0 * std::log10(std::max(power, 1e-300)));
-}
-
 /// E·e, not conjugated, as receivers take it in.
 Complex dot(const Vector3cd& a, const Vector3cd& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
@@ -65,7 +58,7 @@ constexpr double kSheet = 0.002;
 FresnelPair crossing(const Material& material, Complex eta, const Crossing& through,
                      double lambda_m) {
   if (material.crossing_db) {
-    const double factor = std::pow(10.0, -*material.crossing_db / 20.0);
+    const double factor = amplitude_from_db(-*material.crossing_db);
     return {factor, factor};
   }
   const double cosine = through.cos_incidence;

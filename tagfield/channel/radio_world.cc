@@ -54,57 +54,92 @@ bool applies(const MaterialRule& rule, const Collision& collision) {
 }
 
 struct Hint {
-  const char* part;  ///< Of a name, in lower case.
+  const char* word;  ///< Of a name, in lower case; two that stand side by side count as one, too.
   const char* material;
 };
 
 /// What names of things in halls say of what they are made of. The first that is found counts.
-constexpr std::array<Hint, 32> kHints = {{{"cardboard", "cardboard"},
-                                          {"carton", "cardboard"},
-                                          {"plaster", "plasterboard"},
-                                          {"plywood", "plywood"},
-                                          {"chipboard", "chipboard"},
-                                          {"brick", "brick"},
-                                          {"concrete", "concrete"},
-                                          {"marble", "marble"},
-                                          {"glass", "glass"},
-                                          {"window", "glass"},
-                                          {"ceiling", "ceiling_board"},
-                                          {"metal", "metal"},
-                                          {"steel", "metal"},
-                                          {"iron", "metal"},
-                                          {"alumin", "metal"},
-                                          {"palletjack", "metal"},
-                                          {"pallet_jack", "metal"},
-                                          {"rack", "metal"},
-                                          {"shelf", "metal"},
-                                          {"shelve", "metal"},
-                                          {"forklift", "metal"},
-                                          {"container", "metal"},
-                                          {"trashcan", "metal"},
-                                          {"lamp", "metal"},
-                                          {"wood", "wood"},
-                                          {"pallet", "wood"},
-                                          {"crate", "wood"},
-                                          {"desk", "wood"},
-                                          {"table", "wood"},
-                                          {"box", "cardboard"},
-                                          {"clutter", "cardboard"},
-                                          {"wall", "concrete"}}};
+constexpr std::array<Hint, 40> kHints = {{
+    {"cardboard", "cardboard"},
+    {"carton", "cardboard"},
+    {"plaster", "plasterboard"},
+    {"plasterboard", "plasterboard"},
+    {"drywall", "plasterboard"},
+    {"plywood", "plywood"},
+    {"chipboard", "chipboard"},
+    {"brick", "brick"},
+    {"concrete", "concrete"},
+    {"marble", "marble"},
+    {"glass", "glass"},
+    {"window", "glass"},
+    {"ceiling", "ceiling_board"},
+    {"metal", "metal"},
+    {"metallic", "metal"},
+    {"steel", "metal"},
+    {"iron", "metal"},
+    {"aluminium", "metal"},
+    {"aluminum", "metal"},
+    {"palletjack", "metal"},
+    {"rack", "metal"},
+    {"racking", "metal"},
+    {"bookshelf", "wood"},
+    {"shelf", "metal"},
+    {"shelve", "metal"},
+    {"shelving", "metal"},
+    {"forklift", "metal"},
+    {"container", "metal"},
+    {"trashcan", "metal"},
+    {"lamp", "metal"},
+    {"wood", "wood"},
+    {"wooden", "wood"},
+    {"pallet", "wood"},
+    {"crate", "wood"},
+    {"desk", "wood"},
+    {"table", "wood"},
+    {"box", "cardboard"},
+    {"clutter", "cardboard"},
+    {"cluttering", "cardboard"},
+    {"wall", "concrete"},
+}};
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+/// The words of a name, in lower case: of "oldIRONShelf-2b" old, iron, shelf, b.
+std::vector<std::string> words_of(std::string_view name) {
+  const auto is = [](int (*kind)(int), char c) { return kind(static_cast<unsigned char>(c)) != 0; };
+  std::vector<std::string> words;
+  char before = ' ';
+  for (std::size_t i = 0; i < name.size(); before = name[i++]) {
+    if (!is(std::isalpha, name[i])) continue;
+    const bool ends_capitals = i + 1 < name.size() && is(std::islower, name[i + 1]);
+    const bool begins = is(std::isupper, name[i]) && (is(std::islower, before) || ends_capitals);
+    if (begins || !is(std::isalpha, before)) words.emplace_back();
+    words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+  }
+  return words;
+}
+
+/// Whether `text` is the word or its plural.
+bool is_word(std::string_view text, std::string_view word) {
+  if (text.substr(0, word.size()) != word) return false;
+  const std::string_view end = text.substr(word.size());
+  return end.empty() || end == "s" || end == "es";
+}
+
+bool has_word(const std::vector<std::string>& words, std::string_view word) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_word(words[i], word)) return true;
+    if (i > 0 && is_word(words[i - 1] + words[i], word)) return true;
+  }
+  return false;
 }
 
 /// From the names' innermost part outwards, since a rack may hold boxes.
 std::string guess(const Collision& collision, const std::string& otherwise) {
   for (const std::string& scope : scopes_of(collision.name)) {
     const std::size_t begin = scope.rfind("::");
-    const std::string part = lower(begin == std::string::npos ? scope : scope.substr(begin + 2));
+    const std::vector<std::string> words =
+        words_of(begin == std::string::npos ? scope : scope.substr(begin + 2));
     for (const Hint& hint : kHints) {
-      if (part.find(hint.part) != std::string::npos) return hint.material;
+      if (has_word(words, hint.word)) return hint.material;
     }
   }
   return otherwise;

@@ -1,6 +1,5 @@
 #include "tagfield/field/radio_link.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "tagfield/base/random.h"
@@ -11,13 +10,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
-
-/// Weaker than anything: no logarithm of zero comes out [dB].
-constexpr double kNothing_db = -400.0;
-
-double to_db(double power) {
-  return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
-}
 
 /// A one-way gain, and its logarithm's gradient with the antenna's place where it is of use.
 struct Gain {
@@ -32,9 +24,6 @@ struct Gain {
     gradient += Complex(0.0, wave_number) * of_path * departure_W;
   }
 };
-
-/// In [0, 1).
-double uniform(RandomStream& stream) { return static_cast<double>(stream() >> 11U) * 0x1.0p-53; }
 
 /// Evenly over the sphere.
 Vector3d any_direction(RandomStream& stream) {
@@ -51,7 +40,7 @@ constexpr int kDiffuseWaves = 24;
 /// antenna and tag always the same, so that the field is a function of both ends' places and is
 /// forgotten over about half a wavelength.
 void add_diffuse(const RadioView& view, const TagEnd& tag, const Vector3d& p_WA, Gain& gain) {
-  const double k_factor = std::pow(10.0, *view.model.diffuse_k_db / 10.0);
+  const double k_factor = from_db(*view.model.diffuse_k_db);
   const double amplitude = std::sqrt(gain.power / (k_factor * kDiffuseWaves));
   RandomStream stream(view.seed, Purpose::kDiffuse, view.diffuse_key, tag.key);
   const double k = view.carrier.wave_number;

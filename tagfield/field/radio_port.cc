@@ -14,7 +14,7 @@ constexpr int kOverheadBits = 32;
 /// A phase in [0, 2π), of `key` and `number` for good.
 double drawn_offset(std::uint64_t seed, std::uint64_t key, std::uint64_t number) {
   RandomStream stream(seed, Purpose::kHopping, key, number);
-  return kTwoPi * static_cast<double>(stream() >> 11U) * 0x1.0p-53;
+  return kTwoPi * uniform(stream);
 }
 
 /// Draws 0 of a reader's key are its hop order.

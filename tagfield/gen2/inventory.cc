@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
 #include "tagfield/gen2/slot_draw.h"
 
 namespace tagfield {
-namespace {
-
-double milliwatts(double dbm) { return std::pow(10.0, 0.1 * dbm); }
-
-}  // namespace
 
 Inventory::Durations Inventory::durations_of(const LinkSettings& link,
                                              const InventorySettings& settings) {
@@ -207,13 +203,13 @@ bool Inventory::is_captured(std::uint32_t strongest) const {
   if (!settings_.capture_db) return false;
   double others_mw = 0.0;
   for (const std::uint32_t tag : repliers_) {
-    if (tag != strongest) others_mw += milliwatts(field_.at(tag).reply_dbm);
+    if (tag != strongest) others_mw += from_db(field_.at(tag).reply_dbm);
   }
-  return milliwatts(field_.at(strongest).reply_dbm - *settings_.capture_db) >= others_mw;
+  return from_db(field_.at(strongest).reply_dbm - *settings_.capture_db) >= others_mw;
 }
 
 bool Inventory::is_decoded(std::uint32_t tag) {
-  return uniform(stream_) <= field_.at(tag).decode_probability;
+  return uniform_above_0(stream_) <= field_.at(tag).decode_probability;
 }
 
 bool Inventory::is_read() const {

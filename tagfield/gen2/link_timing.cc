@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 namespace {
@@ -39,7 +39,7 @@ void check_range(const char* name, double value, double least, double most, doub
                  const char* unit) {
   constexpr double kRounding = 1e-9;
   if (value >= least * (1.0 - kRounding) && value <= most * (1.0 + kRounding)) return;
-  throw Error(fmt::format("{} must be from {:.5g} to {:.5g}{}, and is {:.6g}", name, least * scale,
+  throw Error(fmt::format("{} must be from {:.5g} to {:.5g}{}, is {:.6g}", name, least * scale,
                           most * scale, unit, value * scale));
 }
 
@@ -53,10 +53,8 @@ void check(const LinkSettings& link) {
               3.0 * rtcal_s(link), 1e6, " us (1.1 to 3 RTcal)");
   check_range("t2", link.t2_tpri, 3.0, 20.0, 1.0, " Tpri");
   check_range("t3", link.t3_tpri, 0.0, 1000.0, 1.0, " Tpri");
-  if (link.epc_bits < 0 || link.epc_bits > 496 || link.epc_bits % 16 != 0) {
-    throw Error(
-        fmt::format("epc_bits must be a multiple of 16 from 0 to 496, and is {}", link.epc_bits));
-  }
+  require(link.epc_bits >= 0 && link.epc_bits <= 496 && link.epc_bits % 16 == 0, "epc_bits",
+          "a multiple of 16 from 0 to 496", link.epc_bits);
 }
 
 double rtcal_s(const LinkSettings& link) { return link.tari_s + data1_s(link); }

@@ -7,14 +7,10 @@ namespace {
 
 /// Failures before the next success, where the probability of failure has this logarithm.
 double failures(RandomStream& stream, double log_failure) {
-  return std::floor(std::log(uniform(stream)) / log_failure);
+  return std::floor(std::log(uniform_above_0(stream)) / log_failure);
 }
 
 }  // namespace
-
-double uniform(RandomStream& stream) {
-  return static_cast<double>((stream() >> 11U) + 1) * 0x1p-53;
-}
 
 void draw_repliers(std::int64_t slots_left, RandomStream& stream,
                    std::vector<std::uint32_t>& waiting, std::vector<std::uint32_t>& repliers) {

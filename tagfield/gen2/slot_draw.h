@@ -9,9 +9,6 @@
 
 namespace tagfield {
 
-/// Uniform in (0, 1], in steps of 2^-53.
-double uniform(RandomStream& stream);
-
 /// Moves to `repliers` (emptied first) those of `waiting` whose slot is the next of `slots_left` >=
 /// 1 slots. Called for a frame's slots one after the other, this is the same law as when each tag
 /// draws its slot in advance: one whose slot is not past is in the next of n with probability 1/n,

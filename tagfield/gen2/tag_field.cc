@@ -5,18 +5,19 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 namespace {
 
 void check(const TagOnAir& tag) {
+  // Names are put together only for a complaint: this is asked of each tag in each round.
   if (!std::isfinite(tag.reply_dbm)) {
-    throw Error(
-        fmt::format("reply_dbm of tag {} must be finite, and is {}", tag.tag, tag.reply_dbm));
+    require(false, fmt::format("reply_dbm of tag {}", tag.tag), "finite", tag.reply_dbm);
   }
   if (!(tag.decode_probability >= 0.0 && tag.decode_probability <= 1.0)) {
-    throw Error(fmt::format("decode_probability of tag {} must be from 0 to 1, and is {}", tag.tag,
-                            tag.decode_probability));
+    require(false, fmt::format("decode_probability of tag {}", tag.tag), "from 0 to 1",
+            tag.decode_probability);
   }
 }
 

@@ -1,19 +1,13 @@
 #include "tagfield/gen2/tag_memories.h"
 
-#include <fmt/format.h>
-
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 
 void check(const Persistence& persistence) {
-  if (!(persistence.s1_s >= 0.5 && persistence.s1_s <= 5.0)) {
-    throw Error(fmt::format("s1 must be from 0.5 to 5 s, and is {}", persistence.s1_s));
-  }
   constexpr double kMost = 1e9;  // Some thirty years, so that adding it to a stamp stays in range.
-  if (!(persistence.s2_s3_s >= 2.0 && persistence.s2_s3_s <= kMost)) {
-    throw Error(fmt::format("s2_s3 must be from 2 to 1e9 s, and is {}", persistence.s2_s3_s));
-  }
+  require_in_range("s1", persistence.s1_s, 0.5, 5.0, "s");
+  require_in_range("s2_s3", persistence.s2_s3_s, 2.0, kMost, "s");
 }
 
 TagMemories::TagMemories(const Persistence& persistence) {

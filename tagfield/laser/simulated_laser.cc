@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -21,10 +21,6 @@ constexpr double kMostRateHz = 10'000.0;
 constexpr double kMostSigmaM = 10.0;
 /// A full turn as it is written with nine decimals.
 constexpr double kFullTurn = kTwoPi + 1e-8;
-
-void require(bool right, const char* name, double value, const std::string& expected) {
-  if (!right) throw Error(fmt::format("laser: {} must be {}, is {}", name, expected, value));
-}
 
 /// A ray seen from above: points origin + t·direction, where t is the distance along the ray itself
 /// [m], so that `direction` is shorter than 1 where the ray is not level.
@@ -183,27 +179,29 @@ float measured(const LaserParameters& laser, double distance_m, double noise_m) 
 }  // namespace
 
 void check(const LaserParameters& laser) {
-  require(laser.beams >= 2 && laser.beams <= kMostBeams, "beams", laser.beams,
-          fmt::format("2 to {}", kMostBeams));
-  require(std::abs(laser.first_angle_rad) <= kFullTurn, "first_angle_rad", laser.first_angle_rad,
-          "within ±2π");
   const double span = laser.last_angle_rad - laser.first_angle_rad;
-  require(span > 0.0 && span <= kFullTurn, "last_angle_rad", laser.last_angle_rad,
-          "greater than first_angle_rad, by 2π at most");
-  require(laser.least_range_m >= 0.0, "least_range_m", laser.least_range_m, "0 or more");
+  const double mounted_m = laser.X_RL.translation.norm();
+  const double length = laser.X_RL.rotation.norm();
+  require(laser.beams >= 2 && laser.beams <= kMostBeams, "laser: beams",
+          fmt::format("2 to {}", kMostBeams), laser.beams);
+  require(std::abs(laser.first_angle_rad) <= kFullTurn, "laser: first_angle_rad", "within ±2π",
+          laser.first_angle_rad);
+  require(span > 0.0 && span <= kFullTurn, "laser: last_angle_rad",
+          "greater than first_angle_rad, by 2π at most", laser.last_angle_rad);
+  require(laser.least_range_m >= 0.0, "laser: least_range_m", "0 or more", laser.least_range_m);
   require(laser.most_range_m > laser.least_range_m && laser.most_range_m <= kMostMetres,
-          "most_range_m", laser.most_range_m,
-          fmt::format("greater than least_range_m and {} at most", kMostMetres));
-  require(laser.rate_hz > 0.0 && laser.rate_hz <= kMostRateHz, "rate_hz", laser.rate_hz,
-          fmt::format("greater than 0 and {} at most", kMostRateHz));
-  require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMostSigmaM, "sigma_m", laser.sigma_m,
-          fmt::format("0 to {}", kMostSigmaM));
-  require(laser.sweep_s >= 0.0 && laser.sweep_s < 1.0 / laser.rate_hz, "sweep_s", laser.sweep_s,
-          "0 or more and less than 1/rate_hz");
-  require(laser.X_RL.translation.norm() <= kMostMetres, "X_RL", laser.X_RL.translation.norm(),
-          fmt::format("within {} m of the base", kMostMetres));
-  require(std::abs(laser.X_RL.rotation.norm() - 1.0) < 1e-6, "X_RL", laser.X_RL.rotation.norm(),
-          "a rotation, of length 1");
+          "laser: most_range_m",
+          fmt::format("greater than least_range_m and {} at most", kMostMetres),
+          laser.most_range_m);
+  require(laser.rate_hz > 0.0 && laser.rate_hz <= kMostRateHz, "laser: rate_hz",
+          fmt::format("greater than 0 and {} at most", kMostRateHz), laser.rate_hz);
+  require(laser.sigma_m >= 0.0 && laser.sigma_m <= kMostSigmaM, "laser: sigma_m",
+          fmt::format("0 to {}", kMostSigmaM), laser.sigma_m);
+  require(laser.sweep_s >= 0.0 && laser.sweep_s < 1.0 / laser.rate_hz, "laser: sweep_s",
+          "0 or more and less than 1/rate_hz", laser.sweep_s);
+  require(mounted_m <= kMostMetres, "laser: X_RL",
+          fmt::format("within {} m of the base", kMostMetres), mounted_m);
+  require(std::abs(length - 1.0) < 1e-6, "laser: X_RL", "a rotation, of length 1", length);
 }
 
 Time scan_stamp(const LaserParameters& laser, std::int64_t number) {

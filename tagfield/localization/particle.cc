@@ -43,8 +43,6 @@ struct Search {
   std::vector<Level> levels;
 };
 
-double uniform(RandomStream& stream) { return static_cast<double>(stream() >> 11U) * 0x1.0p-53; }
-
 /// Like coherent_brightness(), each place with a height of its own.
 Tile coherence_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
   Tile light = Tile::Zero();

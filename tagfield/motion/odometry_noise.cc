@@ -1,11 +1,9 @@
 #include "tagfield/motion/odometry_noise.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 namespace {
@@ -32,14 +30,10 @@ Eigen::Vector2d middle_heading(const PlanarPose& increment) {
 }  // namespace
 
 void check(const OdometryNoise& noise) {
-  const auto expect = [](const char* name, double value) {
-    if (std::isfinite(value) && value >= 0.0) return;
-    throw Error(fmt::format("{} must be a finite number and not negative, is {}", name, value));
-  };
-  expect("alpha1", noise.alpha1);
-  expect("alpha2", noise.alpha2);
-  expect("alpha3", noise.alpha3);
-  expect("alpha4", noise.alpha4);
+  require_not_negative("alpha1", noise.alpha1);
+  require_not_negative("alpha2", noise.alpha2);
+  require_not_negative("alpha3", noise.alpha3);
+  require_not_negative("alpha4", noise.alpha4);
 }
 
 PlanarPose noisy_increment(const PlanarPose& increment, const OdometryNoise& noise,

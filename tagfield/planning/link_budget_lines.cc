@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/units.h"
+
 namespace tagfield {
 namespace {
-
-/// As RadioLink has it of a way that brings nothing [dB].
-constexpr double kNothing_db = -400.0;
-
-double to_db(double power) {
-  return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
-}
 
 void add(std::vector<BudgetLine>& lines, const std::string& what, double db) {
   BudgetLine& line = lines.emplace_back();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/units.h"
+
 namespace tagfield {
 namespace {
 
@@ -40,10 +42,8 @@ bool is_blocked(const std::vector<SurfaceOnPath>& between) {
 /// The greatest of the losses that need not be, as ", …"; the distance where there is none.
 std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplanation& link) {
   const PhysicalLink& physical = *link.physical;
-  const double beam_db = line(physical.to_tag, "antenna gain") -
-                         10.0 * std::log10(std::max(peak_gain(model.antenna), 1e-300));
-  const double tag_db = line(physical.to_tag, "tag gain") -
-                        10.0 * std::log10(std::max(peak_gain(tag.antenna), 1e-300));
+  const double beam_db = line(physical.to_tag, "antenna gain") - to_db(peak_gain(model.antenna));
+  const double tag_db = line(physical.to_tag, "tag gain") - to_db(peak_gain(tag.antenna));
   double others_db = 0.0;
   for (const BudgetLine& of_way : physical.to_tag) {
     if (of_way.what.find("with it") != std::string::npos) others_db = of_way.db;
@@ -110,8 +110,8 @@ void judge_paper(LinkExplanation& link) {
 }  // namespace
 
 std::string signed_db(double db) {
-  constexpr double kNothing_db = -250.0;
-  if (db < kNothing_db) return "nothing";
+  constexpr double kLeast_db = -250.0;
+  if (db < kLeast_db) return "nothing";
   const std::string number = fmt::format("{:.1f}", std::abs(db));
   return fmt::format("{}{} dB", db < 0.0 && number != "0.0" ? "−" : "+", number);
 }

@@ -14,14 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kMostCarriers = 8;
-constexpr double kNothing_db = -400.0;
 constexpr std::size_t kPlaces = 9;
-
-double to_db(double power) {
-  return power > 0.0 ? std::max(kNothing_db, 10.0 * std::log10(power)) : kNothing_db;
-}
-
-double from_db(double db) { return std::pow(10.0, db / 10.0); }
 
 /// What a one-way gain is made of at the tag's middle.
 struct Ray {
@@ -183,7 +176,7 @@ double most_margin_db(const RadioModel& model, const TagModel& tag, double dista
                           (model.effects.diffuse && model.diffuse_k_db);
   constexpr double kTwice_db = 6.02;
   const double one_way_db = to_db(peak_gain(model.antenna)) + to_db(peak_gain(tag.antenna)) +
-                            20.0 * std::log10(lambda_m / (4.0 * kPi * std::max(distance_m, 1e-3))) +
+                            amplitude_to_db(lambda_m / (4.0 * kPi * std::max(distance_m, 1e-3))) +
                             (has_others ? kTwice_db : 0.0);
   const double tag_dbm = sent_dbm(model, tag) + one_way_db;
   return std::min(tag_dbm - tag.sensitivity_dbm,

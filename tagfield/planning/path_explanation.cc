@@ -9,7 +9,7 @@ namespace tagfield {
 namespace {
 
 /// Weaker paths bring nothing: a pattern's null, or a wall that lets nothing through [dB].
-constexpr double kNothing_db = -300.0;
+constexpr double kLeast_db = -300.0;
 
 std::vector<std::string> parts_of(const std::string& scoped) {
   std::vector<std::string> parts;
@@ -78,14 +78,14 @@ PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath
   if (path.blocked || !(std::norm(free_gain) > 0.0)) return told;
   const std::complex<double> ratio =
       path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects) / free_gain;
-  const double relative_db = 10.0 * std::log10(std::max(std::norm(ratio), 1e-300));
-  if (!std::isfinite(relative_db) || relative_db <= kNothing_db) return told;
+  const double relative_db = to_db(std::norm(ratio));
+  if (!std::isfinite(relative_db) || relative_db <= kLeast_db) return told;
   told.relative_db = relative_db;
   told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
   return told;
 }
 
-double strength(const PathExplanation& path) { return path.relative_db.value_or(kNothing_db); }
+double strength(const PathExplanation& path) { return path.relative_db.value_or(kLeast_db); }
 
 }  // namespace
 

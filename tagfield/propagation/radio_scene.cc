@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/propagation/internal/flat_pieces.h"
 #include "tagfield/propagation/internal/welded_mesh.h"
 #include "tagfield/world/triangulate.h"
@@ -69,9 +70,7 @@ std::vector<char> table_of_sides(const std::vector<Facet>& facets) {
 }
 
 std::vector<char> checked(const RadioSceneOptions& options, std::size_t collisions) {
-  if (!(options.least_facet_m2 >= 0.0)) {
-    throw Error(fmt::format("least_facet_m2 must be at least 0, is {}", options.least_facet_m2));
-  }
+  require(options.least_facet_m2 >= 0.0, "least_facet_m2", "at least 0", options.least_facet_m2);
   if (options.opaque.empty()) return std::vector<char>(collisions, 0);
   if (options.opaque.size() != collisions) {
     throw Error(fmt::format("opaque must be empty or say it of each of {} collisions, has {}",

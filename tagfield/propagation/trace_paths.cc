@@ -1,12 +1,10 @@
 #include "tagfield/propagation/trace_paths.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/propagation/internal/beam.h"
 #include "tagfield/propagation/internal/check_options.h"
 #include "tagfield/propagation/internal/legs.h"
@@ -167,17 +165,15 @@ std::size_t count_up_to(const ImageSet& set, int order) {
   return static_cast<std::size_t>(end - set.images.begin());
 }
 
-void require(bool right, const char* name, double value, const char* expected) {
-  if (!right) throw Error(fmt::format("paths: {} must be {}, is {}", name, expected, value));
-}
-
 }  // namespace
 
 void check(const TraceOptions& options) {
-  require(options.order >= 0 && options.order <= kMostBounces, "order", options.order, "0 to 3");
-  require(options.most_length_m >= 0.0, "most_length_m", options.most_length_m, "at least 0");
-  require(options.mount_depth_m >= 0.0 && options.mount_depth_m <= 1.0, "mount_depth_m",
-          options.mount_depth_m, "0 to 1");
+  require(options.order >= 0 && options.order <= kMostBounces, "paths: order", "0 to 3",
+          options.order);
+  require(options.most_length_m >= 0.0, "paths: most_length_m", "at least 0",
+          options.most_length_m);
+  require(options.mount_depth_m >= 0.0 && options.mount_depth_m <= 1.0, "paths: mount_depth_m",
+          "0 to 1", options.mount_depth_m);
 }
 
 void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,

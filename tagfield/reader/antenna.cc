@@ -1,10 +1,8 @@
 #include "tagfield/reader/antenna.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 namespace {
@@ -17,14 +15,8 @@ std::uint64_t stamp_key(Time stamp) {
 }
 
 void check_range(const PaperAntenna& antenna) {
-  if (!(antenna.range_m > 0.0 && std::isfinite(antenna.range_m))) {
-    throw Error(
-        fmt::format("range_m must be a finite number greater than 0, is {}", antenna.range_m));
-  }
-  if (!(antenna.range_sigma >= 0.0 && std::isfinite(antenna.range_sigma))) {
-    throw Error(
-        fmt::format("range_sigma must be a finite number, 0 or more, is {}", antenna.range_sigma));
-  }
+  require_positive("range_m", antenna.range_m);
+  require_not_negative("range_sigma", antenna.range_sigma);
 }
 
 }  // namespace
@@ -32,10 +24,7 @@ void check_range(const PaperAntenna& antenna) {
 void check(const AntennaParameters& antenna) {
   const auto* const paper = std::get_if<PaperAntenna>(&antenna.model);
   if (paper != nullptr) check(paper->model);
-  if (!(antenna.rate_hz >= kLeastRate && antenna.rate_hz <= kMostRate)) {
-    throw Error(fmt::format("rate_hz must be from {:g} to {:g}, is {:g}", kLeastRate, kMostRate,
-                            antenna.rate_hz));
-  }
+  require_in_range("rate_hz", antenna.rate_hz, kLeastRate, kMostRate);
   if (paper != nullptr) check_range(*paper);
 }
 

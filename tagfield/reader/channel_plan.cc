@@ -8,15 +8,15 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
+#include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
 
 constexpr double kLeastCarrier = 1e6;
 constexpr double kMostCarrier = 300e9;
-/// EIRP over ERP: a half-wave dipole's gain [dB].
-constexpr double kDipole_db = 2.15;
 
 std::vector<double> evenly(double first_hz, double step_hz, int count) {
   std::vector<double> carriers;
@@ -31,15 +31,14 @@ std::vector<ChannelPlan> make_plans() {
           // ERC/REC 70-03, annex 11: 400 kHz wide, 4 W ERP.
           {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02},
           // 47 CFR 15.247: 50 channels, 0.4 s in 20 s at most, 1 W into 6 dBi: 36 dBm EIRP.
-          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_db},
+          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi},
           // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, 2 s at most.
           {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01}};
 }
 
 void check_carrier(const ChannelPlan& plan, double carrier_hz) {
-  if (!(carrier_hz >= kLeastCarrier && carrier_hz <= kMostCarrier)) {
-    throw Error(fmt::format("a carrier must be from 1 MHz to 300 GHz, is {:g} Hz", carrier_hz));
-  }
+  require(carrier_hz >= kLeastCarrier && carrier_hz <= kMostCarrier, "a carrier",
+          "from 1 MHz to 300 GHz", carrier_hz);
   const bool has_band = plan.band_high_hz > 0.0;
   if (has_band && !(carrier_hz > plan.band_low_hz && carrier_hz < plan.band_high_hz)) {
     throw Error(fmt::format("carrier {:g} MHz is outside the plan's band, {:g} to {:g} MHz",
@@ -86,9 +85,7 @@ ChannelPlan fixed_plan(double frequency_hz) {
 
 void check(const ChannelPlan& plan) {
   if (plan.carriers_hz.empty()) throw Error("a channel plan needs one carrier or more");
-  if (!(plan.dwell_s >= 1e-3 && plan.dwell_s <= 1e6)) {
-    throw Error(fmt::format("dwell_s must be from 0.001 to 1e6 s, is {:g}", plan.dwell_s));
-  }
+  require_in_range("dwell_s", plan.dwell_s, 1e-3, 1e6, "s");
   for (const double carrier : plan.carriers_hz) check_carrier(plan, carrier);
 }
 

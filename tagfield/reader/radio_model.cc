@@ -3,27 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
 
-void require(const char* what, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  throw Error(fmt::format("{} must be from {:g} to {:g}, is {:g}", what, least, most, value));
-}
-
-/// EIRP over ERP: a half-wave dipole's gain [dB].
-constexpr double kDipole_db = 2.15;
-
-double peak_dbi(const AntennaPattern& pattern) { return 10.0 * std::log10(peak_gain(pattern)); }
+double peak_dbi(const AntennaPattern& pattern) { return to_db(peak_gain(pattern)); }
 
 void warn_of_power(const RadioModel& model, Diagnostics& diagnostics) {
   if (!(model.plan.most_erp_dbm > 0.0)) return;
   const double eirp_dbm = model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
-  const double most_dbm = model.plan.most_erp_dbm + kDipole_db;
+  const double most_dbm = model.plan.most_erp_dbm + kDipole_dbi;
   if (eirp_dbm <= most_dbm + 0.05) return;
   diagnostics.warn(
       fmt::format("{:.1f} dBm EIRP is more than the {:.1f} dBm that the channel plan "
@@ -43,11 +35,11 @@ void check(const RadioModel& model, Diagnostics& diagnostics) {
   check(model.antenna, diagnostics);
   check(model.hardware);
   check(model.plan);
-  require("reflection_order", model.reflection_order, 0, kMostBounces);
-  require("transmit_power_dbm", model.transmit_power_dbm, -50.0, 60.0);
-  require("cable_loss_db", model.cable_loss_db, 0.0, 100.0);
-  require("phase_offset_rad", model.phase_offset_rad, -1e6, 1e6);
-  if (model.diffuse_k_db) require("diffuse_k_db", *model.diffuse_k_db, -40.0, 100.0);
+  require_in_range("reflection_order", model.reflection_order, 0, kMostBounces);
+  require_in_range("transmit_power_dbm", model.transmit_power_dbm, -50.0, 60.0);
+  require_in_range("cable_loss_db", model.cable_loss_db, 0.0, 100.0);
+  require_in_range("phase_offset_rad", model.phase_offset_rad, -1e6, 1e6);
+  if (model.diffuse_k_db) require_in_range("diffuse_k_db", *model.diffuse_k_db, -40.0, 100.0);
   if (model.hardware.sensitivity_dbm >= model.transmit_power_dbm) {
     throw Error(fmt::format("sensitivity_dbm must be below transmit_power_dbm ({:g}), is {:g}",
                             model.transmit_power_dbm, model.hardware.sensitivity_dbm));
@@ -55,23 +47,23 @@ void check(const RadioModel& model, Diagnostics& diagnostics) {
   if (model.gen2) {
     check(model.gen2->link);
     check(model.gen2->inventory);
-    require("port_dwell_s", model.gen2->port_dwell_s, 1e-3, 1e4);
+    require_in_range("port_dwell_s", model.gen2->port_dwell_s, 1e-3, 1e4);
   }
   warn_of_power(model, diagnostics);
 }
 
 void check(const TagModel& tag, Diagnostics& diagnostics) {
   check(tag.antenna, diagnostics);
-  require("sensitivity_dbm", tag.sensitivity_dbm, -100.0, 30.0);
-  require("modulation_db", tag.modulation_db, -60.0, 0.0);
-  require("detuning_db", tag.detuning_db, 0.0, 100.0);
+  require_in_range("sensitivity_dbm", tag.sensitivity_dbm, -100.0, 30.0);
+  require_in_range("modulation_db", tag.modulation_db, -60.0, 0.0);
+  require_in_range("detuning_db", tag.detuning_db, 0.0, 100.0);
 }
 
 std::shared_ptr<const TagModel> default_tag_model() {
   TagModel tag;
   tag.name = "dipole";
   tag.antenna.shape = PatternShape::kDipole;
-  tag.antenna.gain_dbi = kDipole_db;
+  tag.antenna.gain_dbi = kDipole_dbi;
   return std::make_shared<const TagModel>(tag);
 }
 
@@ -84,7 +76,7 @@ double most_range_m(const RadioModel& model, const TagModel& tag) {
   const double both_ways_db = radiated_dbm + peak_dbi(model.antenna) - model.cable_loss_db +
                               2.0 * tag_dbi + tag.modulation_db - model.hardware.sensitivity_dbm;
   const double loss_db = std::min(to_tag_db, 0.5 * both_ways_db);
-  const double alone_m = lambda_m / (4.0 * kPi) * std::pow(10.0, loss_db / 20.0);
+  const double alone_m = lambda_m / (4.0 * kPi) * amplitude_from_db(loss_db);
   const bool has_others = (model.effects.reflections && model.reflection_order > 0) ||
                           (model.effects.diffuse && model.diffuse_k_db);
   constexpr double kMost = 1e6;

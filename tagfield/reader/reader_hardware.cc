@@ -1,12 +1,9 @@
 #include "tagfield/reader/reader_hardware.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "tagfield/base/error.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -20,7 +17,7 @@ constexpr double kMostSigma = 10.0;
 constexpr double kLeastRssi = -200.0;
 
 double snr(const ReaderHardware& hardware, double reply_dbm) {
-  return std::pow(10.0, (reply_dbm - noise_dbm(hardware)) / 10.0);
+  return from_db(reply_dbm - noise_dbm(hardware));
 }
 
 double in_steps(double value, double step) {
@@ -32,9 +29,8 @@ void add_noise(const ReaderHardware& hardware, const Reply& reply, RandomStream&
   const double sigma = phase_sigma(hardware, reply.power_dbm);
   const auto [of_phase, of_amplitude] = standard_normal_pair(noise);
   measured.phase_rad += sigma * of_phase;
-  // A relative error x of the amplitude is 20 log10(1 + x) dB.
   const double amplitude = std::abs(1.0 + std::min(sigma, 1.0) * of_amplitude);
-  measured.rssi_dbm += 20.0 * std::log10(std::max(amplitude, 1e-6));
+  measured.rssi_dbm += amplitude_to_db(std::max(amplitude, 1e-6));
   // Doppler is how the phase turns from the reply's first half to its second.
   const double turn = 2.0 * sigma / (kPi * hardware.reply_s);
   measured.doppler_hz += turn * standard_normal(noise);
@@ -48,35 +44,22 @@ void quantize(const ReaderHardware& hardware, Measured& measured) {
   measured.doppler_hz = in_steps(measured.doppler_hz, hardware.doppler_step_hz);
 }
 
-struct Limit {
-  const char* name;
-  double value;
-  double least;
-  double most;
-};
-
 }  // namespace
 
 void check(const ReaderHardware& hardware) {
-  const std::array<Limit, 9> limits = {{
-      {"sensitivity_dbm", hardware.sensitivity_dbm, -150.0, 30.0},
-      {"noise_figure_db", hardware.noise_figure_db, 0.0, 100.0},
-      {"bandwidth_hz", hardware.bandwidth_hz, 1e3, 1e8},
-      {"averaged_bits", hardware.averaged_bits, 1.0, 1e6},
-      {"phase_floor_rad", hardware.phase_floor_rad, 0.0, 10.0},
-      {"phase_steps", hardware.phase_steps, 0.0, 1e9},
-      {"rssi_step_db", hardware.rssi_step_db, 0.0, 20.0},
-      {"doppler_step_hz", hardware.doppler_step_hz, 0.0, 1e6},
-      {"reply_s", hardware.reply_s, 1e-5, 1.0},
-  }};
-  for (const auto& [name, value, least, most] : limits) {
-    if (value >= least && value <= most) continue;
-    throw Error(fmt::format("{} must be from {:g} to {:g}, is {:g}", name, least, most, value));
-  }
+  require_in_range("sensitivity_dbm", hardware.sensitivity_dbm, -150.0, 30.0);
+  require_in_range("noise_figure_db", hardware.noise_figure_db, 0.0, 100.0);
+  require_in_range("bandwidth_hz", hardware.bandwidth_hz, 1e3, 1e8);
+  require_in_range("averaged_bits", hardware.averaged_bits, 1.0, 1e6);
+  require_in_range("phase_floor_rad", hardware.phase_floor_rad, 0.0, 10.0);
+  require_in_range("phase_steps", hardware.phase_steps, 0.0, 1e9);
+  require_in_range("rssi_step_db", hardware.rssi_step_db, 0.0, 20.0);
+  require_in_range("doppler_step_hz", hardware.doppler_step_hz, 0.0, 1e6);
+  require_in_range("reply_s", hardware.reply_s, 1e-5, 1.0);
 }
 
 double noise_dbm(const ReaderHardware& hardware) {
-  return kThermal_dbm_hz + 10.0 * std::log10(hardware.bandwidth_hz) + hardware.noise_figure_db;
+  return kThermal_dbm_hz + to_db(hardware.bandwidth_hz) + hardware.noise_figure_db;
 }
 
 double phase_sigma(const ReaderHardware& hardware, double reply_dbm) {

@@ -25,15 +25,6 @@ std::vector<TagRow> rows_by_tag(const Summary& summary) {
   return list;
 }
 
-std::vector<double> all_errors(const Summary& summary) {
-  std::vector<double> errors;
-  for (const TagOutcome& outcome : summary.tags) {
-    if (const auto error = error_of(outcome)) errors.push_back(*error);
-  }
-  std::sort(errors.begin(), errors.end());
-  return errors;
-}
-
 std::string outcome_words(const TagOutcome& outcome) {
   switch (outcome.estimate.verdict) {
     case Verdict::kLocated:

@@ -19,9 +19,6 @@ struct TagRow {
 /// A row a tag, in natural order.
 std::vector<TagRow> rows_by_tag(const Summary& summary);
 
-/// All errors, rising [m].
-std::vector<double> all_errors(const Summary& summary);
-
 /// How the tags came out, in two or three words, where there is no error to show.
 std::string outcome_words(const TagOutcome& outcome);
 

@@ -23,9 +23,7 @@ std::string percent(double share) {
                                       : fmt::format("{:.1f} %", value);
 }
 
-std::string degrees_of(double angle_rad) {
-  return fmt::format("{:.2f}°", angle_rad * (180.0 / kPi));
-}
+std::string degrees_of(double angle_rad) { return fmt::format("{:.2f}°", degrees(angle_rad)); }
 
 std::string map_rows(const NavigationSummary& navigation) {
   return row("Walls found", percent(navigation.walls_found),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/units.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/report/text.h"
 
@@ -175,7 +176,7 @@ std::string run_facts(const Summary& summary) {
     html += fact("Stated pose error",
                  fmt::format("σ {} per axis, σ {:.2f}° in heading, time constant {:.3g} s",
                              spoken_length(summary.pose_error->sigma_m),
-                             summary.pose_error->yaw_sigma_rad * 57.295779513,
+                             degrees(summary.pose_error->yaw_sigma_rad),
                              summary.pose_error->time_constant_s));
   }
   html += fact(summary.seeds.size() > 1 ? "Seeds" : "Seed", spoken_seeds(summary.seeds));

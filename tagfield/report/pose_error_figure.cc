@@ -34,7 +34,7 @@ double horizontal_error_mm(const RigidTransform& believed, const RigidTransform&
 
 /// Of the turn about z that leads from one to the other, however the antenna is mounted.
 double yaw_error_deg(const RigidTransform& believed, const RigidTransform& truth) {
-  return std::abs(yaw_of(believed.rotation * truth.rotation.conjugate())) * (180.0 / kPi);
+  return degrees(std::abs(yaw_of(believed.rotation * truth.rotation.conjugate())));
 }
 
 template <typename Measure>

@@ -5,17 +5,15 @@
 #include <numeric>
 
 namespace tagfield {
-namespace {
 
-std::vector<double> errors_of(const Summary& summary) {
+std::vector<double> all_errors(const Summary& summary) {
   std::vector<double> errors;
   for (const TagOutcome& outcome : summary.tags) {
     if (const auto error = error_of(outcome)) errors.push_back(*error);
   }
+  std::sort(errors.begin(), errors.end());
   return errors;
 }
-
-}  // namespace
 
 double quantile(const std::vector<double>& rising, double fraction) {
   const double rank = fraction * static_cast<double>(rising.size() - 1);
@@ -69,7 +67,7 @@ std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& read
 }
 
 std::optional<ErrorStatistics> error_statistics(const Summary& summary) {
-  return statistics(errors_of(summary));
+  return statistics(all_errors(summary));
 }
 
 std::string to_string(EffectSet set) {
@@ -83,7 +81,7 @@ std::size_t count(const Summary& summary, Verdict verdict) {
 }
 
 std::size_t count_over(const Summary& summary, double limit_m) {
-  const std::vector<double> errors = errors_of(summary);
+  const std::vector<double> errors = all_errors(summary);
   const auto over = [&](double error) { return error > limit_m; };
   return static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), over));
 }

@@ -168,7 +168,8 @@ std::map<std::string, std::size_t> count_by_tag(const std::vector<TagRead>& read
 std::optional<double> position_rms(const std::vector<AntennaPose>& a,
                                    const std::vector<AntennaPose>& b);
 
-/// Errors of all located tags, over all seeds.
+/// Errors of all located tags, over all seeds, rising [m].
+std::vector<double> all_errors(const Summary& summary);
 std::optional<ErrorStatistics> error_statistics(const Summary& summary);
 
 /// How many tags of all seeds came out so.
@@ -189,9 +190,9 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
-/// Inverse of to_json; what follows from the rest (errors, counts) is not read, a figure of the
-/// run that is null reads as 0, and compared_pose may be missing. Throws Error "FILE: tags[3].moved
-/// is null, expected true or false", on one line, on text that is not such a summary.
+/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that is
+/// null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one line,
+/// on text that is not such a summary.
 Summary summary_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

@@ -1,7 +1,6 @@
 #include "tagfield/simulator/floor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -88,8 +87,7 @@ PlanarPose random_place(const std::vector<Eigen::Vector2d>& floor, RandomStream&
   if (floor.empty()) throw Error("there is no floor that the robot could be on");
   // Of 64 random bits, so that no place is noticeably likelier than another.
   const Eigen::Vector2d& place = floor[stream() % floor.size()];
-  const double turn = static_cast<double>(stream() >> 11U) * 0x1p-53;
-  return {place.x(), place.y(), wrap_to_pi(kTwoPi * turn)};
+  return {place.x(), place.y(), wrap_to_pi(kTwoPi * uniform(stream))};
 }
 
 }  // namespace tagfield

@@ -139,7 +139,7 @@ void resample(RandomStream& stream, Cloud& cloud) {
   const Eigen::VectorXd mean = cloud.states * cloud.weights;
   const Eigen::MatrixXd root = root_of(covariance_of(cloud, mean));
   Eigen::MatrixXd chosen(cloud.states.rows(), cloud.states.cols());
-  const double shift = static_cast<double>(stream() >> 11U) * 0x1.0p-53;
+  const double shift = uniform(stream);
   double sum = cloud.weights(0);
   Eigen::Index from = 0;
   const double spread = std::sqrt(1.0 - kOwnPart * kOwnPart);

@@ -77,15 +77,5 @@ RC_GTEST_PROP(WrapToPi, StaysInBounds, ()) {
   RC_ASSERT(wrapped < kPi);
 }
 
-TEST(Radians, AgreeWithKnownAngles) {
-  EXPECT_DOUBLE_EQ(radians(180.0), kPi);
-  EXPECT_DOUBLE_EQ(radians(-45.0), -kPi / 4.0);
-}
-
-TEST(Wavelength, IsThatOfTheBandTables) {
-  EXPECT_NEAR(wavelength(865.7e6), 0.34630, 5e-6);
-  EXPECT_NEAR(wavelength(915e6), 0.32764, 5e-6);
-}
-
 }  // namespace
 }  // namespace tagfield

@@ -1,10 +1,16 @@
 #include "tagfield/base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -81,6 +87,33 @@ TEST(ParallelForOnOneThread, StaysOnTheCallersThread) {
   std::thread::id where;
   parallel_for(1, 8, [&](std::size_t) { where = std::this_thread::get_id(); });
   EXPECT_EQ(where, std::this_thread::get_id());
+}
+
+/// To be run in a process of its own: takes all but 64 MB of address space away, which leaves room
+/// for the stacks of a few threads. Exits with 0 if all was done.
+[[noreturn]] void loop_with_few_threads() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t space = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);
+  const rlimit limit{space, space};
+  setrlimit(RLIMIT_AS, &limit);
+  constexpr std::size_t kThreads = 64;
+  std::atomic<std::size_t> calls{0};
+  std::set<std::thread::id> seen;
+  std::mutex mutex;
+  parallel_for(1000, kThreads, [&](std::size_t) {
+    ++calls;
+    const std::lock_guard lock(mutex);
+    seen.insert(std::this_thread::get_id());
+  });
+  std::_Exit(calls == 1000 && seen.size() < kThreads ? 0 : 1);
+}
+
+TEST(ParallelFor, GoesOnWithTheThreadsThereAre) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need the address space that this takes away";
+#endif
+  EXPECT_EXIT(loop_with_few_threads(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -93,18 +93,29 @@ TEST(RandomStream, EveryKeyMakesItAnother) {
 
 TEST(RandomStream, LagsAreUncorrelated) {
   constexpr std::size_t kCount = 40'000;
-  std::vector<double> uniform;
+  std::vector<double> draws;
   for (const std::uint64_t word : words_of(RandomStream(7, Purpose::kReadNoise), kCount + 8)) {
-    uniform.push_back(static_cast<double>(word) * 0x1p-64);
+    draws.push_back(static_cast<double>(word) * 0x1p-64);
   }
-  const std::vector<double> first(uniform.begin(), uniform.begin() + kCount);
+  const std::vector<double> first(draws.begin(), draws.begin() + kCount);
   for (const int lag : {1, 2, 3, 4, 5, 8}) {
-    const std::vector<double> later(uniform.begin() + lag, uniform.begin() + lag + kCount);
+    const std::vector<double> later(draws.begin() + lag, draws.begin() + lag + kCount);
     EXPECT_LT(std::abs(statistics::correlation_deviate(first, later)), statistics::kNormalBound)
         << lag;
   }
   const auto cdf = [](double u) { return u; };
-  EXPECT_LT(statistics::kolmogorov(uniform, cdf), statistics::kKolmogorovBound);
+  EXPECT_LT(statistics::kolmogorov(draws, cdf), statistics::kKolmogorovBound);
+}
+
+TEST(Uniform, IsTheTopOfAWord) {
+  RandomStream words(3, Purpose::kReadNoise);
+  RandomStream draws(3, Purpose::kReadNoise);
+  RandomStream above(3, Purpose::kReadNoise);
+  for (int i = 0; i < 1000; ++i) {
+    const std::uint64_t top = words() / 2048;
+    EXPECT_EQ(std::ldexp(uniform(draws), 53), static_cast<double>(top));
+    EXPECT_EQ(std::ldexp(uniform_above_0(above), 53), static_cast<double>(top + 1));
+  }
 }
 
 TEST(StandardNormalPair, FollowsBoxAndMullersFormula) {

@@ -1,6 +1,7 @@
 #include "tagfield/channel/radio_world.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace tagfield {
 namespace {
@@ -37,6 +38,50 @@ TEST(RadioWorld, GuessesFromTheInnermostNameOutwardsAndSaysSo) {
       << diagnostics.warnings()[0];
   EXPECT_TRUE(world.scene.is_opaque(0));
   EXPECT_FALSE(world.scene.is_opaque(1));
+}
+
+std::string guessed(const std::string& name) {
+  RadioWorldOptions options;
+  options.otherwise = "marble";
+  Diagnostics diagnostics;
+  return material_of(radio_world(scene_of({name}), options, diagnostics), 0);
+}
+
+TEST(RadioWorld, GuessesByWholeWords) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> names = {
+      {"metal",
+       {"iron", "iron_shelf", "IronShelf", "shelf-iron2", "old iron", "IRON", "7IRONShelf",
+        "PalletJackB_01", "pallet_jack", "palletjack", "trash_cans", "Shelves", "metallic_thing",
+        "aluminum.frame", "warehouse_ShelfD_01_001", "fork_lift", "metal_box", "rack_of_wood"}},
+      {"cardboard", {"boxes", "BoxA", "card_board", "ClutteringC_01", "cartons"}},
+      {"wood", {"wooden_crate", "Pallets", "cafe_table", "DeskC_01", "bookshelf"}},
+      {"concrete", {"WallB_01", "north_wall", "walls"}},
+      {"plasterboard", {"drywall", "DryWall", "plaster_board"}},
+      {"glass", {"glass_door", "shop-window"}},
+      {"marble",
+       {"environment", "Environment_2", "boxing_ring", "stable", "wallaby", "tracked", "ironing",
+        "unboxed", "", "_", "12", "crated"}}};
+  for (const auto& [material, all] : names) {
+    for (const std::string& name : all) EXPECT_EQ(guessed(name), material) << name;
+  }
+}
+
+// However its words are written side by side, a name says the same.
+RC_GTEST_PROP(RadioWorld, GuessesAlikeHoweverWordsAreJoined, ()) {
+  const std::vector<std::string> plain = {"old", "north", "big", "left", "x"};
+  std::vector<std::string> words =
+      *rc::gen::container<std::vector<std::string>>(rc::gen::elementOf(plain));
+  const auto at = static_cast<std::ptrdiff_t>(*rc::gen::inRange<std::size_t>(0, words.size() + 1));
+  words.insert(words.begin() + at, "iron");
+  std::string snake;
+  std::string camel;
+  for (std::string word : words) {
+    snake += word + *rc::gen::element<std::string>("_", "-", " ", "3", ".", "::");
+    word[0] = static_cast<char>(word[0] - 'a' + 'A');
+    camel += word;
+  }
+  RC_ASSERT(guessed(snake) == "metal");
+  RC_ASSERT(guessed(camel) == "metal");
 }
 
 TEST(RadioWorld, LastRuleThatFitsCounts) {

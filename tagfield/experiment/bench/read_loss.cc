@@ -8,16 +8,11 @@
 namespace tagfield {
 namespace {
 
-/// In (0, 1].
-double uniform(RandomStream& stream) {
-  return static_cast<double>((stream() >> 11U) + 1) * 0x1p-53;
-}
-
 bool is_lost_alone(const TagRead& read, double share, std::uint64_t seed) {
   const auto stamp = static_cast<std::uint64_t>(read.stamp.time_since_epoch().count());
   RandomStream stream(seed, Purpose::kReadLoss, stream_key(read.antenna), stream_key(read.tag),
                       stamp);
-  return uniform(stream) <= share;
+  return uniform_above_0(stream) <= share;
 }
 
 /// When bursts begin [s], rising, such that those that reach into first_s … last_s are among them.
@@ -27,7 +22,7 @@ std::vector<double> begins_of_bursts(const ReadLoss& loss, double first_s, doubl
   RandomStream stream(seed, Purpose::kReadLoss);
   double begin_s = first_s - loss.burst_s;
   while (true) {
-    begin_s -= loss.every_s * std::log(uniform(stream));
+    begin_s -= loss.every_s * std::log(uniform_above_0(stream));
     if (begin_s > last_s) return begins;
     begins.push_back(begin_s);
   }

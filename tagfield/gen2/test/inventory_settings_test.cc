@@ -20,16 +20,15 @@ TEST(InventorySettings, DefaultsAreGood) { EXPECT_NO_THROW(check(InventorySettin
 
 TEST(InventorySettings, BadOnesAreNamedWithTheirRange) {
   using S = InventorySettings;
-  EXPECT_EQ(complaint(&S::start_q, 16), "start_q must be from 0 to 15, and is 16");
-  EXPECT_EQ(complaint(&S::min_q, 5), "min_q must be from 0 to 4, and is 5");
-  EXPECT_EQ(complaint(&S::max_q, 3), "max_q must be from 4 to 15, and is 3");
-  EXPECT_EQ(complaint(&S::q_step, 0.5),
-            "q_step must be more than 0.1 and less than 0.5, and is 0.5");
+  EXPECT_EQ(complaint(&S::start_q, 16), "start_q must be from 0 to 15, is 16");
+  EXPECT_EQ(complaint(&S::min_q, 5), "min_q must be from 0 to 4, is 5");
+  EXPECT_EQ(complaint(&S::max_q, 3), "max_q must be from 4 to 15, is 3");
+  EXPECT_EQ(complaint(&S::q_step, 0.5), "q_step must be more than 0.1 and less than 0.5, is 0.5");
   EXPECT_EQ(complaint(&S::capture_db, std::optional<double>(-1.0)),
-            "capture must be from 0 to 1000 dB, and is -1");
-  EXPECT_EQ(complaint(&S::power_up_s, 11.0), "power_up must be from 0 to 10 s, and is 11");
+            "capture must be from 0 to 1000 dB, is -1");
+  EXPECT_EQ(complaint(&S::power_up_s, 11.0), "power_up must be from 0 to 10 s, is 11");
   EXPECT_EQ(complaint(&S::round_overhead_s, -0.1),
-            "round_overhead must be from 0 to 10 s, and is -0.1");
+            "round_overhead must be from 0 to 10 s, is -0.1");
   EXPECT_NE(complaint(&S::slot_overhead_s, std::nan("")), "(no error)");
   EXPECT_NE(complaint(&S::read_overhead_s, -1.0), "(no error)");
 }

@@ -119,19 +119,18 @@ TEST(LinkTiming, BadParametersAreNamedWithTheirRange) {
     link.*member = value;
     return complaint(link);
   };
-  EXPECT_EQ(with(&LinkSettings::tari_s, 30e-6), "tari must be from 6.25 to 25 us, and is 30");
-  EXPECT_EQ(with(&LinkSettings::data1_tari, 2.5), "data1 must be from 1.5 to 2 Tari, and is 2.5");
-  EXPECT_EQ(with(&LinkSettings::blf_hz, 700e3), "blf must be from 40 to 640 kHz, and is 700");
-  EXPECT_EQ(
-      with(&LinkSettings::blf_hz, 400e3),
-      "TRcal (the divide ratio over blf) must be from 68.75 to 187.5 us (1.1 to 3 RTcal), and "
-      "is 53.3333");
-  EXPECT_EQ(with(&LinkSettings::t2_tpri, 2.0), "t2 must be from 3 to 20 Tpri, and is 2");
-  EXPECT_EQ(with(&LinkSettings::t3_tpri, -1.0), "t3 must be from 0 to 1000 Tpri, and is -1");
+  EXPECT_EQ(with(&LinkSettings::tari_s, 30e-6), "tari must be from 6.25 to 25 us, is 30");
+  EXPECT_EQ(with(&LinkSettings::data1_tari, 2.5), "data1 must be from 1.5 to 2 Tari, is 2.5");
+  EXPECT_EQ(with(&LinkSettings::blf_hz, 700e3), "blf must be from 40 to 640 kHz, is 700");
+  EXPECT_EQ(with(&LinkSettings::blf_hz, 400e3),
+            "TRcal (the divide ratio over blf) must be from 68.75 to 187.5 us (1.1 to 3 RTcal), is "
+            "53.3333");
+  EXPECT_EQ(with(&LinkSettings::t2_tpri, 2.0), "t2 must be from 3 to 20 Tpri, is 2");
+  EXPECT_EQ(with(&LinkSettings::t3_tpri, -1.0), "t3 must be from 0 to 1000 Tpri, is -1");
   EXPECT_NE(with(&LinkSettings::tari_s, std::nan("")), "(no error)");
   LinkSettings link;
   link.epc_bits = 100;
-  EXPECT_EQ(complaint(link), "epc_bits must be a multiple of 16 from 0 to 496, and is 100");
+  EXPECT_EQ(complaint(link), "epc_bits must be a multiple of 16 from 0 to 496, is 100");
 }
 
 }  // namespace

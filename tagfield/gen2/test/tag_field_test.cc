@@ -36,11 +36,11 @@ TEST(TagField, BadTagsAreNamedAndChangeNothing) {
   EXPECT_EQ(error_of([&] {
               field.assign({{4, std::nan(""), 1.0}});
             }),
-            "reply_dbm of tag 4 must be finite, and is nan");
+            "reply_dbm of tag 4 must be finite, is nan");
   EXPECT_EQ(error_of([&] {
               field.assign({{5, 0.0, 1.5}});
             }),
-            "decode_probability of tag 5 must be from 0 to 1, and is 1.5");
+            "decode_probability of tag 5 must be from 0 to 1, is 1.5");
   EXPECT_TRUE(field.has(7));
 }
 

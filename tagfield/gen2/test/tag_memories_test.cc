@@ -85,14 +85,11 @@ TEST(TagMemories, AForgottenTagsSlotIsLikeNew) {
 }
 
 TEST(TagMemories, BadPersistenceIsNamedWithItsRange) {
-  EXPECT_EQ(error_of([] {
-              check(Persistence{6.0, 10.0});
-            }),
-            "s1 must be from 0.5 to 5 s, and is 6");
+  EXPECT_EQ(error_of([] { check(Persistence{6.0, 10.0}); }), "s1 must be from 0.5 to 5 s, is 6");
   EXPECT_EQ(error_of([] {
               TagMemories memories({2.0, 1.0});
             }),
-            "s2_s3 must be from 2 to 1e9 s, and is 1");
+            "s2_s3 must be from 2 to 1e+09 s, is 1");
 }
 
 }  // namespace

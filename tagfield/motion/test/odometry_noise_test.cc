@@ -186,7 +186,7 @@ TEST(OdometryNoise, RefusesBadParameters) {
   EXPECT_EQ(error_of([] {
               check(OdometryNoise{-0.1, 0.0, 0.0, 0.0});
             }),
-            "alpha1 must be a finite number and not negative, is -0.1");
+            "alpha1 must be a finite number, 0 or more, is -0.1");
   EXPECT_TRUE(contains(error_of([nan] { check(OdometryNoise{0.0, nan, 0.0, 0.0}); }), "alpha2"));
   EXPECT_TRUE(contains(error_of([] { check(OdometryNoise{0.0, 0.0, -1.0, 0.0}); }), "alpha3"));
   EXPECT_TRUE(contains(error_of([] { check(OdometryNoise{0.0, 0.0, 0.0, -1.0}); }), "alpha4"));

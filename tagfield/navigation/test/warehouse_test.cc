@@ -43,8 +43,6 @@ const Warehouse& warehouse() {
   return result;
 }
 
-double uniform(RandomStream& stream) { return static_cast<double>(stream() >> 11U) * 0x1p-53; }
-
 /// A place that can be reached from `pose`.
 PlanarPose random_goal(RandomStream& stream, const PlanarPose& pose) {
   const OccupancyGrid& map = warehouse().map;

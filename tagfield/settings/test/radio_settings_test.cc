@@ -85,7 +85,7 @@ TEST(RadioModelFrom, NamesPlaceAndRangeOfWhatIsWrong) {
   EXPECT_EQ(complaint({{"gain_dbi", "much"}}),
             "s.yaml:10: gain_dbi is 'much', expected a finite number");
   EXPECT_EQ(complaint({{"start_q", "4"}, {"inventory", "gen2"}, {"start_q", "16"}}),
-            "s.yaml:12: start_q must be from 0 to 15, and is 16");
+            "s.yaml:12: start_q must be from 0 to 15, is 16");
   EXPECT_EQ(complaint({{"pattern", "dish"}}),
             "s.yaml:10: pattern is 'dish', expected isotropic, patch, dipole, table");
   EXPECT_EQ(complaint({{"reflection_order", "4"}}),
