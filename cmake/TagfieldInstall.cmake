@@ -1,20 +1,26 @@
 # Installs headers, libraries and the CMake package, so that another project can
-#   find_package(tagfield REQUIRED)
+#   find_package(tagfield REQUIRED COMPONENTS simulator)
 #   target_link_libraries(program PRIVATE tagfield::simulator)
 include(CMakePackageConfigHelpers)
 
-get_property(rooms GLOBAL PROPERTY TAGFIELD_ROOMS)
-install(TARGETS ${rooms} EXPORT tagfieldTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
+foreach(component IN LISTS tagfield_built)
+  set(rooms ${tagfield_${component}_ROOMS})
+  list(TRANSFORM rooms PREPEND tagfield_)
+  install(TARGETS ${rooms} EXPORT tagfield-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT tagfield-${component} NAMESPACE tagfield:: DESTINATION ${package})
+endforeach()
 install(DIRECTORY tagfield DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN internal EXCLUDE PATTERN test EXCLUDE)
-install(EXPORT tagfieldTargets NAMESPACE tagfield::
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/tagfieldConfig.cmake.in ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
+  INSTALL_DESTINATION ${package})
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/tagfieldConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
               ${PROJECT_BINARY_DIR}/tagfieldConfigVersion.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
-install(DIRECTORY models profiles scenarios worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield)
+              ${CMAKE_CURRENT_LIST_DIR}/TagfieldComponents.cmake
+        DESTINATION ${package})
+if(TAGFIELD_COMMAND)
+  install(DIRECTORY models profiles scenarios worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield)
+endif()

@@ -1,3 +1,14 @@
+# tagfield_ros1_needs(VARIABLE…): ends with one line that says how to go on where one is not found.
+function(tagfield_ros1_needs)
+  foreach(found IN LISTS ARGN)
+    if(NOT ${found})
+      message(FATAL_ERROR "ROS 1 is not complete (${found}). On Debian 12 it is in the packages "
+        "libnav-msgs-dev librosbag-storage-dev libtf2-dev python3-gencpp ros-geometry-msgs "
+        "ros-std-msgs; or do without rosbags: -DTAGFIELD_ROS1=OFF")
+    endif()
+  endforeach()
+endfunction()
+
 # tagfield_ros_messages(TARGET PACKAGE_DIR…)
 #
 # An interface target with the C++ headers of ROS 1 message packages, made by gencpp. Messages of
@@ -5,11 +16,12 @@
 # put them.
 function(tagfield_ros_messages target)
   find_program(TAGFIELD_GEN_CPP gen_cpp.py
-    PATHS /usr/lib/gencpp /opt/ros/noetic/lib/gencpp REQUIRED)
+    PATHS /usr/lib/gencpp /opt/ros/noetic/lib/gencpp)
   find_path(TAGFIELD_ROS_SHARE std_msgs/msg/Header.msg
-    PATHS /usr/share /opt/ros/noetic/share REQUIRED)
+    PATHS /usr/share /opt/ros/noetic/share)
   find_path(TAGFIELD_GENCPP_TEMPLATES msg.h.template
-    PATHS /usr/share/gencpp /opt/ros/noetic/share/gencpp REQUIRED)
+    PATHS /usr/share/gencpp /opt/ros/noetic/share/gencpp)
+  tagfield_ros1_needs(TAGFIELD_GEN_CPP TAGFIELD_ROS_SHARE TAGFIELD_GENCPP_TEMPLATES)
   set(include_dir ${PROJECT_BINARY_DIR}/ros_messages/${target})
   set(headers "")
   foreach(package_dir IN LISTS ARGN)

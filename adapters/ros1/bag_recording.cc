@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <tuple>
 
@@ -18,8 +16,6 @@
 namespace tagfield {
 namespace {
 
-constexpr const char* kMagic = "#ROSBAG V";
-
 /// rosbag and tf2 print their complaints; here they come as exceptions or are looked for.
 class Silence {
  public:
@@ -28,14 +24,6 @@ class Silence {
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
 };
-
-std::string first_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::char_traits<char>::length(kMagic), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  return bytes;
-}
 
 template <typename Stamped>
 void sort_by_stamp(std::vector<Stamped>& list) {
@@ -168,14 +156,6 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
 }
 
 }  // namespace
-
-bool is_bag(const std::string& path) {
-  const std::filesystem::path name = path;
-  const bool named = name.extension() == ".bag" ||
-                     (name.extension() == ".active" && name.stem().extension() == ".bag");
-  std::error_code error;
-  return named || (std::filesystem::is_regular_file(name, error) && first_bytes(path) == kMagic);
-}
 
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {

@@ -18,7 +18,7 @@
 #include "tagfield/report/tracks_figure.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/scenario_yaml.h"
-#include "tagfield/tracking/tracks_csv.h"
+#include "tagfield/report/tracks_csv.h"
 
 namespace tagfield {
 namespace {

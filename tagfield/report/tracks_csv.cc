@@ -1,4 +1,4 @@
-#include "tagfield/tracking/tracks_csv.h"
+#include "tagfield/report/tracks_csv.h"
 
 #include <fmt/format.h>
 

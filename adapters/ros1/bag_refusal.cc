@@ -1,0 +1,13 @@
+// In place of bag_recording.cc where Tagfield is built without ROS 1.
+#include "adapters/ros1/bag_recording.h"
+
+namespace tagfield {
+
+BagRecording read_bag(const std::string& path, const BagOptions& /*options*/,
+                      Diagnostics& /*diagnostics*/) {
+  fail({path, 0},
+       "this tagfield was built without ROS 1 and cannot read bags; build it with "
+       "-DTAGFIELD_ROS1=ON");
+}
+
+}  // namespace tagfield

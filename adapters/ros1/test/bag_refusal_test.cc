@@ -1,0 +1,18 @@
+#include <gtest/gtest.h>
+
+#include "adapters/ros1/bag_recording.h"
+#include "tagfield/base/test/error_text.h"
+
+namespace tagfield {
+namespace {
+
+TEST(BagRefusal, SaysWhichOptionReadsBags) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(is_bag("runs/run.bag"));
+  EXPECT_EQ(error_of([&] { read_bag("runs/run.bag", {}, diagnostics); }),
+            "runs/run.bag: this tagfield was built without ROS 1 and cannot read bags; build it "
+            "with -DTAGFIELD_ROS1=ON");
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+# What can be built, installed and asked for by itself, for Tagfield's own build and for whoever finds it:
+#
+#   cmake -DTAGFIELD_COMPONENTS="localization;files" …
+#   find_package(tagfield REQUIRED COMPONENTS localization files)
+#
+# A component is some rooms, the packages that a program needs to link them (PACKAGES of CMake, MODULES of
+# pkg-config), and the components above it that they stand on.
+set(tagfield_components "")
+macro(tagfield_component name)
+  list(APPEND tagfield_components ${name})
+  cmake_parse_arguments(tagfield_${name} "" "" "NEEDS;ROOMS;PACKAGES;MODULES" ${ARGN})
+endmacro()
+
+tagfield_component(core ROOMS base poses stream PACKAGES Threads "Eigen3 3.3" fmt)
+tagfield_component(files NEEDS core ROOMS files)
+tagfield_component(motion NEEDS core ROOMS motion)
+tagfield_component(localization NEEDS core ROOMS localization tracking calibration)
+tagfield_component(field NEEDS core
+  ROOMS world link propagation channel gen2 reader settings field PACKAGES "embree 3")
+tagfield_component(sdf NEEDS field ROOMS sdf PACKAGES assimp sdformat12)
+tagfield_component(navigation NEEDS motion field ROOMS map laser navigation
+  PACKAGES yaml-cpp MODULES polyclipping)
+tagfield_component(report NEEDS files localization navigation ROOMS report)
+tagfield_component(scenario NEEDS files localization sdf navigation ROOMS scenario)
+tagfield_component(simulator NEEDS scenario ROOMS simulator)
+tagfield_component(planning NEEDS report simulator ROOMS planning)
+tagfield_component(experiment NEEDS report simulator ROOMS experiment)
+
+# tagfield_with_needs(OUT COMPONENT…): these and all that they stand on, in the order above. A name that is
+# none remains at the front.
+function(tagfield_with_needs out)
+  set(found "")
+  set(todo ${ARGN})
+  while(todo)
+    list(POP_FRONT todo name)
+    list(APPEND found ${name})
+    list(APPEND todo ${tagfield_${name}_NEEDS})
+  endwhile()
+  set(unknown ${found})
+  list(REMOVE_ITEM unknown ${tagfield_components})
+  set(others ${tagfield_components})
+  list(REMOVE_ITEM others ${found})
+  set(needed ${tagfield_components})
+  list(REMOVE_ITEM needed "" ${others})
+  set(${out} ${unknown} ${needed} PARENT_SCOPE)
+endfunction()
