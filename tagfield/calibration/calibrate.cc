@@ -8,10 +8,11 @@
 #include <optional>
 #include <set>
 
-#include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/circular_fit.h"
+#include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/robust_noise.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
 
@@ -22,8 +23,7 @@ constexpr std::size_t kFewestReads = 30;
 constexpr double kShortest = 1.0;   ///< First stretches of time [s].
 constexpr double kTimeStep = 0.01;  ///< Of the search for the time offset [s].
 constexpr std::size_t kSearchReads = 3000;
-constexpr double kSlopeTime = 1e-3;  ///< [s]
-constexpr int kMostSteps = 40;
+constexpr double kSlopeTime = 1e-3;   ///< [s]
 constexpr double kLeastNoise = 0.01;  ///< [rad]
 constexpr double kStraight = 0.02;    ///< An antenna that moved less tells nothing of time [m].
 /// Offsets of tags that differ by more than this, rms, beyond what noise does, are not shared.
@@ -121,36 +121,35 @@ struct Fit {
   double cost = 0.0;
 };
 
-double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
-  const auto count = static_cast<double>(residuals.size());
-  const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  return std::max(kLeastNoise, sigma_by_median(residuals) * std::sqrt(count / freedom));
+/// A fit under way.
+struct Point {
+  Vector4 theta;
+  Normal normal;
+  double cost = 0.0;
+};
+
+Point point_at(const Model& model, const Vector4& theta) {
+  Point point{theta, normal_at(model, theta), 0.0};
+  point.cost = point.normal.cost;
+  return point;
 }
 
 Fit fitted(Model model, const Fit& start) {
   Fit fit = start;
   model.noise_rad = start.noise_rad;
   model.sign = start.sign;
-  Normal normal = normal_at(model, fit.theta);
-  double damping = 1e-3;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
-    Matrix4 damped = normal.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector4 next = fit.theta + damped.ldlt().solve(normal.right);
-    if (!next.allFinite() || std::abs(next(3)) > 2.0 * model.options.most_time_offset_s) break;
-    Normal there = normal_at(model, next);
-    if (!(there.cost <= normal.cost)) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = normal.cost - there.cost;
-    fit.theta = next;
-    normal = std::move(there);
-    damping = std::max(0.1 * damping, 1e-9);
-    if (gain < 1e-7 * std::max(1.0, normal.cost)) break;
-  }
-  fit.cost = normal.cost;
-  fit.noise_rad = noise_of(normal.residuals, model.stretches.size() + 4);
+  constexpr LevenbergMarquardt kHow{
+      .most_steps = 40, .most_damping = 1e6, .least_relative_gain = 1e-7};
+  const double most_time_offset_s = 2.0 * model.options.most_time_offset_s;
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    const Vector4 next = here.theta + damped_step(here.normal.matrix, here.normal.right, damping);
+    if (!next.allFinite() || std::abs(next(3)) > most_time_offset_s) return std::nullopt;
+    return point_at(model, next);
+  };
+  const Point best = descend(point_at(model, start.theta), kHow, step);
+  fit.theta = best.theta;
+  fit.cost = best.cost;
+  fit.noise_rad = robust_noise(best.normal.residuals, model.stretches.size() + 4, kLeastNoise);
   model.noise_rad = fit.noise_rad;
   fit.covariance = normal_at(model, fit.theta).matrix.ldlt().solve(Matrix4(Matrix4::Identity()));
   return fit;
@@ -267,15 +266,12 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   double squares = 0.0;
   double freedom = 0.0;
   for (const auto& [channel, offsets] : by_channel) {
-    double cosine = 0.0;
-    double sine = 0.0;
+    CircularMean mean;
     for (const TagOffset* offset : offsets) {
-      cosine += std::cos(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
-      sine += std::sin(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
+      mean.add(offset->offset_rad, 1.0 / (offset->sigma_rad * offset->sigma_rad));
     }
-    const double mean = std::atan2(sine, cosine);
     for (const TagOffset* offset : offsets) {
-      const double error = wrap_to_pi(offset->offset_rad - mean);
+      const double error = wrap_to_pi(offset->offset_rad - mean.value());
       squares += std::max(0.0, error * error - offset->sigma_rad * offset->sigma_rad);
     }
     freedom += static_cast<double>(offsets.size()) - 1.0;

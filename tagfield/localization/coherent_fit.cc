@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
@@ -45,9 +45,10 @@ std::complex<double> direction_of(const Aperture& part, std::complex<double> sum
   return part.offset_known || !(length > 0.0) ? 1.0 : sum / length;
 }
 
-/// Value, gradient and expected information of the coherence.
-struct Step {
-  double value = 0.0;
+/// A place on the way up: coherence, its gradient and expected information.
+struct Summit {
+  PlaceVector place;
+  double cost = 0.0;  ///< The coherence with the other sign.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   double count = 0.0;
@@ -55,7 +56,7 @@ struct Step {
 
 /// In one pass: the offset is only known when all waves are added up, so both parts are kept.
 void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& height,
-              const PlaceVector& p, Step& step) {
+              Summit& summit) {
   double in_phase = 0.0;
   double quadrature = 0.0;
   Eigen::Vector3d in_phase_slopes = Eigen::Vector3d::Zero();
@@ -63,7 +64,7 @@ void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = part.begin; i < part.begin + part.count; ++i) {
-    const Range range = range_to(height, p, phases.x[i], phases.y[i], phases.z[i]);
+    const Range range = range_to(height, summit.place, phases.x[i], phases.y[i], phases.z[i]);
     const double phase = phases.wavenumber[i] * (phases.value[i] - range.r);
     const Eigen::Vector3d slope = phases.wavenumber[i] * range.gradient;
     const double cosine = std::cos(phase);
@@ -77,21 +78,22 @@ void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& 
   }
   const std::complex<double> back = direction_of(part, {in_phase, quadrature});
   const auto count = static_cast<double>(part.count);
-  step.value += in_phase * back.real() + quadrature * back.imag();
-  step.gradient += back.real() * quadrature_slopes - back.imag() * in_phase_slopes;
-  step.information += squares;
-  if (!part.offset_known) step.information -= sum * sum.transpose() / count;
-  step.count += count;
+  summit.cost -= in_phase * back.real() + quadrature * back.imag();
+  summit.gradient += back.real() * quadrature_slopes - back.imag() * in_phase_slopes;
+  summit.information += squares;
+  if (!part.offset_known) summit.information -= sum * sum.transpose() / count;
+  summit.count += count;
 }
 
-Step step_at(const TagPhases& phases, const std::vector<Aperture>& parts, const HeightModel& height,
-             const PlaceVector& p) {
-  Step step;
-  for (const Aperture& part : parts) add_part(phases, part, height, p, step);
+Summit summit_at(const TagPhases& phases, const std::vector<Aperture>& parts,
+                 const HeightModel& height, const PlaceVector& place) {
+  Summit summit;
+  summit.place = place;
+  for (const Aperture& part : parts) add_part(phases, part, height, summit);
   // The curvature of |S| is smaller than that of n by the reads' mean cosine.
-  step.information *= std::max(0.1, step.value / std::max(step.count, 1.0));
-  if (height.kind == HeightModel::Kind::kKnown) step.information(2, 2) = 1.0;
-  return step;
+  summit.information *= std::max(0.1, -summit.cost / std::max(summit.count, 1.0));
+  if (height.kind == HeightModel::Kind::kKnown) summit.information(2, 2) = 1.0;
+  return summit;
 }
 
 TagFit fit_at(const TagPhases& phases, const HeightModel& height, const PlaceVector& place) {
@@ -318,31 +320,22 @@ double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
 
 PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
                   const HeightModel& height, const PlaceVector& start) {
-  constexpr int kRounds = 40;
   constexpr double kTolerance = 1e-5;   // [m]
   constexpr double kNoGain = 1e-5;      // of a coherence of many reads
   constexpr double kLongestStep = 0.3;  // [m]; beyond is another lobe
-  PlaceVector p = start;
-  double damping = 1e-4;
-  Step here = step_at(phases, parts, height, p);
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d damped = here.information;
-    damped.diagonal() *= 1.0 + damping;
-    damped.diagonal().array() += 1e-9;
-    PlaceVector move = damped.ldlt().solve(here.gradient);
-    if (!move.allFinite() || move.norm() < kTolerance) break;
-    if (here.gradient.dot(move) < kNoGain) break;
+  constexpr double kRidge = 1e-9;
+  constexpr LevenbergMarquardt kHow{.most_steps = 40,
+                                    .damping = 1e-4,
+                                    .least_damping = 1e-12,
+                                    .raise = 8.0,
+                                    .least_raised = 1e-3};
+  const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
+    PlaceVector move = damped_step(here.information, here.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;
     if (move.head<2>().norm() > kLongestStep) move *= kLongestStep / move.head<2>().norm();
-    const Step there = step_at(phases, parts, height, p + move);
-    if (there.value > here.value) {
-      p += move;
-      here = there;
-      damping = std::max(damping * 0.1, 1e-12);
-    } else {
-      damping = std::max(damping * 8.0, 1e-3);
-    }
-  }
-  return p;
+    return summit_at(phases, parts, height, here.place + move);
+  };
+  return descend(summit_at(phases, parts, height, start), kHow, step).place;
 }
 
 Candidate candidate_at(const TagPhases& phases, const HeightModel& height,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/internal/joint_equations.h"
 #include "tagfield/localization/internal/joint_solution.h"
 
@@ -16,6 +18,12 @@ Eigen::Vector3d padded(const Eigen::VectorXd& u, Index knot, int size) {
   all.head(size) = u.segment(knot * size, size);
   return all;
 }
+
+/// A system under way.
+struct Point {
+  JointSystem system;
+  double cost = 0.0;
+};
 
 void apply(const Move& move, JointSystem& system) {
   system.u += move.u;
@@ -108,30 +116,22 @@ double cost_of(JointSystem& system) {
 
 double minimize(JointSystem& system, int rounds, int threads) {
   constexpr double kTolerance = 2e-6;  // [m]
-  constexpr double kLeastGain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
-  double damping = 1e-6;
-  double cost = cost_of(system);
-  for (int round = 0; round < rounds; ++round) {
-    const Move move = damped_move(system, damping, threads);
-    if (!is_finite(move)) {
-      damping = std::max(10.0 * damping, 1e-3);
-      continue;
-    }
-    JointSystem next = system;
-    apply(move, next);
-    const double there = cost_of(next);
-    const double length = length_of(system, move);
-    if (there <= cost) {
-      system = std::move(next);
-      const double gain = cost - there;
-      cost = there;
-      damping = std::max(0.1 * damping, 1e-9);
-      if (length < kTolerance || gain < kLeastGain) break;
-    } else {
-      if (length < kTolerance) break;
-      damping = std::max(10.0 * damping, 1e-3);
-    }
-  }
+  LevenbergMarquardt how{.damping = 1e-6, .least_raised = 1e-3};
+  how.most_steps = rounds;
+  how.least_gain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
+  double length = std::numeric_limits<double>::infinity();  // Of the last step.
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    if (length < kTolerance) return std::nullopt;
+    const Move move = damped_move(here.system, damping, threads);
+    if (!is_finite(move)) return Point{{}, std::numeric_limits<double>::quiet_NaN()};
+    length = length_of(here.system, move);
+    Point there{here.system, 0.0};
+    apply(move, there.system);
+    there.cost = cost_of(there.system);
+    return there;
+  };
+  const double cost = cost_of(system);
+  system = descend(Point{std::move(system), cost}, how, step).system;
   return cost_of(system);
 }
 

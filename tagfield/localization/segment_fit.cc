@@ -1,12 +1,12 @@
 #include "tagfield/localization/segment_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
 #include "tagfield/base/units.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 namespace {
@@ -52,33 +52,35 @@ Eigen::ArrayXd distances(const FitData& data, const FitData::Span& span, const E
       .sqrt();
 }
 
-/// Normal matrix, gradient and sum of squares of one Gauss-Newton step.
-struct Step {
+/// A place with the normal matrix, the gradient and the sum of squares there.
+struct Point {
+  Eigen::Vector2d p;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  double sum_of_squares = 0.0;
+  double cost = 0.0;
 };
 
-void add_span(const FitData& data, const FitData::Span& span, const Eigen::Vector2d& p,
-              Step& step) {
+void add_span(const FitData& data, const FitData::Span& span, Point& point) {
+  const Eigen::Vector2d& p = point.p;
   const Eigen::ArrayXd range = distances(data, span, p).max(1e-9);
   Eigen::ArrayXd error = data.distance.segment(span.begin, span.count) - range;
   // Gradient of the range; the offset is eliminated by taking means out.
   Eigen::ArrayXd ux = (p.x() - data.x.segment(span.begin, span.count)) / range;
   Eigen::ArrayXd uy = (p.y() - data.y.segment(span.begin, span.count)) / range;
   for (Eigen::ArrayXd* column : {&error, &ux, &uy}) *column -= column->mean();
-  step.normal(0, 0) += ux.square().sum();
-  step.normal(0, 1) += (ux * uy).sum();
-  step.normal(1, 1) += uy.square().sum();
-  step.gradient += Eigen::Vector2d((ux * error).sum(), (uy * error).sum());
-  step.sum_of_squares += error.square().sum();
+  point.normal(0, 0) += ux.square().sum();
+  point.normal(0, 1) += (ux * uy).sum();
+  point.normal(1, 1) += uy.square().sum();
+  point.gradient += Eigen::Vector2d((ux * error).sum(), (uy * error).sum());
+  point.cost += error.square().sum();
 }
 
-Step step_at(const FitData& data, const Eigen::Vector2d& p) {
-  Step step;
-  for (const FitData::Span& span : data.spans) add_span(data, span, p, step);
-  step.normal(1, 0) = step.normal(0, 1);
-  return step;
+Point point_at(const FitData& data, const Eigen::Vector2d& p) {
+  Point point;
+  point.p = p;
+  for (const FitData::Span& span : data.spans) add_span(data, span, point);
+  point.normal(1, 0) = point.normal(0, 1);
+  return point;
 }
 
 }  // namespace
@@ -154,31 +156,20 @@ double sum_of_squares(const FitData& data, const Eigen::Vector2d& p) {
 }
 
 Eigen::Matrix2d normal_matrix(const FitData& data, const Eigen::Vector2d& p) {
-  return step_at(data, p).normal;
+  return point_at(data, p).normal;
 }
 
 Eigen::Vector2d refine(const FitData& data, const Eigen::Vector2d& start) {
-  constexpr int kRounds = 40;
   constexpr double kTolerance = 1e-7;  // [m]
-  Eigen::Vector2d p = start;
-  double damping = 1e-4;
-  Step here = step_at(data, p);
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix2d damped = here.normal;
-    // The small constant keeps a singular matrix (nothing to learn) solvable.
-    damped.diagonal().array() += damping * here.normal.trace() + 1e-12;
-    const Eigen::Vector2d move = damped.ldlt().solve(here.gradient);
-    if (!move.allFinite() || move.norm() < kTolerance) break;
-    const Step there = step_at(data, p + move);
-    if (there.sum_of_squares < here.sum_of_squares) {
-      p += move;
-      here = there;
-      damping = std::max(damping * 0.1, 1e-12);
-    } else {
-      damping *= 8.0;
-    }
-  }
-  return p;
+  constexpr double kRidge = 1e-12;
+  constexpr LevenbergMarquardt kHow{
+      .most_steps = 40, .damping = 1e-4, .least_damping = 1e-12, .raise = 8.0};
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    const Eigen::Vector2d move = evenly_damped_step(here.normal, here.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+    return point_at(data, here.p + move);
+  };
+  return descend(point_at(data, start), kHow, step).p;
 }
 
 std::size_t correct_slips(FitData& data, const Eigen::Vector2d& p) {

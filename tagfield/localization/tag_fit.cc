@@ -1,9 +1,10 @@
 #include "tagfield/localization/tag_fit.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 namespace {
@@ -18,21 +19,17 @@ double span_offset(const TagPhases& phases, const HeightModel& height, const Pla
                    const Span& span) {
   if (span.offset_known) return 0.0;
   double sum = 0.0;
-  double sine = 0.0;
-  double cosine = 0.0;
+  CircularMean mean;
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
     const double r = range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
     const double error = phases.value[i] - r;
     if (phases.cycle[i] > 0.0) {
-      sine += std::sin(error * phases.wavenumber[i]);
-      cosine += std::cos(error * phases.wavenumber[i]);
+      mean.add(error * phases.wavenumber[i]);
     } else {
       sum += error;
     }
   }
-  if (phases.cycle[span.begin] > 0.0) {
-    return std::atan2(sine, cosine) / phases.wavenumber[span.begin];
-  }
+  if (phases.cycle[span.begin] > 0.0) return mean.value() / phases.wavenumber[span.begin];
   return sum / static_cast<double>(span.count);
 }
 
@@ -43,6 +40,13 @@ struct Step {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::VectorXd offset_shift;   ///< By span: the mean error there [m],
   Eigen::MatrixXd mean_gradient;  ///< and the mean gradient, a row a span.
+  double cost = 0.0;
+};
+
+/// A fit under way.
+struct Point {
+  TagFit fit;
+  Step step;
   double cost = 0.0;
 };
 
@@ -90,6 +94,11 @@ Step step_at(const TagPhases& phases, const HeightModel& height, const TagFit& f
   return step;
 }
 
+void linearize(const TagPhases& phases, const HeightModel& height, Point& point) {
+  point.step = step_at(phases, height, point.fit);
+  point.cost = point.step.cost;
+}
+
 TagFit moved(const TagFit& fit, const Step& step, const PlaceVector& move) {
   TagFit next;
   next.unknowns = fit.unknowns + move;
@@ -122,32 +131,24 @@ Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, 
 }
 
 TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVector& start) {
-  constexpr int kRounds = 30;
   constexpr double kTolerance = 1e-6;  // [m]
-  TagFit fit;
-  fit.unknowns = start;
-  fit.offsets = offsets_at(phases, height, start);
-  Step here = step_at(phases, height, fit);
-  double damping = 1e-6;
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d damped = here.normal;
-    // The small constant keeps a singular matrix (nothing to learn) solvable.
-    damped.diagonal().array() += damping * here.normal.diagonal().array() + 1e-9;
-    const PlaceVector move = damped.ldlt().solve(here.gradient);
-    if (!move.allFinite() || move.norm() < kTolerance) break;
-    TagFit next = moved(fit, here, move);
-    const Step there = step_at(phases, height, next);
-    if (there.cost < here.cost) {
-      fit = std::move(next);
-      here = there;
-      damping = std::max(damping * 0.1, 1e-9);
-    } else {
-      damping = std::max(damping * 10.0, 1e-3);
-    }
-  }
-  fit.offsets += here.offset_shift;
-  fit.cost = here.cost;
-  return fit;
+  constexpr double kRidge = 1e-9;
+  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-6, .least_raised = 1e-3};
+  Point point;
+  point.fit.unknowns = start;
+  point.fit.offsets = offsets_at(phases, height, start);
+  linearize(phases, height, point);
+  point = descend(point, kHow, [&](const Point& here, double damping) -> std::optional<Point> {
+    const PlaceVector move = damped_step(here.step.normal, here.step.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+    Point there;
+    there.fit = moved(here.fit, here.step, move);
+    linearize(phases, height, there);
+    return there;
+  });
+  point.fit.offsets += point.step.offset_shift;
+  point.fit.cost = point.cost;
+  return point.fit;
 }
 
 Eigen::Matrix3d normal_of(const TagPhases& phases, const HeightModel& height,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/rssi_samples.h"
@@ -145,29 +146,33 @@ struct Fit {
   double cost = 0.0;
 };
 
-/// Gauss-Newton with Levenberg's damping, in the plane of the tag.
-Fit refined(const Bins& bins, const Law& law, Eigen::Vector3d p_WT) {
-  constexpr int kRounds = 30;
-  double damping = 1e-3;
-  Misfit here = misfit_at(bins, law, p_WT);
-  for (int round = 0; round < kRounds; ++round) {
-    const Step step = step_at(bins, law, p_WT, here.residuals);
-    Eigen::Matrix2d damped = step.normal;
-    damped.diagonal().array() += damping * step.normal.trace() + 1e-9;
-    Eigen::Vector2d move = damped.inverse() * step.gradient;
-    if (!move.allFinite() || move.norm() < 1e-5) break;
-    if (move.norm() > 1.0) move.normalize();
-    const Eigen::Vector3d to = p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0);
-    Misfit there = misfit_at(bins, law, to);
-    if (there.cost < here.cost) {
-      p_WT = to;
-      here = std::move(there);
-      damping = std::max(0.1 * damping, 1e-9);
-    } else {
-      damping *= 8.0;
-    }
-  }
-  return {p_WT, here.cost};
+/// A fit under way.
+struct Point {
+  Eigen::Vector3d p_WT;
+  Eigen::ArrayXd residuals;
+  double cost = 0.0;
+};
+
+Point point_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
+  Misfit misfit = misfit_at(bins, law, p_WT);
+  return {p_WT, std::move(misfit.residuals), misfit.cost};
+}
+
+/// In the plane of the tag.
+Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
+  constexpr double kTolerance = 1e-5;  // [m]
+  constexpr double kRidge = 1e-9;
+  constexpr double kLongestStep = 1.0;  // [m]
+  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-3, .raise = 8.0};
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    const Step at = step_at(bins, law, here.p_WT, here.residuals);
+    Eigen::Vector2d move = evenly_damped_step(at.normal, at.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+    if (move.norm() > kLongestStep) move.normalize();
+    return point_at(bins, law, here.p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0));
+  };
+  const Point best = descend(point_at(bins, law, start), kHow, step);
+  return {best.p_WT, best.cost};
 }
 
 std::vector<Fit> distinct(std::vector<Fit> fits, double apart, std::size_t count) {

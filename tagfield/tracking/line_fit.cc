@@ -6,12 +6,12 @@
 #include <map>
 #include <utility>
 
-#include "tagfield/localization/circular_fit.h"
+#include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 namespace {
 
-constexpr int kMostSteps = 30;
 constexpr double kNearest = 1e-3;     ///< Distances below are taken for this [m].
 constexpr double kLeastNoise = 0.02;  ///< [rad]
 /// What is known of any motion at all, so that normal matrices have an inverse [m, m/s].
@@ -59,6 +59,19 @@ Normal normal_at(const FitInput& input, const StraightMotion& motion) {
   normal.right += input.prior.rows.transpose() * residual;
   normal.cost += 0.5 * residual.squaredNorm();
   return normal;
+}
+
+/// A fit under way.
+struct Point {
+  StraightMotion motion;
+  Normal normal;
+  double cost = 0.0;
+};
+
+Point point_at(const FitInput& input, const StraightMotion& motion) {
+  Point point{motion, normal_at(input, motion), 0.0};
+  point.cost = point.normal.cost;
+  return point;
 }
 
 StraightMotion moved(const StraightMotion& motion, const Vector6d& step) {
@@ -111,26 +124,16 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
                  const MotionPrior& prior, double noise_rad, bool fix_known,
                  const StraightMotion& start) {
   const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
+  constexpr LevenbergMarquardt kHow{
+      .most_steps = 30, .most_damping = 1e6, .least_relative_gain = 1e-6};
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    const Vector6d change = damped_step(here.normal.matrix, here.normal.right, damping);
+    return point_at(input, moved(here.motion, change));
+  };
+  const Point best = descend(point_at(input, start), kHow, step);
+  const Normal& normal = best.normal;
   LineFit fit;
-  fit.motion = start;
-  Normal normal = normal_at(input, fit.motion);
-  double damping = 1e-3;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
-    Matrix6d damped = normal.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector6d change = damped.ldlt().solve(normal.right);
-    const StraightMotion next = moved(fit.motion, change);
-    Normal there = normal_at(input, next);
-    if (!std::isfinite(there.cost) || there.cost > normal.cost) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = normal.cost - there.cost;
-    fit.motion = next;
-    normal = std::move(there);
-    damping = std::max(damping * 0.1, 1e-9);
-    if (gain < 1e-6 * std::max(1.0, normal.cost)) break;
-  }
+  fit.motion = best.motion;
   const auto count = static_cast<double>(std::max<std::size_t>(pass.reads.size(), 1));
   const auto free = static_cast<double>(apertures.size() + 4);
   const auto errors = Eigen::Map<const Eigen::ArrayXd>(

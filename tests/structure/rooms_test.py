@@ -14,7 +14,7 @@ import tempfile
 
 # docs/architecture.md: a room includes only itself and rooms above it.
 ROOMS = ["base", "poses", "motion", "world", "sdf", "map", "laser", "link", "propagation", "channel",
-         "gen2", "reader", "stream", "localization", "tracking", "calibration", "report"]
+         "gen2", "reader", "stream", "fit", "localization", "tracking", "calibration", "report"]
 # What a room must not include although it stands above.
 FORBIDDEN = {"localization": {"world", "sdf", "report"}, "tracking": {"world", "sdf"},
              "calibration": {"world", "sdf", "tracking"}}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
 
 namespace tagfield {
 
@@ -30,13 +31,9 @@ struct CircularNormal {
 
 template <int N>
 double circular_mean(const std::vector<CircularRow<N>>& rows) {
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (const CircularRow<N>& row : rows) {
-    cosine += std::cos(row.angle);
-    sine += std::sin(row.angle);
-  }
-  return std::atan2(sine, cosine);
+  CircularMean mean;
+  for (const CircularRow<N>& row : rows) mean.add(row.angle);
+  return mean.value();
 }
 
 /// Adds angles that share one offset, which is eliminated at their circular mean; or is 0, unless
