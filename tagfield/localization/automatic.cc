@@ -8,8 +8,8 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
-#include "tagfield/localization/least_squares.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
 
 namespace tagfield {
 namespace {

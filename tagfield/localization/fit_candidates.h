@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tagfield/localization/segment_fit.h"
+#include "tagfield/localization/phase_curves/segment_fit.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/localization/tag_fit.h"
 

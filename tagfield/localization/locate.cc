@@ -6,9 +6,9 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/localization/automatic.h"
-#include "tagfield/localization/joint.h"
-#include "tagfield/localization/least_squares.h"
-#include "tagfield/localization/maximum_likelihood.h"
+#include "tagfield/localization/joint/joint.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/phase_curves/maximum_likelihood.h"
 
 namespace tagfield {
 

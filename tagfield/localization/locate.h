@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/localization/dah.h"
-#include "tagfield/localization/hyperbola.h"
-#include "tagfield/localization/landmarc.h"
+#include "tagfield/localization/holograms/dah.h"
+#include "tagfield/localization/holograms/particle.h"
+#include "tagfield/localization/holograms/sar.h"
 #include "tagfield/localization/method.h"
-#include "tagfield/localization/particle.h"
+#include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/sar.h"
-#include "tagfield/localization/trilateration.h"
+#include "tagfield/localization/signal_strength/landmarc.h"
+#include "tagfield/localization/signal_strength/trilateration.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/tag_read.h"
 

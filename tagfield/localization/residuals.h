@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "tagfield/localization/segment_fit.h"
+#include "tagfield/localization/phase_curves/segment_fit.h"
 
 namespace tagfield {
 

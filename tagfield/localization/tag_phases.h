@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/localization/phase_curves/unwrap.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/unwrap.h"
 
 namespace tagfield {
 

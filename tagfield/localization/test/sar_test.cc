@@ -1,4 +1,4 @@
-#include "tagfield/localization/sar.h"
+#include "tagfield/localization/holograms/sar.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

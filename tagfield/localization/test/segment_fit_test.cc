@@ -1,4 +1,4 @@
-#include "tagfield/localization/segment_fit.h"
+#include "tagfield/localization/phase_curves/segment_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tagfield/localization/unwrap.h"
+#include "tagfield/localization/phase_curves/unwrap.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

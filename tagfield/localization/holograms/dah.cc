@@ -1,0 +1,165 @@
+#include "tagfield/localization/holograms/dah.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/unwrap.h"
+
+namespace tagfield {
+namespace {
+
+/// Phase error that the grid's spacing adds [rad]: a tag is seldom where a cell has its middle.
+constexpr double kGridNoise = 0.35;
+constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which on there are several references.
+constexpr Eigen::Index kReferences = 4;
+/// The reference's own noise and the weights make errors so many times as large as they must be, as
+/// was found by trying.
+constexpr double kErrorFactor = 2.6;
+constexpr std::size_t kFinished = 6;     ///< So many of the brightest places are finished.
+constexpr double kFirstSpacing = 0.012;  ///< Of the tile that looks for the summit [m].
+constexpr double kLastSpacing = 1e-4;    ///< [m]
+
+/// erfc(x), x ≥ 0, to 5·10⁻⁴ (Abramowitz and Stegun, 7.1.27).
+Tile complementary_error(const Tile& x) {
+  const Tile root = 1.0f + x * (0.278393f + x * (0.230389f + x * (0.000972f + x * 0.078108f)));
+  return root.square().square().inverse();
+}
+
+Tile against(const SearchReads& reads, const Aperture& aperture, const SearchRead& reference,
+             float turns_scale, const Tile& x, const Tile& y) {
+  const Tile of_reference = residual_turns(reference, x, y);
+  Tile in_phase = Tile::Zero();
+  Tile quadrature = Tile::Zero();
+  Tile cosine;
+  Tile sine;
+  for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
+    const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
+    const Tile turns = wrapped_turns(residual_turns(read, x, y) - of_reference);
+    const Tile weight = complementary_error(turns.abs() * turns_scale);
+    wave_of(turns, cosine, sine);
+    in_phase += weight * cosine;
+    quadrature += weight * sine;
+  }
+  return (in_phase.square() + quadrature.square()).sqrt();
+}
+
+/// Square array of places about `p`, `spacing` apart.
+void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
+  constexpr int kSide = 8;
+  static_assert(kSide * kSide == kTile);
+  for (int i = 0; i < kTile; ++i) {
+    // One of the places is `p` itself.
+    const int column = i % kSide - kSide / 2;
+    const int row = i / kSide - kSide / 2;
+    x[i] = static_cast<float>(p.x() + spacing * column);
+    y[i] = static_cast<float>(p.y() + spacing * row);
+  }
+}
+
+/// The summit near `p`, relative to the reads' middle.
+Eigen::Vector2d summit(const SearchReads& reads, double noise_rad, Eigen::Vector2d p) {
+  constexpr int kMostMoves = 30;
+  Tile x;
+  Tile y;
+  double spacing = kFirstSpacing;
+  for (int move = 0; move < kMostMoves && spacing > kLastSpacing; ++move) {
+    lay_tile(p, spacing, x, y);
+    Eigen::Index best = 0;
+    differential_brightness(reads, noise_rad, x, y).maxCoeff(&best);
+    const Eigen::Vector2d there(static_cast<double>(x[best]), static_cast<double>(y[best]));
+    if ((there - p).cwiseAbs().maxCoeff() < 2.5 * spacing) spacing /= 4.0;
+    p = there;
+  }
+  return p;
+}
+
+/// The places on their summits, at the heights that they have.
+std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& height,
+                                  std::vector<PlaceVector> places, double noise_rad) {
+  if (places.size() > kFinished) places.resize(kFinished);
+  for (PlaceVector& place : places) {
+    const Eigen::Vector2d middle = middle_of(phases);
+    const SearchReads reads =
+        search_reads(phases, kWholeAperture, to_place(height, place).z(), middle);
+    place.head<2>() = middle + summit(reads, noise_rad, place.head<2>() - middle);
+  }
+  return places;
+}
+
+/// Largest phase noise of any antenna [rad], as the reads show it.
+double noise_of(const SamplesOfTag& samples, double least) {
+  double noise = least;
+  for (const auto& [antenna, series] : samples) noise = std::max(noise, phase_noise(series));
+  return noise;
+}
+
+TagEstimate locate_by_differences(const LocalizationProblem& problem, const std::string& tag,
+                                  const SamplesOfTag& samples, const DahOptions& options) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reads = count_reads(samples);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
+  TagPhases phases = coherent_reads(problem, samples);
+  // Differences have lost the offset.
+  for (TagPhases::Span& span : phases.spans) span.offset_known = false;
+  estimate.reads = static_cast<std::size_t>(phases.size());
+  const std::string why_too_few = too_few(phases);
+  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
+  const HeightModel height = height_model(problem, tag, phases);
+  const double noise = noise_of(samples, options.least_noise_rad);
+  const double grid_noise = std::hypot(noise, kGridNoise);
+  const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
+    return differential_brightness(reads, grid_noise, x, y);
+  };
+  const std::vector<PlaceVector> places =
+      finished(phases, height, search_places(phases, height, options.search, brightness), noise);
+  CoherentJudgement judgement;
+  judgement.min_share = options.min_share;
+  judgement.error_factor = kErrorFactor;
+  judgement.climb = false;
+  judgement.at_maxima = false;
+  return judge_places(phases, height, places, judgement, problem.limits, std::move(estimate));
+}
+
+}  // namespace
+
+Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
+                             const Tile& y) {
+  const auto turns_scale = static_cast<float>(kTwoPi / (2.0 * noise_rad));
+  Tile light = Tile::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    const Eigen::Index references = aperture.count >= kLongAperture ? kReferences : 1;
+    for (Eigen::Index k = 0; k < references; ++k) {
+      const Eigen::Index at = aperture.begin + (2 * k + 1) * aperture.count / (2 * references);
+      light +=
+          against(reads, aperture, reads.reads[static_cast<std::size_t>(at)], turns_scale, x, y) /
+          static_cast<float>(references);
+    }
+  }
+  return light;
+}
+
+Method dah_method(const DahOptions& options) {
+  check(options.search);
+  if (!(options.least_noise_rad > 0.0 && std::isfinite(options.least_noise_rad))) {
+    throw Error("least_noise_rad must be finite and over 0");
+  }
+  check_share(options.min_share);
+  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
+    LocalizationResult result;
+    result.method = "dah";
+    result.estimates =
+        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+          return locate_by_differences(problem, tag, samples, options);
+        });
+    return result;
+  };
+  return {"dah", "differential augmented hologram: phase differences, weighted by probability",
+          locate};
+}
+
+}  // namespace tagfield

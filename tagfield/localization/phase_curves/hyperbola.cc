@@ -1,0 +1,115 @@
+#include "tagfield/localization/phase_curves/hyperbola.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+#include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/place_search.h"
+#include "tagfield/localization/phase_curves/unwrap.h"
+#include "tagfield/localization/residuals.h"
+
+namespace tagfield {
+namespace {
+
+void require_positive(double value, const char* name) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
+}
+
+void check(const HyperbolaOptions& options, double tag_height) {
+  require_positive(options.stride_m, "stride_m");
+  require_positive(options.max_step, "max_step");
+  if (options.max_step > 1.0) throw Error("max_step must be at most 1");
+  if (options.max_hyperbolae < 2) throw Error("max_hyperbolae must be at least 2");
+  if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
+}
+
+/// Of the minima those that can't be told from the first.
+std::vector<Eigen::Vector2d> indistinct(const FitData& data,
+                                        const std::vector<Eigen::Vector2d>& minima) {
+  const Eigen::ArrayXd best = residuals(data, minima.front());
+  std::vector<Eigen::Vector2d> kept{minima.front()};
+  for (std::size_t i = 1; i < minima.size(); ++i) {
+    if (!tells_apart(data, best, residuals(data, minima[i]))) kept.push_back(minima[i]);
+  }
+  return kept;
+}
+
+/// The best intersection around each minimum, for those who want the method without its last step.
+std::vector<Eigen::Vector2d> unrefined(const FitData& data, const std::vector<Guess>& ranked,
+                                       const std::vector<Eigen::Vector2d>& minima) {
+  std::vector<Eigen::Vector2d> places;
+  const std::vector<Eigen::Vector2d> best = best_distinct(ranked, 60, 0.0);
+  const std::vector<Guess> guesses = rank(data, best);
+  for (const Eigen::Vector2d& minimum : minima) {
+    const auto nearest = [&](const Guess& guess) {
+      return std::none_of(minima.begin(), minima.end(), [&](const Eigen::Vector2d& other) {
+        return (guess.p - other).norm() < (guess.p - minimum).norm();
+      });
+    };
+    const auto found = std::find_if(guesses.begin(), guesses.end(), nearest);
+    places.push_back(found == guesses.end() ? minimum : found->p);
+  }
+  return places;
+}
+
+Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double height) {
+  const HeightModel known{HeightModel::Kind::kKnown, height, 1.0};
+  TagFit fit;
+  fit.unknowns = {p.x(), p.y(), 0.0};
+  fit.offsets = offsets_at(phases, known, fit.unknowns);
+  return make_candidate(phases, known, fit);
+}
+
+}  // namespace
+
+TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
+                                 double tag_height, const HyperbolaOptions& options,
+                                 const EstimateLimits& limits,
+                                 const std::optional<PoseErrorModel>& pose_error) {
+  check(options, tag_height);
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reads = count_reads(samples);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
+  PlaceSearch search = begin_search(samples, tag_height, [&](const std::vector<PhaseSample>& of) {
+    return unwrap(of, options.max_step);
+  });
+  estimate.reads = static_cast<std::size_t>(search.data.distance.size());
+  const std::string too_few = why_too_few(search);
+  if (!too_few.empty()) return not_located(std::move(estimate), too_few);
+  search_places(search, tag_height, options.stride_m, options.max_hyperbolae);
+  if (search.minima.empty()) return not_located(std::move(estimate), "no two hyperbolae meet");
+  std::vector<Eigen::Vector2d> places = indistinct(search.data, search.minima);
+  if (!options.refine) places = unrefined(search.data, search.ranked, places);
+  TagPhases phases = unwrapped_phases({}, search.segments, search.antennas);
+  phases.value = search.data.distance;  // Slips were put right there.
+  if (pose_error && pose_error->sigma_m > 0.0) phases.pose_error = pose_error;
+  for (const Eigen::Vector2d& p : places) {
+    estimate.candidates.push_back(candidate_at(phases, p, tag_height));
+  }
+  judge(limits, estimate);
+  return estimate;
+}
+
+Method hyperbola_method(const HyperbolaOptions& options) {
+  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
+    LocalizationResult result;
+    result.method = "hyperbola";
+    result.estimates =
+        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+          return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), options,
+                                      problem.limits, problem.pose_error);
+        });
+    return result;
+  };
+  return {"hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
+          locate};
+}
+
+}  // namespace tagfield

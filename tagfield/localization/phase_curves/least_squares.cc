@@ -1,0 +1,92 @@
+#include "tagfield/localization/phase_curves/least_squares.h"
+
+#include <algorithm>
+
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/phase_following.h"
+#include "tagfield/localization/phase_curves/place_search.h"
+
+namespace tagfield {
+namespace {
+
+/// Hyperbolae to start from: fewer than the paper's method needs, as the fit does the rest.
+constexpr double kStride = 0.5;  // [m]
+constexpr std::size_t kMostHyperbolae = 20;
+/// A tag of unknown height is sought in a plane so far from the antennas' [m].
+constexpr double kLikelyOffset = 0.4;
+
+double search_height(const LocalizationProblem& problem, const std::string& tag) {
+  const auto side = side_to_estimate(problem, tag);
+  if (!side) return plane_height(problem, tag);
+  return plane_height(problem, tag) +
+         (*side == HeightSide::kAbove ? kLikelyOffset : -kLikelyOffset);
+}
+
+std::vector<std::string> distinct(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
+                   const SamplesOfTag& samples) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reads = count_reads(samples);
+  UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
+  if (!fit.why_not.empty()) return not_located(std::move(estimate), fit.why_not);
+  estimate.reads = static_cast<std::size_t>(fit.phases.size());
+  estimate.candidates = make_candidates(fit.phases, fit.height, std::move(fit.fits));
+  judge(problem.limits, estimate);
+  return estimate;
+}
+
+}  // namespace
+
+UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string& tag,
+                           const SamplesOfTag& samples) {
+  UnwrappedFit result;
+  result.why_not = why_hopeless(samples);
+  if (!result.why_not.empty()) return result;
+  const double height = search_height(problem, tag);
+  PlaceSearch search = begin_search(samples, height, [](const std::vector<PhaseSample>& of) {
+    return follow(of, phase_noise(of));
+  });
+  result.reads_followed = static_cast<std::size_t>(search.data.distance.size());
+  result.stretches = search.segments.size();
+  result.why_not = why_too_few(search);
+  if (!result.why_not.empty()) return result;
+  search_places(search, height, kStride, kMostHyperbolae);
+  if (search.minima.empty()) {
+    result.why_not = "no place explains the phase";
+    return result;
+  }
+  result.phases = unwrapped_phases(problem, search.segments, search.antennas);
+  // Slips were put right in the search's copy.
+  result.phases.value = search.data.distance;
+  result.height = height_model(problem, tag, result.phases);
+  for (const Eigen::Vector2d& place : search.minima) {
+    const PlaceVector start = to_unknowns(result.height, {place.x(), place.y(), height});
+    result.fits.push_back(fit_tag(result.phases, result.height, start));
+  }
+  std::stable_sort(result.fits.begin(), result.fits.end(),
+                   [](const TagFit& a, const TagFit& b) { return a.cost < b.cost; });
+  result.antennas = distinct(search.antennas);
+  return result;
+}
+
+Method least_squares_method() {
+  const auto locate_all = [](const LocalizationProblem& problem, int threads, Diagnostics&) {
+    LocalizationResult result;
+    result.method = "least_squares";
+    result.estimates =
+        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+          return locate(problem, tag, samples);
+        });
+    return result;
+  };
+  return {"least_squares", "least squares on unwrapped phase, an offset for each stretch",
+          locate_all};
+}
+
+}  // namespace tagfield
