@@ -15,6 +15,10 @@ namespace tagfield {
 /// Fewer reads of a tag than this locate nothing.
 inline constexpr std::size_t kFewestReads = 8;
 
+/// Reads beyond one for each unknown; a fit to fewer follows the noise and seems better than it is,
+/// and fewer fit many places by chance.
+inline constexpr std::size_t kFewestSpare = 16;
+
 /// An antenna that moved less than this [m] stood still.
 inline constexpr double kStillExtent = 0.1;
 

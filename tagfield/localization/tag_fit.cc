@@ -11,10 +11,6 @@ namespace {
 
 using Span = TagPhases::Span;
 
-double nearest_to_zero(double error, double cycle) {
-  return cycle > 0.0 ? error - cycle * std::round(error / cycle) : error;
-}
-
 double span_offset(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
                    const Span& span) {
   if (span.offset_known) return 0.0;
@@ -23,14 +19,14 @@ double span_offset(const TagPhases& phases, const HeightModel& height, const Pla
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
     const double r = range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
     const double error = phases.value[i] - r;
-    if (phases.cycle[i] > 0.0) {
-      mean.add(error * phases.wavenumber[i]);
-    } else {
+    if (phases.unwrapped) {
       sum += error;
+    } else {
+      mean.add(error * phases.wavenumber[i]);
     }
   }
-  if (phases.cycle[span.begin] > 0.0) return mean.value() / phases.wavenumber[span.begin];
-  return sum / static_cast<double>(span.count);
+  return phases.unwrapped ? sum / static_cast<double>(span.count)
+                          : mean.value() / phases.wavenumber[span.begin];
 }
 
 /// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
@@ -62,7 +58,7 @@ void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& 
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
     const Range range = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]);
     const double error =
-        nearest_to_zero(phases.value[i] - range.r - fit.offsets[row], phases.cycle[i]);
+        nearest_to_zero(phases, span, phases.value[i] - range.r - fit.offsets[row]);
     squares.noalias() += range.gradient * range.gradient.transpose();
     products += range.gradient * error;
     gradients += range.gradient;
@@ -123,8 +119,8 @@ Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, 
     const Span& span = phases.spans[s];
     for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
       const double r = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
-      errors[i] = nearest_to_zero(phases.value[i] - r - fit.offsets[static_cast<Eigen::Index>(s)],
-                                  phases.cycle[i]);
+      errors[i] = nearest_to_zero(phases, span,
+                                  phases.value[i] - r - fit.offsets[static_cast<Eigen::Index>(s)]);
     }
   }
   return errors;

@@ -102,8 +102,8 @@ TagFit fit_at(const TagPhases& phases, const HeightModel& height, const PlaceVec
 
 /// Residuals as they run on from read to read over each stretch, less its mean: at a wrong place
 /// they run away, which wrapped ones hide.
-Eigen::ArrayXd followed(const std::vector<FitData::Span>& stretches, Eigen::ArrayXd residuals) {
-  for (const FitData::Span& span : stretches) {
+Eigen::ArrayXd followed(const Spans& stretches, Eigen::ArrayXd residuals) {
+  for (const TagPhases::Span& span : stretches) {
     auto stretch = residuals.segment(span.begin, span.count);
     for (Eigen::Index i = 1; i < span.count; ++i) {
       stretch[i] -= span.cycle_m * std::round((stretch[i] - stretch[i - 1]) / span.cycle_m);
@@ -114,16 +114,15 @@ Eigen::ArrayXd followed(const std::vector<FitData::Span>& stretches, Eigen::Arra
 }
 
 /// Where no step is too long for the phase to be followed.
-std::vector<FitData::Span> stretches_of(const TagPhases& phases) {
+Spans stretches_of(const TagPhases& phases) {
   constexpr double kLongestStep = 0.4;  // of λ/2, which turns the phase by a whole turn
-  std::vector<FitData::Span> stretches;
+  Spans stretches;
   for (const TagPhases::Span& span : phases.spans) {
-    const double cycle = phases.cycle[span.begin];
     for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
       const bool follows =
           i > span.begin && std::hypot(phases.x[i] - phases.x[i - 1], phases.y[i] - phases.y[i - 1],
-                                       phases.z[i] - phases.z[i - 1]) < kLongestStep * cycle;
-      if (!follows) stretches.push_back({i, 0, cycle});
+                                       phases.z[i] - phases.z[i - 1]) < kLongestStep * span.cycle_m;
+      if (!follows) stretches.push_back({i, 0, span.antenna, span.offset_known, span.cycle_m});
       ++stretches.back().count;
     }
   }
@@ -131,13 +130,10 @@ std::vector<FitData::Span> stretches_of(const TagPhases& phases) {
 }
 
 /// Whether wrapped residuals or followed ones tell that `other` is a worse place than `best`.
-bool is_worse(const TagPhases& phases, const FitData& layout, const Eigen::ArrayXd& best,
-              const Eigen::ArrayXd& other) {
-  if (tells_apart(layout, best, other)) return true;
-  FitData followable = layout;
-  followable.spans = stretches_of(phases);
-  return tells_apart(followable, followed(followable.spans, best),
-                     followed(followable.spans, other));
+bool is_worse(const TagPhases& phases, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {
+  if (tells_apart(phases.spans, best, other)) return true;
+  const Spans stretches = stretches_of(phases);
+  return tells_apart(stretches, followed(stretches, best), followed(stretches, other));
 }
 
 struct Maximum {
@@ -165,11 +161,12 @@ std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height
   return kept;
 }
 
-std::vector<PlaceVector> mirror_images(const FitData& layout, const std::vector<Maximum>& maxima) {
+std::vector<PlaceVector> mirror_images(const TagPhases& phases,
+                                       const std::vector<Maximum>& maxima) {
   std::vector<PlaceVector> images;
   for (std::size_t i = 0; i < std::min(maxima.size(), kMirrored); ++i) {
     PlaceVector image = maxima[i].place;
-    image.head<2>() = mirror_image(layout, image.head<2>());
+    image.head<2>() = mirror_image(phases, image.head<2>());
     images.push_back(image);
   }
   return images;
@@ -189,14 +186,13 @@ std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& he
 
 /// The maxima near the places and near the mirror images of the best.
 std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& height,
-                                 const FitData& layout, const std::vector<PlaceVector>& places,
-                                 bool go_up) {
+                                 const std::vector<PlaceVector>& places, bool go_up) {
   std::vector<Maximum> starts = distinct(phases, height, places);
   if (starts.empty()) return starts;
   const double least = kWorthWhile * starts.front().coherence;
   std::vector<PlaceVector> tops = finished(phases, height, places, least, go_up);
   const std::vector<PlaceVector> images =
-      finished(phases, height, mirror_images(layout, distinct(phases, height, tops)), least, go_up);
+      finished(phases, height, mirror_images(phases, distinct(phases, height, tops)), least, go_up);
   tops.insert(tops.end(), images.begin(), images.end());
   return distinct(phases, height, tops);
 }
@@ -217,12 +213,12 @@ struct Unlikelihood {
   double of(const Maximum& maximum) const { return per_wave * (best - maximum.coherence); }
 };
 
-Unlikelihood unlikelihood(const FitData& layout, const Maximum& best,
+Unlikelihood unlikelihood(const TagPhases& phases, const Maximum& best,
                           const Eigen::ArrayXd& residuals) {
   const double share =
       best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
-  return {best.coherence,
-          concentration_of(std::clamp(share, 0.0, 0.99)) / correlation_factor(layout, residuals)};
+  return {best.coherence, concentration_of(std::clamp(share, 0.0, 0.99)) /
+                              correlation_factor(phases.spans, residuals)};
 }
 
 Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
@@ -237,7 +233,7 @@ struct Rivals {
 };
 
 /// `unlikely` is null where phases are not bent: then residuals alone judge.
-Rivals rivals_of(const TagPhases& phases, const FitData& layout, const HeightModel& height,
+Rivals rivals_of(const TagPhases& phases, const HeightModel& height,
                  const std::vector<Maximum>& maxima, const Unlikelihood* unlikely) {
   const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
   const Eigen::Vector3d p_WT = to_place(height, maxima.front().place);
@@ -245,7 +241,7 @@ Rivals rivals_of(const TagPhases& phases, const FitData& layout, const HeightMod
   for (std::size_t i = 1; i < maxima.size(); ++i) {
     const Maximum& maximum = maxima[i];
     if (unlikely != nullptr && unlikely->of(maximum) > kUnlikely) continue;
-    if (is_worse(phases, layout, best, residuals_at(phases, height, maximum))) continue;
+    if (is_worse(phases, best, residuals_at(phases, height, maximum))) continue;
     const bool near = (to_place(height, maximum.place) - p_WT).norm() < kNear;
     (unlikely != nullptr && near ? rivals.lobes : rivals.others).push_back(maximum);
   }
@@ -278,19 +274,19 @@ Candidate scaled(Candidate candidate, double factor) {
 /// How much greater errors are than residuals tell: slow ones, which no told pose error explains,
 /// are taken for distance in part. Those of reflections, correlated over a metre or two of the way,
 /// were twice as great (docs/methods.md); white noise has no such part.
-double fitted_away(const TagPhases& phases, const FitData& layout, const Eigen::ArrayXd& errors) {
+double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
   constexpr double kSlow = 3.0;  // Reads that are worth one; from there on errors are slow.
   if (phases.pose_error) return 1.0;
-  return 1.0 + std::min(1.0, (correlation_factor(layout, errors) - 1.0) / (kSlow - 1.0));
+  return 1.0 + std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlow - 1.0));
 }
 
 /// Where phases are bent, residuals may tell of more than the told pose error does.
-Candidate careful_candidate(const TagPhases& phases, const FitData& layout,
-                            const HeightModel& height, const PlaceVector& place, bool bent) {
+Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
+                            const PlaceVector& place, bool bent) {
   Candidate honest = candidate_at(phases, height, place);
   if (!bent) return honest;
   const TagFit fit = fit_at(phases, height, place);
-  const double factor = fitted_away(phases, layout, residuals_of(phases, height, fit));
+  const double factor = fitted_away(phases, residuals_of(phases, height, fit));
   const Candidate by_residuals = scaled(
       make_candidate(height, place, covariance_of(phases, height, fit), honest.rms_m), factor);
   return by_residuals.expected_error_m > honest.expected_error_m ? by_residuals : honest;
@@ -347,8 +343,7 @@ Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                          const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
                          const EstimateLimits& limits, TagEstimate estimate) {
-  const FitData layout = layout_of(phases);
-  const std::vector<Maximum> maxima = maxima_near(phases, height, layout, places, judgement.climb);
+  const std::vector<Maximum> maxima = maxima_near(phases, height, places, judgement.climb);
   if (maxima.empty()) {
     return not_located(std::move(estimate), "no place is in reach of most reads");
   }
@@ -362,11 +357,10 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                     100.0 * share, 100.0 * judgement.min_share));
   }
   const bool bent = judgement.at_maxima && share < kBentShare;
-  const Unlikelihood unlikely = unlikelihood(layout, maxima.front(), best);
-  const Rivals rivals = rivals_of(phases, layout, height, maxima, bent ? &unlikely : nullptr);
+  const Unlikelihood unlikely = unlikelihood(phases, maxima.front(), best);
+  const Rivals rivals = rivals_of(phases, height, maxima, bent ? &unlikely : nullptr);
   const auto candidate_of = [&](const Maximum& maximum) {
-    return scaled(careful_candidate(phases, layout, height, maximum.place, bent),
-                  judgement.error_factor);
+    return scaled(careful_candidate(phases, height, maximum.place, bent), judgement.error_factor);
   };
   estimate.candidates.push_back(candidate_of(maxima.front()));
   span_lobes(height, unlikely, rivals.lobes, estimate.candidates.front());

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/tag_estimate.h"
 

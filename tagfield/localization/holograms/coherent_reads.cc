@@ -10,9 +10,6 @@
 namespace tagfield {
 namespace {
 
-/// Reads beyond one for each unknown; fewer fit many places by chance.
-constexpr std::size_t kFewestSpare = 16;
-
 /// Travel between two reads [m].
 double travel(const TagPhases& phases, Eigen::Index from, Eigen::Index to) {
   return std::hypot(phases.x[to] - phases.x[from], phases.y[to] - phases.y[from],
@@ -67,22 +64,6 @@ std::vector<Aperture> apertures(const TagPhases& phases, double length) {
     }
   }
   return pieces;
-}
-
-FitData layout_of(const TagPhases& phases) {
-  FitData data;
-  data.x = phases.x;
-  data.y = phases.y;
-  data.height_squared = Eigen::ArrayXd::Zero(phases.size());
-  data.distance = Eigen::ArrayXd::Zero(phases.size());
-  for (const TagPhases::Span& span : phases.spans) {
-    data.spans.push_back({span.begin, span.count, phases.cycle[span.begin]});
-  }
-  return data;
-}
-
-double longest_wavelength(const TagPhases& phases) {
-  return phases.size() > 0 ? 2.0 * phases.cycle.maxCoeff() : 0.0;
 }
 
 }  // namespace tagfield

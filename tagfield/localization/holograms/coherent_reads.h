@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/localization/phase_curves/segment_fit.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_phases.h"
 
@@ -33,12 +32,5 @@ std::string too_few(const TagPhases& phases);
 /// Each span cut into stretches over which the antenna travelled at most `length` [m]. Stretches of
 /// a span have offsets of their own, so only a whole span keeps its known one.
 std::vector<Aperture> apertures(const TagPhases& phases, double length);
-
-/// The antennas' places and spans in the form that residuals.h and mirror_image() take; distances
-/// and heights are 0.
-FitData layout_of(const TagPhases& phases);
-
-/// Longest wavelength λ [m].
-double longest_wavelength(const TagPhases& phases);
 
 }  // namespace tagfield

@@ -6,7 +6,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/judgement.h"
-#include "tagfield/localization/phase_curves/unwrap.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {
@@ -89,13 +89,6 @@ std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& he
   return places;
 }
 
-/// Largest phase noise of any antenna [rad], as the reads show it.
-double noise_of(const SamplesOfTag& samples, double least) {
-  double noise = least;
-  for (const auto& [antenna, series] : samples) noise = std::max(noise, phase_noise(series));
-  return noise;
-}
-
 TagEstimate locate_by_differences(const LocalizationProblem& problem, const std::string& tag,
                                   const SamplesOfTag& samples, const DahOptions& options) {
   TagEstimate estimate;
@@ -110,7 +103,7 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
   const std::string why_too_few = too_few(phases);
   if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
   const HeightModel height = height_model(problem, tag, phases);
-  const double noise = noise_of(samples, options.least_noise_rad);
+  const double noise = largest_phase_noise(samples, options.least_noise_rad);
   const double grid_noise = std::hypot(noise, kGridNoise);
   const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
     return differential_brightness(reads, grid_noise, x, y);

@@ -135,7 +135,7 @@ std::vector<Eigen::Vector2d> places_of(const Cells& maxima, double size,
 
 /// The place near `start` where growing apertures lead the fit.
 PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, PlaceVector place) {
-  const double lambda = longest_wavelength(phases);
+  const double lambda = 2.0 * longest_cycle(phases);
   for (const double length : {3.0 * kFirstAperture * lambda, 9.0 * kFirstAperture * lambda}) {
     place = climb(phases, apertures(phases, length), height, place);
   }
@@ -175,29 +175,14 @@ TagPhases thinned(const TagPhases& phases, std::size_t count) {
   const auto stride = static_cast<Eigen::Index>((all + count - 1) / count);
   if (stride <= 1) return phases;
   std::vector<Eigen::Index> kept;
-  TagPhases thin;
-  for (const TagPhases::Span& span : phases.spans) {
-    TagPhases::Span kept_span = span;
-    kept_span.begin = static_cast<Eigen::Index>(kept.size());
+  std::vector<TagPhases::Span> spans = phases.spans;
+  for (TagPhases::Span& span : spans) {
+    const auto begin = static_cast<Eigen::Index>(kept.size());
     for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
-    kept_span.count = static_cast<Eigen::Index>(kept.size()) - kept_span.begin;
-    thin.spans.push_back(kept_span);
+    span.begin = begin;
+    span.count = static_cast<Eigen::Index>(kept.size()) - begin;
   }
-  const auto of_kept = [&](const Eigen::ArrayXd& column) {
-    Eigen::ArrayXd few(static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      few[static_cast<Eigen::Index>(k)] = column[kept[k]];
-    }
-    return few;
-  };
-  thin.x = of_kept(phases.x);
-  thin.y = of_kept(phases.y);
-  thin.z = of_kept(phases.z);
-  thin.value = of_kept(phases.value);
-  thin.cycle = of_kept(phases.cycle);
-  thin.wavenumber = of_kept(phases.wavenumber);
-  thin.time_s = of_kept(phases.time_s);
-  return thin;
+  return chosen(phases, kept, std::move(spans));
 }
 
 SearchReads search_reads(const TagPhases& phases, double length, double height,
@@ -205,17 +190,19 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
   SearchReads result;
   result.apertures = apertures(phases, length);
   result.reads.reserve(static_cast<std::size_t>(phases.size()));
-  for (Eigen::Index i = 0; i < phases.size(); ++i) {
-    const double up = height - phases.z[i];
-    const double turns = phases.value[i] / phases.cycle[i];
-    SearchRead read;
-    read.x = static_cast<float>(phases.x[i] - middle.x());
-    read.y = static_cast<float>(phases.y[i] - middle.y());
-    read.z = static_cast<float>(-up);
-    read.height_squared = static_cast<float>(up * up);
-    read.turns = static_cast<float>(turns - std::round(turns));
-    read.turns_per_metre = static_cast<float>(1.0 / phases.cycle[i]);
-    result.reads.push_back(read);
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      const double up = height - phases.z[i];
+      const double turns = phases.value[i] / span.cycle_m;
+      SearchRead read;
+      read.x = static_cast<float>(phases.x[i] - middle.x());
+      read.y = static_cast<float>(phases.y[i] - middle.y());
+      read.z = static_cast<float>(-up);
+      read.height_squared = static_cast<float>(up * up);
+      read.turns = static_cast<float>(turns - std::round(turns));
+      read.turns_per_metre = static_cast<float>(1.0 / span.cycle_m);
+      result.reads.push_back(read);
+    }
   }
   return result;
 }
@@ -247,7 +234,7 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
                                           const SearchOptions& options,
                                           const Brightness& brightness) {
   if (phases.size() == 0) return {};
-  const double lambda = longest_wavelength(phases);
+  const double lambda = 2.0 * longest_cycle(phases);
   const TagPhases coarse =
       thinned(phases, options.thorough ? (options.reads + 1) / 2 : options.reads);
   const Eigen::Vector2d middle = middle_of(phases);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 
 namespace tagfield {

@@ -9,7 +9,7 @@
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
 #include "tagfield/localization/judgement.h"
-#include "tagfield/localization/phase_curves/unwrap.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {
@@ -253,8 +253,7 @@ std::vector<PlaceVector> clusters_of(const Search& search, const Particles& part
 /// Variance of a phase [rad²]: its noise and, where it is known, what the pose error does to it.
 double phase_variance(const LocalizationProblem& problem, const SamplesOfTag& samples,
                       const TagPhases& phases, double least) {
-  double noise = least;
-  for (const auto& [antenna, series] : samples) noise = std::max(noise, phase_noise(series));
+  const double noise = largest_phase_noise(samples, least);
   const double pose = problem.pose_error ? problem.pose_error->sigma_m : 0.0;
   return noise * noise + std::pow(pose * phases.wavenumber.maxCoeff(), 2);
 }
@@ -263,7 +262,7 @@ Search prepare(TagPhases phases, const HeightModel& height) {
   Search search;
   search.middle = middle_of(phases);
   search.height = height;
-  const double lambda = longest_wavelength(phases);
+  const double lambda = 2.0 * longest_cycle(phases);
   const TagPhases coarse = thinned(phases, kCoarseReads);
   const auto add = [&](const TagPhases& reads, double length, double spread) {
     search.levels.push_back({search_reads(reads, length, height.z, search.middle), spread});

@@ -29,22 +29,25 @@ void check(const HyperbolaOptions& options, double tag_height) {
 }
 
 /// Of the minima those that can't be told from the first.
-std::vector<Eigen::Vector2d> indistinct(const FitData& data,
-                                        const std::vector<Eigen::Vector2d>& minima) {
-  const Eigen::ArrayXd best = residuals(data, minima.front());
+std::vector<Eigen::Vector2d> indistinct(const PlaceSearch& search) {
+  const std::vector<Eigen::Vector2d>& minima = search.minima;
+  const auto residuals_at = [&](const Eigen::Vector2d& p) {
+    return residuals(search.phases, search.height, p);
+  };
+  const Eigen::ArrayXd best = residuals_at(minima.front());
   std::vector<Eigen::Vector2d> kept{minima.front()};
   for (std::size_t i = 1; i < minima.size(); ++i) {
-    if (!tells_apart(data, best, residuals(data, minima[i]))) kept.push_back(minima[i]);
+    if (!tells_apart(search.phases.spans, best, residuals_at(minima[i]))) kept.push_back(minima[i]);
   }
   return kept;
 }
 
 /// The best intersection around each minimum, for those who want the method without its last step.
-std::vector<Eigen::Vector2d> unrefined(const FitData& data, const std::vector<Guess>& ranked,
+std::vector<Eigen::Vector2d> unrefined(const PlaceSearch& search,
                                        const std::vector<Eigen::Vector2d>& minima) {
   std::vector<Eigen::Vector2d> places;
-  const std::vector<Eigen::Vector2d> best = best_distinct(ranked, 60, 0.0);
-  const std::vector<Guess> guesses = rank(data, best);
+  const std::vector<Guess> guesses =
+      rank(search.phases, search.height, best_distinct(search.ranked, 60, 0.0));
   for (const Eigen::Vector2d& minimum : minima) {
     const auto nearest = [&](const Guess& guess) {
       return std::none_of(minima.begin(), minima.end(), [&](const Eigen::Vector2d& other) {
@@ -80,18 +83,16 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   PlaceSearch search = begin_search(samples, tag_height, [&](const std::vector<PhaseSample>& of) {
     return unwrap(of, options.max_step);
   });
-  estimate.reads = static_cast<std::size_t>(search.data.distance.size());
+  estimate.reads = static_cast<std::size_t>(search.phases.size());
   const std::string too_few = why_too_few(search);
   if (!too_few.empty()) return not_located(std::move(estimate), too_few);
-  search_places(search, tag_height, options.stride_m, options.max_hyperbolae);
+  search_places(search, options.stride_m, options.max_hyperbolae);
   if (search.minima.empty()) return not_located(std::move(estimate), "no two hyperbolae meet");
-  std::vector<Eigen::Vector2d> places = indistinct(search.data, search.minima);
-  if (!options.refine) places = unrefined(search.data, search.ranked, places);
-  TagPhases phases = unwrapped_phases({}, search.segments, search.antennas);
-  phases.value = search.data.distance;  // Slips were put right there.
-  if (pose_error && pose_error->sigma_m > 0.0) phases.pose_error = pose_error;
+  std::vector<Eigen::Vector2d> places = indistinct(search);
+  if (!options.refine) places = unrefined(search, places);
+  if (pose_error && pose_error->sigma_m > 0.0) search.phases.pose_error = pose_error;
   for (const Eigen::Vector2d& p : places) {
-    estimate.candidates.push_back(candidate_at(phases, p, tag_height));
+    estimate.candidates.push_back(candidate_at(search.phases, p, tag_height));
   }
   judge(limits, estimate);
   return estimate;

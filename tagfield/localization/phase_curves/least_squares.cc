@@ -1,10 +1,12 @@
 #include "tagfield/localization/phase_curves/least_squares.h"
 
 #include <algorithm>
+#include <set>
 
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/phase_following.h"
 #include "tagfield/localization/phase_curves/place_search.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {
@@ -22,10 +24,10 @@ double search_height(const LocalizationProblem& problem, const std::string& tag)
          (*side == HeightSide::kAbove ? kLikelyOffset : -kLikelyOffset);
 }
 
-std::vector<std::string> distinct(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+std::vector<std::string> antennas_of(const TagPhases& phases) {
+  std::set<std::string> names;
+  for (const TagPhases::Span& span : phases.spans) names.insert(span.antenna);
+  return {names.begin(), names.end()};
 }
 
 TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
@@ -52,18 +54,17 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   PlaceSearch search = begin_search(samples, height, [](const std::vector<PhaseSample>& of) {
     return follow(of, phase_noise(of));
   });
-  result.reads_followed = static_cast<std::size_t>(search.data.distance.size());
+  result.reads_followed = static_cast<std::size_t>(search.phases.size());
   result.stretches = search.segments.size();
   result.why_not = why_too_few(search);
   if (!result.why_not.empty()) return result;
-  search_places(search, height, kStride, kMostHyperbolae);
+  search_places(search, kStride, kMostHyperbolae);
   if (search.minima.empty()) {
     result.why_not = "no place explains the phase";
     return result;
   }
-  result.phases = unwrapped_phases(problem, search.segments, search.antennas);
-  // Slips were put right in the search's copy.
-  result.phases.value = search.data.distance;
+  result.phases = std::move(search.phases);
+  result.phases.pose_error = told_pose_error(problem);
   result.height = height_model(problem, tag, result.phases);
   for (const Eigen::Vector2d& place : search.minima) {
     const PlaceVector start = to_unknowns(result.height, {place.x(), place.y(), height});
@@ -71,7 +72,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   }
   std::stable_sort(result.fits.begin(), result.fits.end(),
                    [](const TagFit& a, const TagFit& b) { return a.cost < b.cost; });
-  result.antennas = distinct(search.antennas);
+  result.antennas = antennas_of(result.phases);
   return result;
 }
 

@@ -22,7 +22,7 @@ TagPhases without_known_offsets(TagPhases phases) {
 /// turn.
 bool loses_cycles(const TagPhases& phases) {
   constexpr double kMost = 1.0 / 12.0;  // Of λ/2.
-  return phases.pose_error && phases.pose_error->sigma_m > kMost * phases.cycle.maxCoeff();
+  return phases.pose_error && phases.pose_error->sigma_m > kMost * longest_cycle(phases);
 }
 
 /// The best fit from any of the starts around `fit`.

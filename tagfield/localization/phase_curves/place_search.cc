@@ -9,64 +9,67 @@
 namespace tagfield {
 namespace {
 
-/// Reads beyond one for each unknown; a fit to fewer follows the noise and seems better than it is.
-constexpr std::size_t kFewestSpare = 16;
 constexpr Eigen::Index kThinReads = 120;  ///< Reads by which intersections are ranked.
 constexpr std::size_t kStarts = 12;       ///< Intersections to start a fit from.
 constexpr double kApart = 0.1;            ///< Starts nearer than this are one [m].
 constexpr double kSame = 0.03;            ///< Minima nearer than this are one [m].
 constexpr int kSlipRounds = 3;
 
-std::vector<Eigen::Vector2d> refined(const FitData& data,
+std::vector<Eigen::Vector2d> refined(const TagPhases& phases, double height,
                                      const std::vector<Eigen::Vector2d>& starts) {
   std::vector<Eigen::Vector2d> minima;
   minima.reserve(starts.size());
-  for (const Eigen::Vector2d& start : starts) minima.push_back(refine(data, start));
+  for (const Eigen::Vector2d& start : starts) minima.push_back(refine(phases, height, start));
   return minima;
 }
 
 /// The best place so far and its mirror image, with the other starts.
-std::vector<Eigen::Vector2d> with_mirror_images(const FitData& data,
+std::vector<Eigen::Vector2d> with_mirror_images(const TagPhases& phases,
                                                 std::vector<Eigen::Vector2d> places) {
   const std::size_t count = std::min<std::size_t>(places.size(), 3);
-  for (std::size_t i = 0; i < count; ++i) places.push_back(mirror_image(data, places[i]));
+  for (std::size_t i = 0; i < count; ++i) places.push_back(mirror_image(phases, places[i]));
   return places;
 }
 
 /// Distinct local minima of E over all reads, best first: from the intersections on a part of the
 /// reads, then on all. Corrects the cycle slips that the best one shows.
 std::vector<Eigen::Vector2d> find_minima(PlaceSearch& search) {
-  const FitData thin = thinned(search.data, kThinReads);
+  const double height = search.height;
+  TagPhases& phases = search.phases;
   std::vector<Eigen::Vector2d> places =
-      refined(thin, best_distinct(search.ranked, kStarts, kApart));
+      refined(thinned(phases, kThinReads), height, best_distinct(search.ranked, kStarts, kApart));
+  const auto ranked = [&] { return best_distinct(rank(phases, height, places), kStarts, kSame); };
   for (int round = 0; round < kSlipRounds; ++round) {
-    places = best_distinct(rank(search.data, places), kStarts, kSame);
+    places = ranked();
     if (places.empty()) return places;
-    places = refined(search.data, with_mirror_images(search.data, places));
-    places = best_distinct(rank(search.data, places), kStarts, kSame);
-    if (places.empty() || correct_slips(search.data, places.front()) == 0) break;
+    places = refined(phases, height, with_mirror_images(phases, places));
+    places = ranked();
+    if (places.empty() || correct_slips(phases, height, places.front()) == 0) break;
   }
-  return best_distinct(rank(search.data, refined(search.data, places)), kStarts, kSame);
+  places = refined(phases, height, places);
+  return ranked();
 }
 
 }  // namespace
 
 PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follow& follow) {
   PlaceSearch search;
+  search.height = height;
+  std::vector<std::string> antennas;
   for (const auto& [antenna, series] : samples) {
     if (extent_of(series) < kStillExtent) continue;
     for (PhaseSegment& segment : follow(series)) {
       if (segment.samples.size() < 2) continue;
       search.segments.push_back(std::move(segment));
-      search.antennas.push_back(antenna);
+      antennas.push_back(antenna);
     }
   }
-  search.data = make_fit_data(search.segments, height);
+  search.phases = unwrapped_phases(search.segments, antennas);
   return search;
 }
 
 std::string why_too_few(const PlaceSearch& search) {
-  const auto reads = static_cast<std::size_t>(search.data.distance.size());
+  const auto reads = static_cast<std::size_t>(search.phases.size());
   if (reads < kFewestReads) {
     return "the antenna moved too far between reads for the phase to be followed";
   }
@@ -78,9 +81,10 @@ std::string why_too_few(const PlaceSearch& search) {
   return "";
 }
 
-void search_places(PlaceSearch& search, double height, double stride, std::size_t max_hyperbolae) {
+void search_places(PlaceSearch& search, double stride, std::size_t max_hyperbolae) {
   const auto conics = make_conics(search.segments, stride, max_hyperbolae);
-  search.ranked = rank(thinned(search.data, kThinReads), intersect_all(conics, height));
+  search.ranked =
+      rank(thinned(search.phases, kThinReads), search.height, intersect_all(conics, search.height));
   search.minima = find_minima(search);
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/localization/phase_curves/plane_fit.h"
 #include "tagfield/localization/phase_curves/seeds.h"
-#include "tagfield/localization/phase_curves/segment_fit.h"
 #include "tagfield/localization/phase_curves/unwrap.h"
 #include "tagfield/localization/phase_sample.h"
 
@@ -17,9 +17,9 @@ namespace tagfield {
 
 /// Unwrapped phase and what was found in it.
 struct PlaceSearch {
-  std::vector<PhaseSegment> segments;   ///< Of antennas that moved, of two reads or more,
-  std::vector<std::string> antennas;    ///< and whose they are.
-  FitData data;                         ///< Of these, slips corrected.
+  double height = 0.0;                  ///< Of the plane that is searched [m].
+  std::vector<PhaseSegment> segments;   ///< Of antennas that moved, of two reads or more.
+  TagPhases phases;                     ///< Of these, slips corrected.
   std::vector<Guess> ranked;            ///< Intersections of hyperbolae, best first.
   std::vector<Eigen::Vector2d> minima;  ///< Best first; empty where nothing was found.
 };
@@ -36,6 +36,6 @@ std::string why_too_few(const PlaceSearch& search);
 /// Distinct local minima, from the intersections of hyperbolae `stride` [m] apart (at most
 /// `max_hyperbolae`) and the mirror images of the best. Corrects the cycle slips that the best
 /// shows.
-void search_places(PlaceSearch& search, double height, double stride, std::size_t max_hyperbolae);
+void search_places(PlaceSearch& search, double stride, std::size_t max_hyperbolae);
 
 }  // namespace tagfield

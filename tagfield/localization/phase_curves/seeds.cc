@@ -98,16 +98,17 @@ std::vector<Eigen::Vector2d> intersect_all(const std::vector<ConicGroup>& groups
   return points;
 }
 
-std::vector<Guess> rank(const FitData& data, const std::vector<Eigen::Vector2d>& points) {
-  const Eigen::Vector2d middle(data.x.mean(), data.y.mean());
+std::vector<Guess> rank(const TagPhases& phases, double height,
+                        const std::vector<Eigen::Vector2d>& points) {
+  const Eigen::Vector2d middle(phases.x.mean(), phases.y.mean());
   const double spread =
-      ((data.x - middle.x()).square() + (data.y - middle.y()).square()).sqrt().maxCoeff();
+      ((phases.x - middle.x()).square() + (phases.y - middle.y()).square()).sqrt().maxCoeff();
   std::vector<Guess> ranked;
   ranked.reserve(points.size());
   for (const Eigen::Vector2d& p : points) {
     // Written so that a NaN fails it.
     if (!((p - middle).norm() < kFarthest + spread)) continue;
-    ranked.push_back({p, sum_of_squares(data, p)});
+    ranked.push_back({p, sum_of_squares(phases, height, p)});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Guess& a, const Guess& b) {
     return a.sum_of_squares < b.sum_of_squares;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tagfield/localization/phase_curves/conic.h"
-#include "tagfield/localization/phase_curves/segment_fit.h"
+#include "tagfield/localization/phase_curves/plane_fit.h"
 #include "tagfield/localization/phase_curves/unwrap.h"
 
 namespace tagfield {
@@ -29,8 +29,9 @@ struct Guess {
   double sum_of_squares = 0.0;
 };
 
-/// Guesses with their quality E over `data`, best first.
-std::vector<Guess> rank(const FitData& data, const std::vector<Eigen::Vector2d>& points);
+/// Guesses with their quality E over `phases`, best first.
+std::vector<Guess> rank(const TagPhases& phases, double height,
+                        const std::vector<Eigen::Vector2d>& points);
 
 /// The best at most `count` of `ranked` that lie further than `apart` [m] from each other.
 std::vector<Eigen::Vector2d> best_distinct(const std::vector<Guess>& ranked, std::size_t count,

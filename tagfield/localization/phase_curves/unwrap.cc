@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {
 
 /// Noise of a phase difference is √2 σ; so many of it are kept free below π. Rare slips beyond
-/// are put right by the fit (segment_fit.h).
+/// are put right by the fit (plane_fit.h).
 constexpr double kNoiseMargin = 2.5;
 /// However noisy, phases this part of a quarter wavelength apart are followed.
 constexpr double kMinStep = 0.5;
@@ -19,29 +19,7 @@ double travel(const PhaseSample& from, const PhaseSample& to) {
   return (to.p_WA - from.p_WA).norm();
 }
 
-/// Phase that one step adds to the one before it, the two being nearly equal in length.
-bool is_even_triple(const PhaseSample& a, const PhaseSample& b, const PhaseSample& c) {
-  const double first = travel(a, b);
-  const double second = travel(b, c);
-  const bool same_carrier = a.frequency_hz == b.frequency_hz && b.frequency_hz == c.frequency_hz;
-  return same_carrier && std::abs(first - second) < 0.02 * wavelength(b.frequency_hz) &&
-         first + second < 0.5 * wavelength(b.frequency_hz);
-}
-
 }  // namespace
-
-double phase_noise(const std::vector<PhaseSample>& samples) {
-  constexpr std::size_t kFewest = 8;
-  std::vector<double> bends;
-  for (std::size_t i = 2; i < samples.size(); ++i) {
-    if (!is_even_triple(samples[i - 2], samples[i - 1], samples[i])) continue;
-    bends.push_back(wrap_to_pi(samples[i].phase_rad - 2.0 * samples[i - 1].phase_rad +
-                               samples[i - 2].phase_rad));
-  }
-  if (bends.size() < kFewest) return 0.0;
-  // A second difference has variance 6 σ².
-  return sigma_by_median(std::move(bends)) / std::sqrt(6.0);
-}
 
 double step_limit(double noise_rad, double max_step) {
   const double free_of_noise = 1.0 - kNoiseMargin * std::sqrt(2.0) * noise_rad / kPi;
@@ -64,6 +42,28 @@ std::vector<PhaseSegment> unwrap(const std::vector<PhaseSample>& samples, double
     segment.samples.push_back(sample);
   }
   return segments;
+}
+
+TagPhases unwrapped_phases(const std::vector<PhaseSegment>& segments,
+                           const std::vector<std::string>& antennas) {
+  TagPhases phases;
+  phases.unwrapped = true;
+  Eigen::Index at = 0;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const auto count = static_cast<Eigen::Index>(segments[s].samples.size());
+    const double cycle_m = cycle_of(segments[s].samples.front().frequency_hz);
+    phases.spans.push_back({at, count, antennas[s], false, cycle_m});
+    at += count;
+  }
+  resize(phases, at);
+  at = 0;
+  for (const PhaseSegment& segment : segments) {
+    for (std::size_t i = 0; i < segment.samples.size(); ++i, ++at) {
+      put(phases, at, segment.samples[i]);
+      phases.value[at] = segment.distance_m[i];
+    }
+  }
+  return phases;
 }
 
 }  // namespace tagfield

@@ -2,9 +2,11 @@
 /// Phase histories without their jumps of 2π.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/tag_phases.h"
 
 namespace tagfield {
 
@@ -16,10 +18,6 @@ struct PhaseSegment {
   std::vector<double> distance_m;
 };
 
-/// Standard deviation [rad] of the phase noise, from the second differences of the phase over
-/// evenly spaced samples (a median, so gaps and turns don't disturb it); 0 where too few tell it.
-double phase_noise(const std::vector<PhaseSample>& samples);
-
 /// Longest travel between two samples over which the phase is followed, as a part of a quarter
 /// wavelength: `max_step`, or less where the noise needs it, but not under 0.5 for noise alone.
 double step_limit(double noise_rad, double max_step);
@@ -28,5 +26,9 @@ double step_limit(double noise_rad, double max_step);
 /// further between two samples than the phase can be followed, or where the carrier changes. The
 /// limit is step_limit() quarter wavelengths of travel: λ/4 of radial motion turns the phase by π.
 std::vector<PhaseSegment> unwrap(const std::vector<PhaseSample>& samples, double max_step);
+
+/// Segments laid out, each a span with an offset of its own; and of which antenna each is.
+TagPhases unwrapped_phases(const std::vector<PhaseSegment>& segments,
+                           const std::vector<std::string>& antennas);
 
 }  // namespace tagfield

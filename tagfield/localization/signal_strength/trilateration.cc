@@ -9,7 +9,6 @@
 #include "tagfield/base/error.h"
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/judgement.h"
-#include "tagfield/localization/phase_curves/segment_fit.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/signal_strength/rssi_samples.h"
 
@@ -40,8 +39,7 @@ struct Law {
 /// The bins of one tag, antenna after antenna.
 struct Bins {
   Eigen::ArrayXd x, y, z, rssi, weight;
-  std::vector<FitData::Span> spans;
-  std::vector<std::string> antennas;  ///< Of the spans.
+  Spans spans;
 };
 
 Bins bins_of(const SamplesOfTag& samples, double length) {
@@ -49,8 +47,7 @@ Bins bins_of(const SamplesOfTag& samples, double length) {
   std::vector<RssiBin> all;
   for (const auto& [antenna, series] : rssi_along_paths(samples, length)) {
     bins.spans.push_back(
-        {static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(series.size()), 0.0});
-    bins.antennas.push_back(antenna);
+        {static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(series.size()), antenna});
     all.insert(all.end(), series.begin(), series.end());
   }
   const auto count = static_cast<Eigen::Index>(all.size());
@@ -82,9 +79,8 @@ Level level_of(const Law& law, const std::string& antenna) {
 }
 
 /// A span's level that suits best, with what is known of it.
-double best_level(const Bins& bins, std::size_t s, const Level& known,
+double best_level(const Bins& bins, const TagPhases::Span& span, const Level& known,
                   const Eigen::ArrayXd& above_line) {
-  const FitData::Span& span = bins.spans[s];
   const auto weight = bins.weight.segment(span.begin, span.count);
   const double sum = (weight * above_line.segment(span.begin, span.count)).sum();
   return (sum + known.precision * known.mean_dbm) / (weight.sum() + known.precision);
@@ -99,10 +95,10 @@ struct Misfit {
 Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   Misfit misfit;
   misfit.residuals = bins.rssi + law.slope_db * distances(bins, p_WT).log10();
-  for (std::size_t s = 0; s < bins.spans.size(); ++s) {
-    const Level known = level_of(law, bins.antennas[s]);
-    const double level = best_level(bins, s, known, misfit.residuals);
-    misfit.residuals.segment(bins.spans[s].begin, bins.spans[s].count) -= level;
+  for (const TagPhases::Span& span : bins.spans) {
+    const Level known = level_of(law, span.antenna);
+    const double level = best_level(bins, span, known, misfit.residuals);
+    misfit.residuals.segment(span.begin, span.count) -= level;
     misfit.cost += known.precision * (level - known.mean_dbm) * (level - known.mean_dbm);
   }
   misfit.residuals *= bins.weight.sqrt();
@@ -123,10 +119,9 @@ Step step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
   Eigen::ArrayXd ux = factor * (p_WT.x() - bins.x) / square;
   Eigen::ArrayXd uy = factor * (p_WT.y() - bins.y) / square;
   Step step;
-  for (std::size_t s = 0; s < bins.spans.size(); ++s) {
-    const FitData::Span& span = bins.spans[s];
+  for (const TagPhases::Span& span : bins.spans) {
     const auto weight = bins.weight.segment(span.begin, span.count);
-    const double sum = weight.sum() + level_of(law, bins.antennas[s]).precision;
+    const double sum = weight.sum() + level_of(law, span.antenna).precision;
     for (Eigen::ArrayXd* column : {&ux, &uy}) {
       auto part = column->segment(span.begin, span.count);
       const double mean = (weight * part).sum() / sum;
@@ -212,20 +207,11 @@ std::vector<Fit> minima_of(const Bins& bins, const Law& law, double height, doub
   return distinct(std::move(fits), kSame, kStarts);
 }
 
-FitData layout_of(const Bins& bins) {
-  FitData data;
-  data.x = bins.x;
-  data.y = bins.y;
-  data.spans = bins.spans;
-  return data;
-}
-
 Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   const Misfit misfit = misfit_at(bins, law, p_WT);
-  const FitData layout = layout_of(bins);
   const double noise =
-      std::max(residual_variance(layout, misfit.residuals), kLeastNoise * kLeastNoise) *
-      correlation_factor(layout, misfit.residuals);
+      std::max(residual_variance(bins.spans, misfit.residuals), kLeastNoise * kLeastNoise) *
+      correlation_factor(bins.spans, misfit.residuals);
   const Eigen::Matrix2d inverse =
       noise * step_at(bins, law, p_WT, misfit.residuals).normal.inverse();
   Candidate candidate;
@@ -373,10 +359,9 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                    "{:.1f} dB",
                                    misfit_db, options.max_misfit_db));
   }
-  const FitData layout = layout_of(bins);
   for (const Fit& fit : fits) {
     const bool first = estimate.candidates.empty();
-    if (first || !tells_apart(layout, best, misfit_at(bins, law, fit.p_WT).residuals)) {
+    if (first || !tells_apart(bins.spans, best, misfit_at(bins, law, fit.p_WT).residuals)) {
       estimate.candidates.push_back(candidate_at(bins, law, fit.p_WT));
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "made_reads.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {

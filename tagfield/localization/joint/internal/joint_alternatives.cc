@@ -12,7 +12,7 @@ using Index = Eigen::Index;
 
 /// The way of all antennas, and whether it is so straight that mirror images can't be told apart.
 struct Way {
-  FitData places;
+  TagPhases places;  ///< x and y alone.
   bool is_straight = false;
 };
 

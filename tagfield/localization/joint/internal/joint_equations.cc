@@ -18,10 +18,6 @@ ChainPart<D> empty_chain(Index knots) {
           Eigen::VectorXd::Zero(D * knots)};
 }
 
-double nearest_to_zero(double error, double cycle) {
-  return cycle > 0.0 ? error - cycle * std::round(error / cycle) : error;
-}
-
 /// Derivative of a read's range by the unknowns of a knot: the antenna moves back by the error.
 template <int D>
 Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
@@ -142,9 +138,9 @@ ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t spa
   ReadNow now;
   now.range = range_to(tag.height, tag.fit.unknowns, tag.phases.x[i] - moved.x(),
                        tag.phases.y[i] - moved.y(), tag.phases.z[i]);
-  now.error =
-      nearest_to_zero(tag.phases.value[i] - now.range.r - tag.fit.offsets[static_cast<Index>(span)],
-                      tag.phases.cycle[i]);
+  now.error = nearest_to_zero(
+      tag.phases, tag.phases.spans[span],
+      tag.phases.value[i] - now.range.r - tag.fit.offsets[static_cast<Index>(span)]);
   return now;
 }
 

@@ -9,8 +9,7 @@
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
-#include "tagfield/localization/phase_curves/phase_following.h"
-#include "tagfield/localization/phase_curves/place_search.h"
+#include "tagfield/localization/phase_noise.h"
 #include "tagfield/localization/residuals.h"
 
 namespace tagfield {
@@ -130,7 +129,7 @@ void weigh(JointSystem& system) {
       tag.weight = 1.0;
       continue;
     }
-    const double correlation = correlation_factor(spans_of(tag.phases), residuals_of(system, tag));
+    const double correlation = correlation_factor(tag.phases.spans, residuals_of(system, tag));
     tag.weight = 1.0 / (excess * correlation);
   }
 }
