@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "simulator/internal/navigation_yaml.h"
 #include "simulator/internal/radio_yaml.h"
@@ -174,11 +175,25 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
   return tag;
 }
 
-/// The name of a method that there is.
-std::string method_of(const YamlValue& value) {
+/// A method that there is.
+Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   std::vector<std::string> names;
-  for (const Method& method : built_in_methods({})) names.push_back(method.name);
-  return names[static_cast<std::size_t>(choice(value, names))];
+  for (const Method& method : methods) names.push_back(method.name);
+  return methods[static_cast<std::size_t>(choice(value, names))];
+}
+
+/// Settings of any method, as they stand.
+MethodSettings settings_of(YamlMap& map, const std::vector<Method>& methods) {
+  MethodSettings settings;
+  std::set<std::string> done;
+  for (const Method& method : methods) {
+    for (const SettingHelp& help : method.settings) {
+      if (!done.insert(help.key).second || !map.has(help.key)) continue;
+      const YamlValue value = map.at(help.key);
+      settings.push_back({help.key, value.text(), value.location()});
+    }
+  }
+  return settings;
 }
 
 PoseErrorModel pose_error_of(YamlMap map) {
@@ -190,13 +205,23 @@ PoseErrorModel pose_error_of(YamlMap map) {
   return model;
 }
 
-LocalizationSpec localization_of(YamlMap map) {
+/// The methods that are used, their settings checked.
+void read_methods(YamlMap& map, const std::vector<Method>& methods, LocalizationSpec& spec) {
+  std::vector<Method> used = {map.has("method") ? method_of(map.at("method"), methods)
+                                                : find_method(methods, spec.method)};
+  spec.method = used.front().name;
+  for (const YamlValue& other : map.list("compare")) {
+    used.push_back(method_of(other, methods));
+    spec.compare.push_back(used.back().name);
+  }
+  spec.settings = settings_of(map, methods);
+  refuse_unused(spec.settings, used, methods);
+  for (const Method& method : used) configured(method, spec.settings);
+}
+
+LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods) {
   LocalizationSpec spec;
-  HyperbolaOptions& options = spec.settings.hyperbola;
-  if (map.has("method")) spec.method = method_of(map.at("method"));
-  for (const YamlValue& method : map.list("compare")) spec.compare.push_back(method_of(method));
-  options.stride_m = map.number("stride_m", options.stride_m, kPositive);
-  options.refine = map.boolean("refine", options.refine);
+  read_methods(map, methods, spec);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
   for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
@@ -318,7 +343,7 @@ double time_step_of(const YamlValue& value) {
   return seconds;
 }
 
-Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
+Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostics& diagnostics) {
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");
@@ -344,7 +369,7 @@ Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
   }
   if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
   if (map.has("localization")) {
-    scenario.localization = localization_of(YamlMap(map.at("localization")));
+    scenario.localization = localization_of(YamlMap(map.at("localization")), methods);
   }
   read_bodies(map, scenario, radio, diagnostics);
   if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
@@ -380,11 +405,11 @@ Override parse_override(const std::string& argument) {
 }
 
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
-                       Diagnostics& diagnostics) {
+                       Diagnostics& diagnostics, const std::vector<Method>& methods) {
   const YAML::Node root = read_yaml(path);
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
-    return scenario_of(YamlMap(YamlValue(root, path, "")), diagnostics);
+    return scenario_of(YamlMap(YamlValue(root, path, "")), methods, diagnostics);
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
@@ -397,10 +422,11 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
 
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
-                                           Diagnostics& diagnostics) {
+                                           Diagnostics& diagnostics,
+                                           const std::vector<Method>& methods) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
-  scenario = load_scenario(path, overrides, diagnostics);
+  scenario = load_scenario(path, overrides, diagnostics, methods);
   if (!scenario.world.path.empty()) {
     loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
     add_placements(loaded.scene, scenario, diagnostics);

@@ -31,6 +31,9 @@ std::size_t count_reads(const SamplesOfTag& samples);
 /// Why these samples can't locate anything by the phase of a moving antenna; empty if they might.
 std::string why_hopeless(const SamplesOfTag& samples);
 
+/// An estimate that says nothing yet but how many reads there are.
+TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
+
 /// The estimate without candidates, with the reason "cannot localize: WHY".
 TagEstimate not_located(TagEstimate estimate, const std::string& why);
 

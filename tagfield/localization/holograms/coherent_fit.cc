@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 
-#include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/fit_candidates.h"
@@ -294,10 +293,6 @@ Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
 
 }  // namespace
 
-void check_share(double min_share) {
-  if (!(min_share > 0.0 && min_share <= 1.0)) throw Error("min_share must be in (0, 1]");
-}
-
 double coherent_share(const TagPhases& phases, const HeightModel& height,
                       const PlaceVector& place) {
   const double waves = coherence(phases, apertures(phases, kWholeAperture), height, place);
@@ -367,6 +362,24 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   for (const Maximum& other : rivals.others) estimate.candidates.push_back(candidate_of(other));
   judge(limits, estimate);
   return estimate;
+}
+
+TagEstimate locate_by_waves(const LocalizationProblem& problem, const std::string& tag,
+                            const SamplesOfTag& samples, const CoherentJudgement& judgement,
+                            const FindPlaces& find) {
+  TagEstimate estimate = begun(tag, samples);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
+  TagPhases phases = coherent_reads(problem, samples);
+  for (TagPhases::Span& span : phases.spans) {
+    span.offset_known = span.offset_known && judgement.known_offsets;
+  }
+  estimate.reads = static_cast<std::size_t>(phases.size());
+  const std::string why_too_few = too_few(phases);
+  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
+  const HeightModel height = height_model(problem, tag, phases);
+  return judge_places(phases, height, find(phases, height), judgement, problem.limits,
+                      std::move(estimate));
 }
 
 }  // namespace tagfield

@@ -6,8 +6,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "tagfield/base/setting.h"
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/tag_estimate.h"
@@ -40,12 +43,13 @@ struct CoherentJudgement {
   double min_share = 0.35;
   /// Expected errors are so many times those of the best use of the phases; at least 1.
   double error_factor = 1.0;
-  bool climb = true;      ///< Go from each place to the maximum of coherence() near it.
-  bool at_maxima = true;  ///< The places, climbed to or not, are about those maxima.
+  bool climb = true;          ///< Go from each place to the maximum of coherence() near it.
+  bool at_maxima = true;      ///< The places, climbed to or not, are about those maxima.
+  bool known_offsets = true;  ///< Offsets that are known are made use of.
 };
 
-/// Throws Error where a smallest share is not in (0, 1].
-void check_share(double min_share);
+/// What a smallest share may be.
+inline constexpr ValueRange kShareRange{0.0, true, 1.0};
 
 /// Finishes: climbs from the places and from mirror images of the best, and gives verdict,
 /// candidates (those that the data can't tell from the best) and covariances. Where the phases are
@@ -54,5 +58,14 @@ void check_share(double min_share);
 TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                          const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
                          const EstimateLimits& limits, TagEstimate estimate);
+
+/// Where a tag may be, by its phases.
+using FindPlaces =
+    std::function<std::vector<PlaceVector>(const TagPhases& phases, const HeightModel& height)>;
+
+/// Locates one tag: says why that is hopeless, or lets `find` look for places and judges them.
+TagEstimate locate_by_waves(const LocalizationProblem& problem, const std::string& tag,
+                            const SamplesOfTag& samples, const CoherentJudgement& judgement,
+                            const FindPlaces& find);
 
 }  // namespace tagfield

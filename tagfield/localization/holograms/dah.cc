@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
@@ -91,31 +89,36 @@ std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& he
 
 TagEstimate locate_by_differences(const LocalizationProblem& problem, const std::string& tag,
                                   const SamplesOfTag& samples, const DahOptions& options) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
-  const std::string hopeless = why_hopeless(samples);
-  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  TagPhases phases = coherent_reads(problem, samples);
-  // Differences have lost the offset.
-  for (TagPhases::Span& span : phases.spans) span.offset_known = false;
-  estimate.reads = static_cast<std::size_t>(phases.size());
-  const std::string why_too_few = too_few(phases);
-  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
-  const HeightModel height = height_model(problem, tag, phases);
-  const double noise = largest_phase_noise(samples, options.least_noise_rad);
-  const double grid_noise = std::hypot(noise, kGridNoise);
-  const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
-    return differential_brightness(reads, grid_noise, x, y);
-  };
-  const std::vector<PlaceVector> places =
-      finished(phases, height, search_places(phases, height, options.search, brightness), noise);
   CoherentJudgement judgement;
   judgement.min_share = options.min_share;
   judgement.error_factor = kErrorFactor;
   judgement.climb = false;
   judgement.at_maxima = false;
-  return judge_places(phases, height, places, judgement, problem.limits, std::move(estimate));
+  judgement.known_offsets = false;  // Differences have lost the offset.
+  const double noise = largest_phase_noise(samples, options.least_noise_rad);
+  const double grid_noise = std::hypot(noise, kGridNoise);
+  const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
+    return differential_brightness(reads, grid_noise, x, y);
+  };
+  return locate_by_waves(
+      problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
+        return finished(phases, height, search_places(phases, height, options, brightness), noise);
+      });
+}
+
+/// The keys of its options.
+const OptionTable<DahOptions>& option_table() {
+  using O = DahOptions;
+  static const OptionTable<O> of = [] {
+    OptionTable<O> table{
+        {setting<O>("least_noise_rad", "rad", "standard deviation of a phase, if not more is seen",
+                    &O::least_noise_rad, kOverZero),
+         setting<O>("min_share", "", "of the waves that add up; less is no tag at rest",
+                    &O::min_share, kShareRange)}};
+    add_search_options(table);
+    return table;
+  }();
+  return of;
 }
 
 }  // namespace
@@ -137,22 +140,9 @@ Tile differential_brightness(const SearchReads& reads, double noise_rad, const T
 }
 
 Method dah_method(const DahOptions& options) {
-  check(options.search);
-  if (!(options.least_noise_rad > 0.0 && std::isfinite(options.least_noise_rad))) {
-    throw Error("least_noise_rad must be finite and over 0");
-  }
-  check_share(options.min_share);
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "dah";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_differences(problem, tag, samples, options);
-        });
-    return result;
-  };
-  return {"dah", "differential augmented hologram: phase differences, weighted by probability",
-          locate};
+  return one_by_one("dah",
+                    "differential augmented hologram: phase differences, weighted by probability",
+                    option_table(), options, locate_by_differences);
 }
 
 }  // namespace tagfield

@@ -10,8 +10,7 @@
 
 namespace tagfield {
 
-struct DahOptions {
-  SearchOptions search;
+struct DahOptions : SearchOptions {
   double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
   double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
 };
@@ -23,6 +22,6 @@ Tile differential_brightness(const SearchReads& reads, double noise_rad, const T
                              const Tile& y);
 
 /// "dah": all tags, one by one. Throws Error on options out of their range.
-Method dah_method(const DahOptions& options);
+Method dah_method(const DahOptions& options = {});
 
 }  // namespace tagfield

@@ -1,7 +1,5 @@
 #include "tagfield/localization/holograms/hologram.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -34,11 +32,6 @@ struct Cell {
 
 /// A level's grid: cell (i, j) has its middle at (i, j) · size.
 using Cells = std::vector<Cell>;
-
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
-}
 
 Cells all_cells(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
                 double max_range, double size) {
@@ -144,14 +137,10 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
 
 }  // namespace
 
-void check(const SearchOptions& options) {
-  require_positive(options.max_range_m, "max_range_m");
-  require_positive(options.cell_m, "cell_m");
+void check_cells(const SearchOptions& options) {
   if (options.max_range_m / options.cell_m > kMostCells) {
     throw Error("cell_m must be at least a thousandth of max_range_m");
   }
-  if (options.maxima < 1) throw Error("maxima must be at least 1");
-  if (options.reads < 1) throw Error("reads must be at least 1");
 }
 
 Eigen::Vector2d middle_of(const TagPhases& phases) {

@@ -13,6 +13,7 @@
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/method.h"
 
 namespace tagfield {
 
@@ -66,6 +67,7 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
 /// Σ |Σ e^{j(φ − k r)}| over the apertures; the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
 
+/// How the area is searched.
 struct SearchOptions {
   double max_range_m = 12.0;  ///< Half of the reads are from nearer; over 0.
   double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
@@ -76,8 +78,26 @@ struct SearchOptions {
   bool thorough = false;
 };
 
-/// Throws Error on options out of their range.
-void check(const SearchOptions& options);
+/// Throws Error where cells are too many.
+void check_cells(const SearchOptions& options);
+
+/// Adds the keys of a search's options.
+template <class Options>
+void add_search_options(OptionTable<Options>& of) {
+  using O = SearchOptions;
+  of.table.push_back(setting<Options>("max_range_m", "m", "half of the reads are from nearer",
+                                      &O::max_range_m, kOverZero));
+  of.table.push_back(
+      setting<Options>("cell_m", "m", "of the coarsest grid", &O::cell_m, kOverZero));
+  of.table.push_back(setting<Options>("maxima", "", "brightest places that are looked at",
+                                      &O::maxima, {1.0, false, 1e6}));
+  of.table.push_back(
+      setting<Options>("search_reads", "", "coarse grids take so many", &O::reads, kAtLeastOne));
+  of.table.push_back(setting<Options>(
+      "thorough", "whole apertures on all of the area at once, some 20 times the work",
+      &O::thorough));
+  of.check = [](const Options& options) { check_cells(options); };
+}
 
 /// The brightest local maxima on the plane z = `height`, brightest first; none where no place is
 /// within the range of all reads. With λ the longest wavelength, apertures are 1.5 λ, three times

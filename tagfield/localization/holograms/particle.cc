@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
-#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
@@ -258,7 +256,7 @@ double phase_variance(const LocalizationProblem& problem, const SamplesOfTag& sa
   return noise * noise + std::pow(pose * phases.wavenumber.maxCoeff(), 2);
 }
 
-Search prepare(TagPhases phases, const HeightModel& height) {
+Search prepare(const TagPhases& phases, const HeightModel& height) {
   Search search;
   search.middle = middle_of(phases);
   search.height = height;
@@ -271,59 +269,47 @@ Search prepare(TagPhases phases, const HeightModel& height) {
   add(coarse, 4.5 * lambda, 0.7 * lambda);
   add(phases, 13.5 * lambda, 0.25 * lambda);
   add(phases, kWholeAperture, 0.1 * lambda);
-  search.phases = std::move(phases);
+  search.phases = phases;
   return search;
 }
 
 TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::string& tag,
                                 const SamplesOfTag& samples, const ParticleOptions& options) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
-  const std::string hopeless = why_hopeless(samples);
-  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  TagPhases phases = coherent_reads(problem, samples);
-  estimate.reads = static_cast<std::size_t>(phases.size());
-  const std::string why_too_few = too_few(phases);
-  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
-  const double variance = phase_variance(problem, samples, phases, options.least_noise_rad);
-  const HeightModel height = height_model(problem, tag, phases);
-  Search search = prepare(std::move(phases), height);
-  search.concentration = 1.0 / variance;
-  RandomStream stream(options.seed, Purpose::kTagSearch, stream_key(tag));
-  const Particles particles = spread_and_anneal(search, options, stream);
   CoherentJudgement judgement;
   judgement.min_share = options.min_share;
   judgement.climb = false;
-  return judge_places(search.phases, height, clusters_of(search, particles), judgement,
-                      problem.limits, std::move(estimate));
+  return locate_by_waves(
+      problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
+        Search search = prepare(phases, height);
+        search.concentration =
+            1.0 / phase_variance(problem, samples, phases, options.least_noise_rad);
+        RandomStream stream(options.seed, Purpose::kTagSearch, stream_key(tag));
+        return clusters_of(search, spread_and_anneal(search, options, stream));
+      });
 }
 
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(std::string(name) + " must be finite and over 0");
+/// The keys of its options.
+const OptionTable<ParticleOptions>& option_table() {
+  using O = ParticleOptions;
+  static const OptionTable<O> of{
+      {setting<O>("particles", "", "places that are drawn", &O::particles, {100.0, false, 1e6}),
+       setting<O>("max_range_m", "m", "half of the reads are from nearer", &O::max_range_m,
+                  kOverZero),
+       setting<O>("max_height_m", "m", "above or below the antennas, where the height is unknown",
+                  &O::max_height_m, kOverZero),
+       setting<O>("least_noise_rad", "rad", "standard deviation of a phase, if not more is seen",
+                  &O::least_noise_rad, kOverZero),
+       setting<O>("min_share", "", "of the waves that add up; less is no tag at rest",
+                  &O::min_share, kShareRange),
+       setting<O>("seed", "", "of the draws", &O::seed, kAtLeastZero)}};
+  return of;
 }
 
 }  // namespace
 
 Method particle_method(const ParticleOptions& options) {
-  if (options.particles < 100 || options.particles > 1'000'000) {
-    throw Error("particles must be from 100 to 1000000");
-  }
-  require_positive(options.max_range_m, "max_range_m");
-  require_positive(options.max_height_m, "max_height_m");
-  require_positive(options.least_noise_rad, "least_noise_rad");
-  check_share(options.min_share);
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "particle";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_particles(problem, tag, samples, options);
-        });
-    return result;
-  };
-  return {"particle", "particles drawn together by the likelihood of wrapped phase", locate};
+  return one_by_one("particle", "particles drawn together by the likelihood of wrapped phase",
+                    option_table(), options, locate_by_particles);
 }
 
 }  // namespace tagfield

@@ -21,6 +21,6 @@ struct ParticleOptions {
 };
 
 /// "particle": all tags, one by one. Throws Error on options out of their range.
-Method particle_method(const ParticleOptions& options);
+Method particle_method(const ParticleOptions& options = {});
 
 }  // namespace tagfield

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "tagfield/base/error.h"
-#include "tagfield/localization/judgement.h"
-
 namespace tagfield {
 namespace {
 
@@ -26,37 +23,31 @@ std::vector<PlaceVector> brightest_places(const TagPhases& phases, const HeightM
 
 TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::string& tag,
                                const SamplesOfTag& samples, const SarOptions& options) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
-  const std::string hopeless = why_hopeless(samples);
-  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  const TagPhases phases = coherent_reads(problem, samples);
-  estimate.reads = static_cast<std::size_t>(phases.size());
-  const std::string why_too_few = too_few(phases);
-  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
-  const HeightModel height = height_model(problem, tag, phases);
   CoherentJudgement judgement;
   judgement.min_share = options.min_share;
-  return judge_places(phases, height, brightest_places(phases, height, options.search), judgement,
-                      problem.limits, std::move(estimate));
+  return locate_by_waves(problem, tag, samples, judgement,
+                         [&](const TagPhases& phases, const HeightModel& height) {
+                           return brightest_places(phases, height, options);
+                         });
+}
+
+/// The keys of its options.
+const OptionTable<SarOptions>& option_table() {
+  static const OptionTable<SarOptions> of = [] {
+    OptionTable<SarOptions> table{
+        {setting<SarOptions>("min_share", "", "of the waves that add up; less is no tag at rest",
+                             &SarOptions::min_share, kShareRange)}};
+    add_search_options(table);
+    return table;
+  }();
+  return of;
 }
 
 }  // namespace
 
 Method sar_method(const SarOptions& options) {
-  check(options.search);
-  check_share(options.min_share);
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "sar";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_hologram(problem, tag, samples, options);
-        });
-    return result;
-  };
-  return {"sar", "hologram of a synthetic aperture: waves added up over a grid", locate};
+  return one_by_one("sar", "hologram of a synthetic aperture: waves added up over a grid",
+                    option_table(), options, locate_by_hologram);
 }
 
 }  // namespace tagfield

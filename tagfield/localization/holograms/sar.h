@@ -10,12 +10,11 @@
 
 namespace tagfield {
 
-struct SarOptions {
-  SearchOptions search;
+struct SarOptions : SearchOptions {
   double min_share = 0.35;  ///< See CoherentJudgement; in (0, 1].
 };
 
 /// "sar": all tags, one by one. Throws Error on options out of their range.
-Method sar_method(const SarOptions& options);
+Method sar_method(const SarOptions& options = {});
 
 }  // namespace tagfield

@@ -1,7 +1,5 @@
 #include "tagfield/localization/phase_curves/hyperbola.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,17 +13,18 @@
 namespace tagfield {
 namespace {
 
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
-}
-
-void check(const HyperbolaOptions& options, double tag_height) {
-  require_positive(options.stride_m, "stride_m");
-  require_positive(options.max_step, "max_step");
-  if (options.max_step > 1.0) throw Error("max_step must be at most 1");
-  if (options.max_hyperbolae < 2) throw Error("max_hyperbolae must be at least 2");
-  if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
+/// The keys of its options.
+const OptionTable<HyperbolaOptions>& option_table() {
+  using O = HyperbolaOptions;
+  static const OptionTable<O> of{
+      {setting<O>("stride_m", "m", "travel of the antenna between two hyperbolae", &O::stride_m,
+                  kOverZero),
+       setting<O>("max_hyperbolae", "", "of one tag; more are thinned out (time grows as n³)",
+                  &O::max_hyperbolae, {2.0}),
+       setting<O>("max_step", "λ/4", "longest travel between reads over which phases are followed",
+                  &O::max_step, {0.0, true, 1.0}),
+       setting<O>("refine", "finish by least squares from the best intersections", &O::refine)}};
+  return of;
 }
 
 /// Of the minima those that can't be told from the first.
@@ -74,10 +73,9 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
                                  double tag_height, const HyperbolaOptions& options,
                                  const EstimateLimits& limits,
                                  const std::optional<PoseErrorModel>& pose_error) {
-  check(options, tag_height);
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
+  check_options(option_table(), options);
+  if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
+  TagEstimate estimate = begun(tag, samples);
   const std::string hopeless = why_hopeless(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
   PlaceSearch search = begin_search(samples, tag_height, [&](const std::vector<PhaseSample>& of) {
@@ -99,18 +97,14 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
 }
 
 Method hyperbola_method(const HyperbolaOptions& options) {
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "hyperbola";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), options,
-                                      problem.limits, problem.pose_error);
-        });
-    return result;
-  };
-  return {"hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
-          locate};
+  return one_by_one("hyperbola",
+                    "hyperbolae from unwrapped phase, their intersections (the paper's)",
+                    option_table(), options,
+                    [](const LocalizationProblem& problem, const std::string& tag,
+                       const SamplesOfTag& samples, const HyperbolaOptions& of) {
+                      return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of,
+                                                  problem.limits, problem.pose_error);
+                    });
 }
 
 }  // namespace tagfield

@@ -26,6 +26,6 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
                                  const std::optional<PoseErrorModel>& pose_error = {});
 
 /// "hyperbola": all tags, one by one, each in its plane.
-Method hyperbola_method(const HyperbolaOptions& options);
+Method hyperbola_method(const HyperbolaOptions& options = {});
 
 }  // namespace tagfield

@@ -32,9 +32,7 @@ std::vector<std::string> antennas_of(const TagPhases& phases) {
 
 TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
                    const SamplesOfTag& samples) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
+  TagEstimate estimate = begun(tag, samples);
   UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   if (!fit.why_not.empty()) return not_located(std::move(estimate), fit.why_not);
   estimate.reads = static_cast<std::size_t>(fit.phases.size());
@@ -77,17 +75,8 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
 }
 
 Method least_squares_method() {
-  const auto locate_all = [](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "least_squares";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate(problem, tag, samples);
-        });
-    return result;
-  };
-  return {"least_squares", "least squares on unwrapped phase, an offset for each stretch",
-          locate_all};
+  return one_by_one("least_squares", "least squares on unwrapped phase, an offset for each stretch",
+                    locate);
 }
 
 }  // namespace tagfield

@@ -62,9 +62,7 @@ std::vector<TagFit> wrapped_fits(const UnwrappedFit& unwrapped, const TagPhases&
 
 TagEstimate locate_by_likelihood(const LocalizationProblem& problem, const std::string& tag,
                                  const SamplesOfTag& samples) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
+  TagEstimate estimate = begun(tag, samples);
   const UnwrappedFit unwrapped = fit_unwrapped(problem, tag, samples);
   if (!unwrapped.why_not.empty()) return not_located(std::move(estimate), unwrapped.why_not);
   const TagPhases phases = wrapped_phases(problem, samples, unwrapped.antennas);
@@ -81,17 +79,9 @@ TagEstimate locate_by_likelihood(const LocalizationProblem& problem, const std::
 }
 
 Method maximum_likelihood_method() {
-  const auto locate = [](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    LocalizationResult result;
-    result.method = "ml";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_likelihood(problem, tag, samples);
-        });
-    return result;
-  };
-  return {"ml", "maximum likelihood on wrapped phase, an offset for each antenna and channel",
-          locate};
+  return one_by_one("ml",
+                    "maximum likelihood on wrapped phase, an offset for each antenna and channel",
+                    locate_by_likelihood);
 }
 
 }  // namespace tagfield

@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "tagfield/base/error.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/signal_strength/rssi_samples.h"
 
@@ -112,9 +111,7 @@ void keep_height(const LocalizationProblem& problem, const std::string& tag, Can
 TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const References& references,
                                  const std::string& tag, const SamplesOfTag& samples,
                                  const LandmarcOptions& options) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
+  TagEstimate estimate = begun(tag, samples);
   if (references.tags.size() < kFewestReferences) {
     return not_located(std::move(estimate),
                        fmt::format("needs reference tags: {} were read with RSSI, at least {} are "
@@ -135,24 +132,33 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
   return estimate;
 }
 
+std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
+                                    const LandmarcOptions& options) {
+  const References references = references_of(problem, options);
+  return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+    return locate_by_neighbours(problem, references, tag, samples, options);
+  });
+}
+
+/// The keys of its options.
+const OptionTable<LandmarcOptions>& option_table() {
+  using O = LandmarcOptions;
+  static const OptionTable<O> of{
+      {setting<O>("neighbours", "", "nearest reference tags whose mean is taken", &O::neighbours,
+                  kAtLeastOne),
+       setting<O>("bin_s", "s", "RSSI is averaged over so long", &O::bin_s, kOverZero),
+       setting<O>("unread_margin_db", "dB", "by which a read missing is below the weakest of all",
+                  &O::unread_margin_db, kAtLeastZero),
+       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+                  &O::max_expected_error_m, kOverZero)}};
+  return of;
+}
+
 }  // namespace
 
 Method landmarc_method(const LandmarcOptions& options) {
-  if (options.neighbours < 1) throw Error("neighbours must be at least 1");
-  if (!(std::isfinite(options.bin_s) && options.bin_s > 0.0)) throw Error("bin_s must be over 0");
-  if (!(options.unread_margin_db >= 0.0)) throw Error("unread_margin_db must be at least 0");
-  if (!(options.max_expected_error_m > 0.0)) throw Error("max_expected_error_m must be over 0");
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    const References references = references_of(problem, options);
-    LocalizationResult result;
-    result.method = "landmarc";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_neighbours(problem, references, tag, samples, options);
-        });
-    return result;
-  };
-  return {"landmarc", "the nearest reference tags by RSSI, their mean", locate};
+  return method_with("landmarc", "the nearest reference tags by RSSI, their mean", option_table(),
+                     options, locate_all);
 }
 
 }  // namespace tagfield

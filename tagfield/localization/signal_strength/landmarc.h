@@ -19,6 +19,6 @@ struct LandmarcOptions {
 };
 
 /// "landmarc": all tags, one by one. Throws Error on options out of their range.
-Method landmarc_method(const LandmarcOptions& options);
+Method landmarc_method(const LandmarcOptions& options = {});
 
 }  // namespace tagfield

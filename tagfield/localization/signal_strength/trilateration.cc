@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/error.h"
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
@@ -342,9 +341,7 @@ std::string why_not(const SamplesOfTag& samples, const Bins& bins) {
 TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& law,
                                const std::string& tag, const SamplesOfTag& samples,
                                const TrilaterationOptions& options) {
-  TagEstimate estimate;
-  estimate.tag = tag;
-  estimate.reads = count_reads(samples);
+  TagEstimate estimate = begun(tag, samples);
   const Bins bins = bins_of(samples, options.bin_m);
   const std::string why = why_not(samples, bins);
   if (!why.empty()) return not_located(std::move(estimate), why);
@@ -376,39 +373,40 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
   return estimate;
 }
 
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
+std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
+                                    const TrilaterationOptions& options) {
+  const Law law = law_of(problem, options);
+  return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+    return locate_by_strength(problem, law, tag, samples, options);
+  });
 }
 
-void check(const TrilaterationOptions& options) {
-  require_positive(options.slope_db, "slope_db");
-  require_positive(options.bin_m, "bin_m");
-  require_positive(options.max_range_m, "max_range_m");
-  require_positive(options.max_expected_error_m, "max_expected_error_m");
-  require_positive(options.max_misfit_db, "max_misfit_db");
-  if (!(std::isfinite(options.slope_sigma_db) && options.slope_sigma_db >= 0.0 &&
-        std::isfinite(options.tag_sigma_db) && options.tag_sigma_db >= 0.0)) {
-    throw Error("slope_sigma_db and tag_sigma_db must be finite and at least 0");
-  }
+/// The keys of its options.
+const OptionTable<TrilaterationOptions>& option_table() {
+  using O = TrilaterationOptions;
+  static const OptionTable<O> of{
+      {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
+                  kOverZero),
+       setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
+                  &O::slope_sigma_db, kAtLeastZero),
+       setting<O>("tag_sigma_db", "dB", "how tags of one kind differ", &O::tag_sigma_db,
+                  kAtLeastZero),
+       setting<O>("bin_m", "m", "reads over so much travel are averaged", &O::bin_m, kOverZero),
+       setting<O>("max_range_m", "m", "no tag is read from further away", &O::max_range_m,
+                  kOverZero),
+       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+                  &O::max_expected_error_m, kOverZero),
+       setting<O>("max_misfit_db", "dB", "a worse rms is no law of distance", &O::max_misfit_db,
+                  kOverZero)}};
+  return of;
 }
 
 }  // namespace
 
 Method trilateration_method(const TrilaterationOptions& options) {
-  check(options);
-  const auto locate = [options](const LocalizationProblem& problem, int threads, Diagnostics&) {
-    const Law law = law_of(problem, options);
-    LocalizationResult result;
-    result.method = "trilateration";
-    result.estimates =
-        locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
-          return locate_by_strength(problem, law, tag, samples, options);
-        });
-    return result;
-  };
-  return {"trilateration", "distances by RSSI over a logarithmic law, its slope fitted too",
-          locate};
+  return method_with("trilateration",
+                     "distances by RSSI over a logarithmic law, its slope fitted too",
+                     option_table(), options, locate_all);
 }
 
 }  // namespace tagfield

@@ -24,6 +24,6 @@ struct TrilaterationOptions {
 
 /// "trilateration": one slope for all, then all tags, one by one. Throws Error on options out of
 /// their range.
-Method trilateration_method(const TrilaterationOptions& options);
+Method trilateration_method(const TrilaterationOptions& options = {});
 
 }  // namespace tagfield

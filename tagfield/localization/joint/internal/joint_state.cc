@@ -194,10 +194,7 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const auto& [tag, samples] = *tags[i];
     if (!fits[i].why_not.empty()) {
-      TagEstimate estimate;
-      estimate.tag = tag;
-      estimate.reads = count_reads(samples);
-      state.not_located[tag] = not_located(std::move(estimate), fits[i].why_not);
+      state.not_located[tag] = not_located(begun(tag, samples), fits[i].why_not);
       continue;
     }
     JointTag joint = joint_tag(problem, tag, fits[i]);

@@ -1,4 +1,4 @@
-#include "tagfield/reader/internal/setting.h"
+#include "tagfield/base/setting.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/number.h"
 
-namespace tagfield::settings_internal {
+namespace tagfield {
 
 double number_in(const std::string& text) {
   const std::optional<double> value = parse_number(text);
@@ -60,4 +60,42 @@ std::string one_of(const std::vector<std::string>& choices) {
   return fmt::format("{}", fmt::join(choices, " | "));
 }
 
-}  // namespace tagfield::settings_internal
+std::string to_string(const ValueRange& range) {
+  const std::string least = fmt::format("{} {:g}", range.over ? "over" : "at least", range.least);
+  return range.most == ValueRange{}.most ? least
+                                         : fmt::format("{} and at most {:g}", least, range.most);
+}
+
+double number_in(const std::string& text, const ValueRange& range) {
+  const double value = number_in(text);
+  const bool enough = range.over ? value > range.least : value >= range.least;
+  if (enough && value <= range.most) return value;
+  throw Error(fmt::format("must be {}, is {}",
+                          enough ? fmt::format("at most {:g}", range.most) : to_string(range),
+                          text));
+}
+
+double whole_number_in(const std::string& text, const ValueRange& range) {
+  const double value = number_in(text, range);
+  if (std::floor(value) != value) {
+    throw Error(fmt::format("is '{}', expected a whole number", text));
+  }
+  return value;
+}
+
+std::string text_of(double number) { return fmt::format("{}", number); }
+
+bool has_key(const std::vector<SettingHelp>& helps, const std::string& key) {
+  return std::any_of(helps.begin(), helps.end(),
+                     [&](const SettingHelp& help) { return help.key == key; });
+}
+
+Location place_of(const std::string& complaint, const std::vector<RawParameter>& parameters,
+                  const Location& otherwise) {
+  const std::string key = complaint.substr(0, complaint.find(' '));
+  const auto found = std::find_if(parameters.rbegin(), parameters.rend(),
+                                  [&](const RawParameter& p) { return p.key == key; });
+  return found == parameters.rend() ? otherwise : found->location;
+}
+
+}  // namespace tagfield
