@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
-#include <set>
 
 #include "simulator/internal/navigation_yaml.h"
 #include "simulator/internal/radio_yaml.h"
@@ -182,18 +182,25 @@ Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   return methods[static_cast<std::size_t>(choice(value, names))];
 }
 
-/// Settings of any method, as they stand.
-MethodSettings settings_of(YamlMap& map, const std::vector<Method>& methods) {
-  MethodSettings settings;
-  std::set<std::string> done;
-  for (const Method& method : methods) {
-    for (const SettingHelp& help : method.settings) {
-      if (!done.insert(help.key).second || !map.has(help.key)) continue;
-      const YamlValue value = map.at(help.key);
-      settings.push_back({help.key, value.text(), value.location()});
-    }
+/// Those of the settings that are there, as they stand.
+std::vector<RawParameter> settings_of(YamlMap& map, const std::vector<SettingHelp>& helps) {
+  std::vector<RawParameter> settings;
+  for (const SettingHelp& help : helps) {
+    if (!map.has(help.key)) continue;
+    const YamlValue value = map.at(help.key);
+    settings.push_back({help.key, value.text(), value.location()});
   }
   return settings;
+}
+
+/// The settings of all methods, each once.
+std::vector<SettingHelp> settings_of(const std::vector<Method>& methods) {
+  std::vector<SettingHelp> all;
+  for (const Method& method : methods) {
+    std::copy_if(method.settings.begin(), method.settings.end(), std::back_inserter(all),
+                 [&](const SettingHelp& help) { return !has_key(all, help.key); });
+  }
+  return all;
 }
 
 PoseErrorModel pose_error_of(YamlMap map) {
@@ -214,7 +221,7 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
     used.push_back(method_of(other, methods));
     spec.compare.push_back(used.back().name);
   }
-  spec.settings = settings_of(map, methods);
+  spec.settings = settings_of(map, settings_of(methods));
   refuse_unused(spec.settings, used, methods);
   for (const Method& method : used) configured(method, spec.settings);
 }
@@ -277,17 +284,14 @@ TrackingSpec tracking_of(YamlMap map) {
   }
   if (map.has("lane")) options.lane = lane_of(YamlMap(map.at("lane")));
   if (map.has("line")) spec.line = passing_line_of(YamlMap(map.at("line")));
-  const auto positive = [&](const char* key, double& value) {
-    value = map.number(key, value, kPositive);
-  };
-  positive("min_speed_m_s", options.min_speed_m_s);
-  positive("max_speed_m_s", options.max_speed_m_s);
-  positive("height_sigma_m", options.height_sigma_m);
-  positive("reach_m", options.reach_m);
-  positive("max_gap_s", options.max_gap_s);
-  positive("max_expected_error_m", options.max_expected_error_m);
-  options.acceleration_noise =
-      map.number("acceleration_noise", options.acceleration_noise, kNotNegative);
+  apply_settings(tracking_settings(), settings_of(map, helps_of(tracking_settings())), options);
+  const auto of_particles = settings_of(map, helps_of(particle_track_settings()));
+  if (!of_particles.empty() && options.method != TrackMethod::kParticle) {
+    fail(of_particles.front().location,
+         fmt::format("{} is not used by {}: it is a setting of particle", of_particles.front().key,
+                     to_string(options.method)));
+  }
+  apply_settings(particle_track_settings(), of_particles, options);
   map.finish();
   try {
     check(options);

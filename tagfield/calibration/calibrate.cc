@@ -9,10 +9,11 @@
 #include <set>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/base/require.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_least_squares.h"
-#include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/fit/robust_noise.h"
+#include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
 
@@ -48,15 +49,12 @@ struct AntennaData {
   std::vector<Eigen::Vector3d> tags;
 };
 
-/// Samples that share an offset.
-using Stretch = std::vector<std::size_t>;
-
 using Normal = CircularNormal<4>;
 using Row = CircularRow<4>;
 
 struct Model {
   const AntennaData& data;
-  const std::vector<Stretch>& stretches;
+  const std::vector<ReadStretch>& stretches;
   const CalibrationOptions& options;
   double sign = 1.0;
   double noise_rad = 0.3;
@@ -99,7 +97,7 @@ Normal normal_at(const Model& model, const Vector4& theta) {
   Normal normal;
   std::vector<Row> rows;
   const double weight = 1.0 / (model.noise_rad * model.noise_rad);
-  for (const Stretch& stretch : model.stretches) {
+  for (const ReadStretch& stretch : model.stretches) {
     rows.clear();
     for (const std::size_t i : stretch) {
       rows.push_back(linearize(model, model.data.samples[i], theta));
@@ -121,19 +119,6 @@ struct Fit {
   double cost = 0.0;
 };
 
-/// A fit under way.
-struct Point {
-  Vector4 theta;
-  Normal normal;
-  double cost = 0.0;
-};
-
-Point point_at(const Model& model, const Vector4& theta) {
-  Point point{theta, normal_at(model, theta), 0.0};
-  point.cost = point.normal.cost;
-  return point;
-}
-
 Fit fitted(Model model, const Fit& start) {
   Fit fit = start;
   model.noise_rad = start.noise_rad;
@@ -141,13 +126,12 @@ Fit fitted(Model model, const Fit& start) {
   constexpr LevenbergMarquardt kHow{
       .most_steps = 40, .most_damping = 1e6, .least_relative_gain = 1e-7};
   const double most_time_offset_s = 2.0 * model.options.most_time_offset_s;
-  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
-    const Vector4 next = here.theta + damped_step(here.normal.matrix, here.normal.right, damping);
-    if (!next.allFinite() || std::abs(next(3)) > most_time_offset_s) return std::nullopt;
-    return point_at(model, next);
+  const auto normal = [&](const Vector4& theta) { return normal_at(model, theta); };
+  const auto allowed = [&](const Vector4& theta) {
+    return theta.allFinite() && std::abs(theta(3)) <= most_time_offset_s;
   };
-  const Point best = descend(point_at(model, start.theta), kHow, step);
-  fit.theta = best.theta;
+  const CircularFit<4> best = fit_angles<4>(start.theta, kHow, normal, allowed);
+  fit.theta = best.unknowns;
   fit.cost = best.cost;
   fit.noise_rad = robust_noise(best.normal.residuals, model.stretches.size() + 4, kLeastNoise);
   model.noise_rad = fit.noise_rad;
@@ -156,23 +140,13 @@ Fit fitted(Model model, const Fit& start) {
 }
 
 /// Of one channel, and of one tag unless `shared`, over up to `length_s`.
-std::vector<Stretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
-  std::vector<Stretch> stretches;
-  std::map<std::pair<std::size_t, double>, std::size_t> open;
-  const Duration length = duration_from_seconds(length_s);
-  for (std::size_t i = 0; i < data.samples.size(); ++i) {
-    const Sample& sample = data.samples[i];
-    const std::pair key(shared ? 0 : sample.tag, sample.frequency_hz);
-    const auto found = open.find(key);
-    if (found != open.end() &&
-        sample.stamp - data.samples[stretches[found->second].front()].stamp <= length) {
-      stretches[found->second].push_back(i);
-      continue;
-    }
-    open[key] = stretches.size();
-    stretches.push_back({i});
-  }
-  return stretches;
+std::vector<ReadStretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
+  return tagfield::stretches_of(
+      data.samples.size(),
+      [&](std::size_t i) {
+        return std::pair(shared ? 0 : data.samples[i].tag, data.samples[i].frequency_hz);
+      },
+      [&](std::size_t i) { return data.samples[i].stamp; }, duration_from_seconds(length_s));
 }
 
 double duration_of(const AntennaData& data) {
@@ -188,9 +162,9 @@ bool moves(const AntennaData& data) {
 
 /// Both signs and a grid of time offsets over short stretches; the best few.
 std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& options) {
-  std::vector<Stretch> stretches = stretches_of(data, kShortest, false);
+  std::vector<ReadStretch> stretches = stretches_of(data, kShortest, false);
   const std::size_t stride = 1 + data.samples.size() / kSearchReads;
-  std::vector<Stretch> some;
+  std::vector<ReadStretch> some;
   for (std::size_t i = 0; i < stretches.size(); i += stride) some.push_back(stretches[i]);
   const int steps =
       moves(data) ? static_cast<int>(std::round(options.most_time_offset_s / kTimeStep)) : 0;
@@ -226,7 +200,7 @@ Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
                                [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
   const double duration = duration_of(data);
   for (double length = 2.0 * kShortest; length < 2.0 * duration + 4.0 * kShortest; length *= 2.0) {
-    const std::vector<Stretch> stretches = stretches_of(data, length, false);
+    const std::vector<ReadStretch> stretches = stretches_of(data, length, false);
     best = fitted({data, stretches, options, best.sign, best.noise_rad}, best);
   }
   return best;
@@ -241,10 +215,10 @@ struct TagOffset {
 
 /// Offset of each stretch, with what the geometry's uncertainty adds.
 std::vector<TagOffset> offsets_of(const AntennaData& data, const CalibrationOptions& options,
-                                  const std::vector<Stretch>& stretches, const Fit& fit) {
+                                  const std::vector<ReadStretch>& stretches, const Fit& fit) {
   std::vector<TagOffset> offsets;
   const Model model{data, stretches, options, fit.sign, fit.noise_rad};
-  for (const Stretch& stretch : stretches) {
+  for (const ReadStretch& stretch : stretches) {
     std::vector<Row> rows;
     Vector4 mean = Vector4::Zero();
     for (const std::size_t i : stretch) {
@@ -287,7 +261,7 @@ AntennaCalibration calibration_of(const AntennaData& data, const CalibrationOpti
   result.tag_scatter_rad =
       scatter_of(offsets_of(data, options, stretches_of(data, whole, false), fit));
   const bool agree = result.tag_scatter_rad < kAgree;
-  const std::vector<Stretch> shared = stretches_of(data, whole, true);
+  const std::vector<ReadStretch> shared = stretches_of(data, whole, true);
   if (agree) fit = fitted({data, shared, options, fit.sign, fit.noise_rad}, fit);
   const double scale = half_turns ? 0.5 : 1.0;
   result.phase_sign = fit.sign > 0.0 ? 1 : -1;
@@ -335,11 +309,6 @@ std::map<std::string, AntennaData> data_of(const SamplesByTag& samples,
                      [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
   }
   return data;
-}
-
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
 }
 
 }  // namespace

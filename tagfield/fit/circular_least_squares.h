@@ -6,10 +6,12 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 
@@ -62,6 +64,32 @@ void add_angles(const std::vector<CircularRow<N>>& rows, bool offset_free, doubl
   if (!offset_free || weights <= 1e-9) return;
   normal.matrix.noalias() -= weight / weights * sum * sum.transpose();
   normal.right -= weight * residuals / weights * sum;
+}
+
+/// Unknowns, with the normal equations there.
+template <int N>
+struct CircularFit {
+  Eigen::Matrix<double, N, 1> unknowns;
+  CircularNormal<N> normal;
+  double cost = 0.0;  ///< That of `normal`.
+};
+
+/// From `start` to the least cost nearby, as far as `allowed(unknowns)`; a step beyond ends it.
+/// `normal_at(unknowns)` gives the CircularNormal.
+template <int N, typename NormalAt, typename Allowed>
+CircularFit<N> fit_angles(const Eigen::Matrix<double, N, 1>& start, const LevenbergMarquardt& how,
+                          const NormalAt& normal_at, const Allowed& allowed) {
+  const auto at = [&](const Eigen::Matrix<double, N, 1>& unknowns) {
+    CircularFit<N> fit{unknowns, normal_at(unknowns), 0.0};
+    fit.cost = fit.normal.cost;
+    return fit;
+  };
+  using Next = std::optional<CircularFit<N>>;
+  return descend(at(start), how, [&](const CircularFit<N>& here, double damping) -> Next {
+    const Eigen::Matrix<double, N, 1> next =
+        here.unknowns + damped_step(here.normal.matrix, here.normal.right, damping);
+    return allowed(next) ? Next(at(next)) : std::nullopt;
+  });
 }
 
 }  // namespace tagfield

@@ -1,9 +1,8 @@
 #include "tagfield/localization/problem.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "tagfield/base/require.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/judgement.h"
@@ -13,11 +12,6 @@ namespace {
 
 void require_finite(double value, const std::string& what) {
   if (!std::isfinite(value)) throw Error(what + " must be finite");
-}
-
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
 }
 
 void check(const PoseErrorModel& model) {

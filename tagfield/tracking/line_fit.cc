@@ -3,11 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "tagfield/fit/circular_least_squares.h"
-#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 namespace {
@@ -37,6 +35,8 @@ Vector6d as_vector(const StraightMotion& motion) {
   return theta;
 }
 
+StraightMotion as_motion(const Vector6d& theta) { return {theta.head<3>(), theta.tail<3>()}; }
+
 struct FitInput {
   const Pass& pass;
   const std::vector<SubAperture>& apertures;
@@ -61,41 +61,12 @@ Normal normal_at(const FitInput& input, const StraightMotion& motion) {
   return normal;
 }
 
-/// A fit under way.
-struct Point {
-  StraightMotion motion;
-  Normal normal;
-  double cost = 0.0;
-};
-
-Point point_at(const FitInput& input, const StraightMotion& motion) {
-  Point point{motion, normal_at(input, motion), 0.0};
-  point.cost = point.normal.cost;
-  return point;
-}
-
-StraightMotion moved(const StraightMotion& motion, const Vector6d& step) {
-  return {motion.p_WT + step.head<3>(), motion.v_WT + step.tail<3>()};
-}
-
 }  // namespace
 
 std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s) {
-  std::vector<SubAperture> apertures;
-  std::map<std::size_t, std::size_t> open;  // by group
-  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
-    const PassRead& read = pass.reads[i];
-    const auto found = open.find(read.group);
-    const bool goes_on = found != open.end() &&
-                         read.t_s - pass.reads[apertures[found->second].front()].t_s <= length_s;
-    if (goes_on) {
-      apertures[found->second].push_back(i);
-    } else {
-      open[read.group] = apertures.size();
-      apertures.push_back({i});
-    }
-  }
-  return apertures;
+  return stretches_of(
+      pass.reads.size(), [&](std::size_t i) { return pass.reads[i].group; },
+      [&](std::size_t i) { return pass.reads[i].t_s; }, length_s);
 }
 
 MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
@@ -126,14 +97,13 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
   const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
   constexpr LevenbergMarquardt kHow{
       .most_steps = 30, .most_damping = 1e6, .least_relative_gain = 1e-6};
-  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
-    const Vector6d change = damped_step(here.normal.matrix, here.normal.right, damping);
-    return point_at(input, moved(here.motion, change));
-  };
-  const Point best = descend(point_at(input, start), kHow, step);
+  const CircularFit<6> best = fit_angles<6>(
+      as_vector(start), kHow,
+      [&](const Vector6d& theta) { return normal_at(input, as_motion(theta)); },
+      [](const Vector6d&) { return true; });
   const Normal& normal = best.normal;
   LineFit fit;
-  fit.motion = best.motion;
+  fit.motion = as_motion(best.unknowns);
   const auto count = static_cast<double>(std::max<std::size_t>(pass.reads.size(), 1));
   const auto free = static_cast<double>(apertures.size() + 4);
   const auto errors = Eigen::Map<const Eigen::ArrayXd>(

@@ -5,14 +5,10 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/require.h"
 
 namespace tagfield {
 namespace {
-
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
-}
 
 void check(const Lane& lane) {
   if (!lane.point.allFinite() || !std::isfinite(lane.heading_rad)) {
@@ -36,29 +32,45 @@ TrackMethod track_method(const std::string& word) {
   throw Error(fmt::format("'{}' is no method of tracking, expected ekf, ukf or particle", word));
 }
 
+const std::vector<Setting<TrackingOptions>>& tracking_settings() {
+  using O = TrackingOptions;
+  static const std::vector<Setting<O>> all = {
+      setting<O>("min_speed_m_s", "m/s", "of horizontal motion", &O::min_speed_m_s, kOverZero),
+      setting<O>("max_speed_m_s", "m/s", "of horizontal motion", &O::max_speed_m_s,
+                 {0.0, true, 30.0}),
+      setting<O>("acceleration_noise", "m/s²/√Hz", "process noise: velocity strays by it times √t",
+                 &O::acceleration_noise, kAtLeastZero),
+      setting<O>("height_sigma_m", "m", "of a height that is known", &O::height_sigma_m, kOverZero),
+      setting<O>("unknown_height_sigma_m", "m", "of one that is not", &O::unknown_height_sigma_m,
+                 kOverZero),
+      setting<O>("vertical_speed_sigma_m_s", "m/s", "of a tag", &O::vertical_speed_sigma_m_s,
+                 kOverZero),
+      setting<O>("reach_m", "m", "how far from the antennas halfway", &O::reach_m,
+                 {0.0, true, 50.0}),
+      setting<O>("gate_sigmas", "σ", "reads beyond are left out", &O::gate_sigmas, kOverZero),
+      setting<O>("max_gap_s", "s", "over longer gaps a tag is not followed", &O::max_gap_s,
+                 kOverZero),
+      setting<O>("max_expected_error_m", "m", "tracks less sure are not given",
+                 &O::max_expected_error_m, kOverZero),
+      setting<O>("min_coherence", "", "nor those that explain less", &O::min_coherence, kOverZero)};
+  return all;
+}
+
+const std::vector<Setting<TrackingOptions>>& particle_track_settings() {
+  using O = TrackingOptions;
+  static const std::vector<Setting<O>> all = {
+      setting<O>("particles", "", "of each filter", &O::particles, {100.0, false, 1e6}),
+      setting<O>("seed", "", "of the particles", &O::seed, kAtLeastZero)};
+  return all;
+}
+
 void check(const TrackingOptions& options) {
   if (options.lane) check(*options.lane);
-  require_positive(options.min_speed_m_s, "the least speed");
-  require_positive(options.max_speed_m_s, "the greatest speed");
+  check_settings(tracking_settings(), options);
+  check_settings(particle_track_settings(), options);
   if (options.min_speed_m_s > options.max_speed_m_s) {
-    throw Error(fmt::format("the least speed, {} m/s, is over the greatest, {} m/s",
+    throw Error(fmt::format("min_speed_m_s, {} m/s, is over max_speed_m_s, {} m/s",
                             options.min_speed_m_s, options.max_speed_m_s));
-  }
-  if (options.max_speed_m_s > 30.0) throw Error("speeds over 30 m/s can't be followed");
-  if (!std::isfinite(options.acceleration_noise) || options.acceleration_noise < 0.0) {
-    throw Error("the acceleration noise must be finite and at least 0");
-  }
-  require_positive(options.height_sigma_m, "the sigma of a known height");
-  require_positive(options.unknown_height_sigma_m, "the sigma of an unknown height");
-  require_positive(options.vertical_speed_sigma_m_s, "the sigma of the vertical speed");
-  require_positive(options.reach_m, "reach");
-  if (options.reach_m > 50.0) throw Error("a reach over 50 m can't be searched");
-  require_positive(options.gate_sigmas, "gate");
-  require_positive(options.max_gap_s, "the longest gap");
-  require_positive(options.max_expected_error_m, "the greatest expected error");
-  require_positive(options.min_coherence, "the least coherence");
-  if (options.particles < 100 || options.particles > 1'000'000) {
-    throw Error("particles must be 100 to 1000000");
   }
 }
 

@@ -68,6 +68,25 @@ TEST(CircularLeastSquares, WholeTurnsChangeNothing) {
   EXPECT_EQ(after.residuals.size(), rows.size());
 }
 
+TEST(FitAngles, FindsWhatTheAnglesWereMadeOf) {
+  const auto normal_at = [](const Eigen::Vector2d& theta) {
+    return normal_of(rows_at(theta, 4, 0.0), true);
+  };
+  const auto found = fit_angles<2>(Eigen::Vector2d(-0.5, 0.5), {}, normal_at,
+                                   [](const Eigen::Vector2d&) { return true; });
+  EXPECT_LT((found.unknowns - Eigen::Vector2d(0.2, -0.3)).norm(), 1e-6);
+  EXPECT_LT(found.cost, 1e-9);
+}
+
+TEST(FitAngles, StaysWhereNothingElseIsAllowed) {
+  const Eigen::Vector2d start(-0.5, 0.5);
+  const auto found = fit_angles<2>(
+      start, {},
+      [](const Eigen::Vector2d& theta) { return normal_of(rows_at(theta, 4, 0.0), true); },
+      [](const Eigen::Vector2d&) { return false; });
+  EXPECT_EQ(found.unknowns, start);
+}
+
 TEST(CircularMean, OfAnglesAcrossHalfATurn) {
   CircularMean mean;
   EXPECT_EQ(mean.value(), 0.0);

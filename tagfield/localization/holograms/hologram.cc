@@ -197,26 +197,7 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
 }
 
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y) {
-  Tile light = Tile::Zero();
-  Tile cosine;
-  Tile sine;
-  for (const Aperture& aperture : reads.apertures) {
-    Tile in_phase = Tile::Zero();
-    Tile quadrature = Tile::Zero();
-    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
-      const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
-      const Tile turns = residual_turns(read, x, y);
-      wave_of(wrapped_turns(turns), cosine, sine);
-      in_phase += cosine;
-      quadrature += sine;
-    }
-    if (aperture.offset_known) {
-      light += in_phase;
-    } else {
-      light += (in_phase.square() + quadrature.square()).sqrt();
-    }
-  }
-  return light;
+  return coherent_sum(reads, [&](const SearchRead& read) { return residual_turns(read, x, y); });
 }
 
 std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,

@@ -64,7 +64,32 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
   sine = 2.0f * s * c;
 }
 
-/// Σ |Σ e^{j(φ − k r)}| over the apertures; the real part where the offset is known.
+/// Σ |Σ e^{jφ}| over the apertures, the real part where the offset is known, with the phase of each
+/// read in `turns_of(read)`.
+template <typename TurnsOf>
+Tile coherent_sum(const SearchReads& reads, const TurnsOf& turns_of) {
+  Tile light = Tile::Zero();
+  Tile cosine;
+  Tile sine;
+  for (const Aperture& aperture : reads.apertures) {
+    Tile in_phase = Tile::Zero();
+    Tile quadrature = Tile::Zero();
+    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
+      const Tile turns = turns_of(reads.reads[static_cast<std::size_t>(i)]);
+      wave_of(wrapped_turns(turns), cosine, sine);
+      in_phase += cosine;
+      quadrature += sine;
+    }
+    if (aperture.offset_known) {
+      light += in_phase;
+    } else {
+      light += (in_phase.square() + quadrature.square()).sqrt();
+    }
+  }
+  return light;
+}
+
+/// That of the residuals φ − k r.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
 
 /// How the area is searched.

@@ -45,29 +45,11 @@ double uniform(RandomStream& stream) { return static_cast<double>(stream() >> 11
 
 /// Like coherent_brightness(), each place with a height of its own.
 Tile coherence_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
-  Tile light = Tile::Zero();
-  Tile cosine;
-  Tile sine;
-  for (const Aperture& aperture : reads.apertures) {
-    Tile in_phase = Tile::Zero();
-    Tile quadrature = Tile::Zero();
-    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
-      const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
-      const Tile turns =
-          read.turns -
-          read.turns_per_metre *
-              ((x - read.x).square() + (y - read.y).square() + (z - read.z).square()).sqrt();
-      wave_of(wrapped_turns(turns), cosine, sine);
-      in_phase += cosine;
-      quadrature += sine;
-    }
-    if (aperture.offset_known) {
-      light += in_phase;
-    } else {
-      light += (in_phase.square() + quadrature.square()).sqrt();
-    }
-  }
-  return light;
+  return coherent_sum(reads, [&](const SearchRead& read) -> Tile {
+    return read.turns -
+           read.turns_per_metre *
+               ((x - read.x).square() + (y - read.y).square() + (z - read.z).square()).sqrt();
+  });
 }
 
 std::vector<double> coherence_of(const SearchReads& reads,
