@@ -64,7 +64,7 @@ void locate(benchmark::State& state, const Method& method) {
 
 int main(int argc, char** argv) {
   using namespace tagfield;
-  for (const Method& method : built_in_methods({})) {
+  for (const Method& method : built_in_methods()) {
     benchmark::RegisterBenchmark(("locate/" + method.name).c_str(), [method](
                                                                         benchmark::State& state) {
       locate(state, method);

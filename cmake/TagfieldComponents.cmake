@@ -14,7 +14,7 @@ endmacro()
 tagfield_component(core ROOMS base poses stream PACKAGES Threads "Eigen3 3.3" fmt)
 tagfield_component(files NEEDS core ROOMS files)
 tagfield_component(motion NEEDS core ROOMS motion)
-tagfield_component(localization NEEDS core ROOMS localization tracking calibration)
+tagfield_component(localization NEEDS core ROOMS fit localization tracking calibration)
 tagfield_component(field NEEDS core
   ROOMS world link propagation channel gen2 reader settings field PACKAGES "embree 3")
 tagfield_component(sdf NEEDS field ROOMS sdf PACKAGES assimp sdformat12)

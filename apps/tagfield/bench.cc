@@ -4,6 +4,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/method_text.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/experiment/bench/bench_figures.h"
@@ -31,9 +32,7 @@ struct BenchArguments {
 };
 
 int list_methods() {
-  for (const Method& method : built_in_methods({})) {
-    fmt::print("{:<16} {}\n", method.name, method.summary);
-  }
+  fmt::print("{}", told_of_methods());
   return kExitOk;
 }
 
@@ -77,7 +76,7 @@ int bench(const BenchArguments& arguments) {
   if (arguments.list_methods) return list_methods();
   const Suite suite = suite_of(arguments);
   Diagnostics diagnostics;
-  const PreparedSuite prepared = prepare(suite, built_in_methods, diagnostics);
+  const PreparedSuite prepared = prepare(suite, built_in_methods(), diagnostics);
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
   StagedFolder folder(out);

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/localize_known.h"
+#include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/table.h"
@@ -42,6 +42,16 @@ const Scenario* scenario_in(const std::optional<ScenarioWithWorld>& loaded) {
   return loaded ? &loaded->scenario : nullptr;
 }
 
+/// Of the method, from the command line.
+MethodSettings settings_of(const LocalizeArguments& arguments) {
+  MethodSettings settings;
+  for (const std::string& argument : arguments.settings) {
+    const auto [key, value] = parse_override(argument);
+    settings.push_back({key, value, {"--set", 0}});
+  }
+  return settings;
+}
+
 /// Those of the scenario, with what the command line says instead; for poses of that name.
 LocalizationOptions options_of(const LocalizeArguments& arguments,
                                const std::optional<ScenarioWithWorld>& loaded,
@@ -51,10 +61,11 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
   options.threads = arguments.threads;
   if (!arguments.method.empty()) options.method = arguments.method;
-  if (arguments.stride_m && !std::isfinite(*arguments.stride_m)) {
-    throw Error("localize: --stride must be finite");
-  }
-  if (arguments.stride_m) options.settings.hyperbola.stride_m = *arguments.stride_m;
+  const MethodSettings told = settings_of(arguments);
+  options.settings.insert(options.settings.end(), told.begin(), told.end());
+  const Method method = find_method(options.methods, options.method);
+  refuse_unused(told, {method}, options.methods);
+  configured(method, told);
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   return options;
@@ -184,19 +195,10 @@ void refuse_options_of_bags(const LocalizeArguments& arguments) {
 void refuse_unknown_method(const std::string& method) {
   if (method.empty()) return;
   try {
-    find_method(built_in_methods({}), method);
+    find_method(built_in_methods(), method);
   } catch (const Error& error) {
     throw Error(fmt::format("localize: --method: {}", error.what()));
   }
-}
-
-/// Name and summary of each, a line each.
-std::string told_of_methods() {
-  std::string text = "Methods:\n";
-  for (const Method& method : built_in_methods({})) {
-    text += fmt::format("  {:<16} {}\n", method.name, method.summary);
-  }
-  return text;
 }
 
 /// The recording, with warnings of what is odd about it.
@@ -280,14 +282,18 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   add_known_options(*command, *arguments);
   command->add_option("--calibration", arguments->calibration,
                       "Profile by 'tagfield calibrate': corrects antenna places, stamps, phases");
-  command->add_option("--stride", arguments->stride_m, "Travel between hyperbolae [m]")
-      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--set", arguments->settings,
+                   "A setting of the method: KEY=VALUE, by the keys below. Can be given several "
+                   "times")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--out", arguments->out,
                       "Folder for the results (default runs/localized, of a bag runs/NAME)");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(
-      told_of_methods() +
+      "Methods, and the keys of --set that they take:\n" + told_of_methods() +
       "\nPhase must grow with distance (eq. 3 of the paper); turn the sign of readers that do the\n"
       "opposite. The antenna must have moved along a curve: from a straight path both mirror\n"
       "images are given. A bag's truth judges the estimates and is not used to make them.");

@@ -29,7 +29,7 @@ struct LocalizeArguments {
   std::optional<double> pose_time_constant_s;
   std::string calibration;  ///< Profile, or "".
   std::optional<double> tag_height_m;
-  std::optional<double> stride_m;
+  std::vector<std::string> settings;  ///< "KEY=VALUE", of the method.
   int threads = default_threads();
 };
 

@@ -2,33 +2,36 @@
 // the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
 #include <cstdio>
 
-#include "tagfield/base/units.h"
+#include <cmath>
+
 #include "tagfield/experiment/bench/bench_text.h"
 #include "tagfield/experiment/bench/run_bench.h"
+#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/locate.h"
 
 namespace {
+
+// What a user may choose.
+struct CentroidOptions {
+  double power = 1.0;  // Of the received power, by which places are weighted.
+};
 
 // The mean of the antenna places that read the tag, weighted by the power that arrived: near the
 // point of the path that is closest to the tag. No phase, so its error is of the order of the
 // path's distance.
 tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, const std::string& tag,
-                               const tagfield::SamplesOfTag& samples) {
-  tagfield::TagEstimate estimate;
-  estimate.tag = tag;
+                               const tagfield::SamplesOfTag& samples,
+                               const CentroidOptions& options) {
+  tagfield::TagEstimate estimate = tagfield::begun(tag, samples);
+  if (estimate.reads == 0) return tagfield::not_located(estimate, "no reads");
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0.0;
   for (const auto& [antenna, series] : samples) {
     for (const tagfield::PhaseSample& sample : series) {
-      const double milliwatts = from_db(sample.rssi_dbm);
-      sum += milliwatts * sample.p_WA;
-      weights += milliwatts;
-      ++estimate.reads;
+      const double weight = std::pow(10.0, options.power * sample.rssi_dbm / 10.0);
+      sum += weight * sample.p_WA;
+      weights += weight;
     }
-  }
-  if (estimate.reads == 0) {
-    estimate.reason = "cannot localize: no reads";
-    return estimate;
   }
   tagfield::Candidate place;
   place.p_WT = sum / weights;
@@ -38,22 +41,17 @@ tagfield::TagEstimate centroid(const tagfield::LocalizationProblem& problem, con
   return estimate;
 }
 
+// Its settings can be given in scenarios and suites as those of any other method.
 tagfield::Method centroid_method() {
-  return {"centroid", "mean of the antenna's places, weighted by RSSI",
-          [](const tagfield::LocalizationProblem& problem, int threads, tagfield::Diagnostics&) {
-            tagfield::LocalizationResult result;
-            result.method = "centroid";
-            result.estimates = tagfield::locate_each(
-                problem, threads,
-                [&](const std::string& tag, const tagfield::SamplesOfTag& samples) {
-                  return centroid(problem, tag, samples);
-                });
-            return result;
-          }};
+  const tagfield::OptionTable<CentroidOptions> settings{
+      {tagfield::setting<CentroidOptions>("power", "", "of the received power, as a weight",
+                                          &CentroidOptions::power, tagfield::kOverZero)}};
+  return tagfield::one_by_one("centroid", "mean of the antenna's places, weighted by RSSI",
+                              settings, CentroidOptions{}, centroid);
 }
 
-std::vector<tagfield::Method> all_methods(const tagfield::MethodSettings& settings) {
-  std::vector<tagfield::Method> methods = tagfield::built_in_methods(settings);
+std::vector<tagfield::Method> all_methods() {
+  std::vector<tagfield::Method> methods = tagfield::built_in_methods();
   methods.push_back(centroid_method());
   return methods;
 }
@@ -69,7 +67,9 @@ tagfield::Suite comparison(const std::string& scenario) {
   tagfield::Suite suite;
   suite.name = "own_method";
   suite.count = 3;
-  suite.methods = {{"hyperbola", "hyperbola", {}, {}}, {"centroid", "centroid", {}, {}}};
+  suite.methods = {{"hyperbola", "hyperbola", {}, {}},
+                   {"centroid", "centroid", {}, {}},
+                   {"sharper", "centroid", {{"localization.power", "2"}}, {}}};
   suite.conditions = {exact, noisy};
   return suite;
 }
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const tagfield::Bench bench = tagfield::run_bench(comparison(argv[1]), all_methods, {});
+    const tagfield::Bench bench = tagfield::run_bench(comparison(argv[1]), all_methods(), {});
     std::printf("%s", tagfield::bench_to_text(bench, tagfield::Timing::kWithoutTimes).c_str());
   } catch (const tagfield::Error& error) {
     std::fprintf(stderr, "own_method: %s\n", error.what());

@@ -8,11 +8,12 @@
 #include <optional>
 #include <set>
 
-#include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/circular_fit.h"
+#include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/robust_noise.h"
+#include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
 
@@ -23,8 +24,7 @@ constexpr std::size_t kFewestReads = 30;
 constexpr double kShortest = 1.0;   ///< First stretches of time [s].
 constexpr double kTimeStep = 0.01;  ///< Of the search for the time offset [s].
 constexpr std::size_t kSearchReads = 3000;
-constexpr double kSlopeTime = 1e-3;  ///< [s]
-constexpr int kMostSteps = 40;
+constexpr double kSlopeTime = 1e-3;   ///< [s]
 constexpr double kLeastNoise = 0.01;  ///< [rad]
 constexpr double kStraight = 0.02;    ///< An antenna that moved less tells nothing of time [m].
 /// Offsets of tags that differ by more than this, rms, beyond what noise does, are not shared.
@@ -49,15 +49,12 @@ struct AntennaData {
   std::vector<Eigen::Vector3d> tags;
 };
 
-/// Samples that share an offset.
-using Stretch = std::vector<std::size_t>;
-
 using Normal = CircularNormal<4>;
 using Row = CircularRow<4>;
 
 struct Model {
   const AntennaData& data;
-  const std::vector<Stretch>& stretches;
+  const std::vector<ReadStretch>& stretches;
   const CalibrationOptions& options;
   double sign = 1.0;
   double noise_rad = 0.3;
@@ -100,7 +97,7 @@ Normal normal_at(const Model& model, const Vector4& theta) {
   Normal normal;
   std::vector<Row> rows;
   const double weight = 1.0 / (model.noise_rad * model.noise_rad);
-  for (const Stretch& stretch : model.stretches) {
+  for (const ReadStretch& stretch : model.stretches) {
     rows.clear();
     for (const std::size_t i : stretch) {
       rows.push_back(linearize(model, model.data.samples[i], theta));
@@ -122,59 +119,34 @@ struct Fit {
   double cost = 0.0;
 };
 
-double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
-  const auto count = static_cast<double>(residuals.size());
-  const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  return std::max(kLeastNoise, sigma_by_median(residuals) * std::sqrt(count / freedom));
-}
-
 Fit fitted(Model model, const Fit& start) {
   Fit fit = start;
   model.noise_rad = start.noise_rad;
   model.sign = start.sign;
-  Normal normal = normal_at(model, fit.theta);
-  double damping = 1e-3;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
-    Matrix4 damped = normal.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector4 next = fit.theta + damped.ldlt().solve(normal.right);
-    if (!next.allFinite() || std::abs(next(3)) > 2.0 * model.options.most_time_offset_s) break;
-    Normal there = normal_at(model, next);
-    if (!(there.cost <= normal.cost)) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = normal.cost - there.cost;
-    fit.theta = next;
-    normal = std::move(there);
-    damping = std::max(0.1 * damping, 1e-9);
-    if (gain < 1e-7 * std::max(1.0, normal.cost)) break;
-  }
-  fit.cost = normal.cost;
-  fit.noise_rad = noise_of(normal.residuals, model.stretches.size() + 4);
+  constexpr LevenbergMarquardt kHow{
+      .most_steps = 40, .most_damping = 1e6, .least_relative_gain = 1e-7};
+  const double most_time_offset_s = 2.0 * model.options.most_time_offset_s;
+  const auto normal = [&](const Vector4& theta) { return normal_at(model, theta); };
+  const auto allowed = [&](const Vector4& theta) {
+    return theta.allFinite() && std::abs(theta(3)) <= most_time_offset_s;
+  };
+  const CircularFit<4> best = fit_angles<4>(start.theta, kHow, normal, allowed);
+  fit.theta = best.unknowns;
+  fit.cost = best.cost;
+  fit.noise_rad = robust_noise(best.normal.residuals, model.stretches.size() + 4, kLeastNoise);
   model.noise_rad = fit.noise_rad;
   fit.covariance = normal_at(model, fit.theta).matrix.ldlt().solve(Matrix4(Matrix4::Identity()));
   return fit;
 }
 
 /// Of one channel, and of one tag unless `shared`, over up to `length_s`.
-std::vector<Stretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
-  std::vector<Stretch> stretches;
-  std::map<std::pair<std::size_t, double>, std::size_t> open;
-  const Duration length = duration_from_seconds(length_s);
-  for (std::size_t i = 0; i < data.samples.size(); ++i) {
-    const Sample& sample = data.samples[i];
-    const std::pair key(shared ? 0 : sample.tag, sample.frequency_hz);
-    const auto found = open.find(key);
-    if (found != open.end() &&
-        sample.stamp - data.samples[stretches[found->second].front()].stamp <= length) {
-      stretches[found->second].push_back(i);
-      continue;
-    }
-    open[key] = stretches.size();
-    stretches.push_back({i});
-  }
-  return stretches;
+std::vector<ReadStretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
+  return tagfield::stretches_of(
+      data.samples.size(),
+      [&](std::size_t i) {
+        return std::pair(shared ? 0 : data.samples[i].tag, data.samples[i].frequency_hz);
+      },
+      [&](std::size_t i) { return data.samples[i].stamp; }, duration_from_seconds(length_s));
 }
 
 double duration_of(const AntennaData& data) {
@@ -190,9 +162,9 @@ bool moves(const AntennaData& data) {
 
 /// Both signs and a grid of time offsets over short stretches; the best few.
 std::vector<Fit> coarse_fits(const AntennaData& data, const CalibrationOptions& options) {
-  std::vector<Stretch> stretches = stretches_of(data, kShortest, false);
+  std::vector<ReadStretch> stretches = stretches_of(data, kShortest, false);
   const std::size_t stride = 1 + data.samples.size() / kSearchReads;
-  std::vector<Stretch> some;
+  std::vector<ReadStretch> some;
   for (std::size_t i = 0; i < stretches.size(); i += stride) some.push_back(stretches[i]);
   const int steps =
       moves(data) ? static_cast<int>(std::round(options.most_time_offset_s / kTimeStep)) : 0;
@@ -228,7 +200,7 @@ Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
                                [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
   const double duration = duration_of(data);
   for (double length = 2.0 * kShortest; length < 2.0 * duration + 4.0 * kShortest; length *= 2.0) {
-    const std::vector<Stretch> stretches = stretches_of(data, length, false);
+    const std::vector<ReadStretch> stretches = stretches_of(data, length, false);
     best = fitted({data, stretches, options, best.sign, best.noise_rad}, best);
   }
   return best;
@@ -243,10 +215,10 @@ struct TagOffset {
 
 /// Offset of each stretch, with what the geometry's uncertainty adds.
 std::vector<TagOffset> offsets_of(const AntennaData& data, const CalibrationOptions& options,
-                                  const std::vector<Stretch>& stretches, const Fit& fit) {
+                                  const std::vector<ReadStretch>& stretches, const Fit& fit) {
   std::vector<TagOffset> offsets;
   const Model model{data, stretches, options, fit.sign, fit.noise_rad};
-  for (const Stretch& stretch : stretches) {
+  for (const ReadStretch& stretch : stretches) {
     std::vector<Row> rows;
     Vector4 mean = Vector4::Zero();
     for (const std::size_t i : stretch) {
@@ -268,15 +240,12 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   double squares = 0.0;
   double freedom = 0.0;
   for (const auto& [channel, offsets] : by_channel) {
-    double cosine = 0.0;
-    double sine = 0.0;
+    CircularMean mean;
     for (const TagOffset* offset : offsets) {
-      cosine += std::cos(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
-      sine += std::sin(offset->offset_rad) / (offset->sigma_rad * offset->sigma_rad);
+      mean.add(offset->offset_rad, 1.0 / (offset->sigma_rad * offset->sigma_rad));
     }
-    const double mean = std::atan2(sine, cosine);
     for (const TagOffset* offset : offsets) {
-      const double error = wrap_to_pi(offset->offset_rad - mean);
+      const double error = wrap_to_pi(offset->offset_rad - mean.value());
       squares += std::max(0.0, error * error - offset->sigma_rad * offset->sigma_rad);
     }
     freedom += static_cast<double>(offsets.size()) - 1.0;
@@ -292,7 +261,7 @@ AntennaCalibration calibration_of(const AntennaData& data, const CalibrationOpti
   result.tag_scatter_rad =
       scatter_of(offsets_of(data, options, stretches_of(data, whole, false), fit));
   const bool agree = result.tag_scatter_rad < kAgree;
-  const std::vector<Stretch> shared = stretches_of(data, whole, true);
+  const std::vector<ReadStretch> shared = stretches_of(data, whole, true);
   if (agree) fit = fitted({data, shared, options, fit.sign, fit.noise_rad}, fit);
   const double scale = half_turns ? 0.5 : 1.0;
   result.phase_sign = fit.sign > 0.0 ? 1 : -1;

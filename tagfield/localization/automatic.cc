@@ -8,12 +8,13 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
-#include "tagfield/localization/least_squares.h"
-#include "tagfield/localization/locate.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
 
 namespace tagfield {
 namespace {
 
+/// Methods that may be chosen.
+constexpr const char* kChosen[] = {"joint", "ml", "sar", "trilateration", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
@@ -94,6 +95,25 @@ double misfit_left(const LocalizationResult& result, double noise_m) {
   return noise_m > 0.0 ? lesser_median(std::move(misfits)) / noise_m : 0.0;
 }
 
+/// Chooses among these and runs the chosen one.
+LocateFunction among(const std::vector<Method>& methods) {
+  return [methods](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
+    const DataTraits traits = traits_of(problem, threads);
+    Choice choice = choose_method(traits, problem.reference_tags.size());
+    LocalizationResult result =
+        find_method(methods, choice.method).locate(problem, threads, diagnostics);
+    const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
+    if (misfit > kLeftOver) {
+      choice = {"sar", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
+                                   "the noise, as reflections make it",
+                                   misfit)};
+      result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
+    }
+    result.why = choice.why;
+    return result;
+  };
+}
+
 }  // namespace
 
 DataTraits traits_of(const LocalizationProblem& problem, int threads) {
@@ -148,24 +168,22 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   return {"ml", "the pose is exact and the phase fits"};
 }
 
-Method automatic_method(std::vector<Method> methods) {
-  const auto locate = [methods = std::move(methods)](const LocalizationProblem& problem,
-                                                     int threads, Diagnostics& diagnostics) {
-    const DataTraits traits = traits_of(problem, threads);
-    Choice choice = choose_method(traits, problem.reference_tags.size());
-    LocalizationResult result =
-        find_method(methods, choice.method).locate(problem, threads, diagnostics);
-    const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
-    if (misfit > kLeftOver) {
-      choice = {"sar", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
-                                   "the noise, as reflections make it",
-                                   misfit)};
-      result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
+Method automatic_method(const std::vector<Method>& methods) {
+  std::vector<Method> chosen;
+  for (const char* const name : kChosen) chosen.push_back(find_method(methods, name));
+  Method automatic{"auto", "one of the others, chosen by the data, which is told with the reason",
+                   among(chosen)};
+  for (const Method& method : chosen) {
+    for (const SettingHelp& help : method.settings) {
+      if (!has_key(automatic.settings, help.key)) automatic.settings.push_back(help);
     }
-    result.why = choice.why;
-    return result;
+  }
+  automatic.with = [chosen](const MethodSettings& settings) {
+    std::vector<Method> set;
+    for (const Method& method : chosen) set.push_back(configured(method, settings));
+    return among(set);
   };
-  return {"auto", "one of the others, chosen by the data, which is told with the reason", locate};
+  return automatic;
 }
 
 }  // namespace tagfield

@@ -31,8 +31,8 @@ struct Choice {
 };
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags);
 
-/// "auto": chooses among `methods` and runs the chosen one. Where "joint" leaves a misfit over
-/// three times the noise, "sar" is taken after all.
-Method automatic_method(std::vector<Method> methods);
+/// "auto": chooses among `methods` and runs the chosen one. Where "joint" leaves a misfit over 1.6
+/// times the noise, "sar" is taken after all.
+Method automatic_method(const std::vector<Method>& methods);
 
 }  // namespace tagfield

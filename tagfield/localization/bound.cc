@@ -6,7 +6,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
-#include "tagfield/localization/joint_system.h"
+#include "tagfield/localization/joint/joint_system.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {

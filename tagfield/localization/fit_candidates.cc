@@ -116,14 +116,6 @@ Eigen::Matrix3d scatter_of(const std::vector<Pull>& pulls, const PoseErrorModel&
 
 }  // namespace
 
-FitData spans_of(const TagPhases& phases) {
-  FitData data;
-  for (const TagPhases::Span& span : phases.spans) {
-    data.spans.push_back({span.begin, span.count, 0.0});
-  }
-  return data;
-}
-
 std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::ArrayXd& errors) {
   std::vector<double> differences;
   for (const TagPhases::Span& span : phases.spans) {
@@ -155,9 +147,9 @@ Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& he
 
 Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height,
                               const TagFit& fit) {
-  const FitData data = spans_of(phases);
   const Eigen::ArrayXd errors = residuals_of(phases, height, fit);
-  const double noise = residual_variance(data, errors) * correlation_factor(data, errors);
+  const double noise =
+      residual_variance(phases.spans, errors) * correlation_factor(phases.spans, errors);
   const Eigen::Matrix3d normal =
       normal_of(phases, height, fit.unknowns) / mean_square_wavenumber(phases);
   const Eigen::Matrix3d anything = kAnything * Eigen::Matrix3d::Identity();
@@ -183,13 +175,14 @@ Candidate make_candidate(const TagPhases& phases, const HeightModel& height, con
 
 std::vector<Candidate> make_candidates(const TagPhases& phases, const HeightModel& height,
                                        std::vector<TagFit> fits) {
-  const FitData data = spans_of(phases);
   const std::vector<TagFit> kept = distinct(std::move(fits));
   const Eigen::ArrayXd best = residuals_of(phases, height, kept.front());
   std::vector<Candidate> candidates;
   for (const TagFit& fit : kept) {
     const bool is_first = candidates.empty();
-    if (!is_first && tells_apart(data, best, residuals_of(phases, height, fit))) continue;
+    if (!is_first && tells_apart(phases.spans, best, residuals_of(phases, height, fit))) {
+      continue;
+    }
     candidates.push_back(make_candidate(phases, height, fit));
   }
   return candidates;
@@ -205,7 +198,7 @@ std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightMode
   const PlaceVector direction = axes.eigenvectors().col(2);
   const double reach =
       std::min(kDeviations * std::sqrt(std::max(axes.eigenvalues()[2], 0.0)), kFarthest);
-  const double eighth = phases.cycle.maxCoeff() / 4.0;  // A cycle is half a wavelength.
+  const double eighth = longest_cycle(phases) / 4.0;  // A cycle is half a wavelength.
   const double step = eighth / std::max(range_rate_spread(phases, height, fit, direction), 1e-6);
   const int steps = std::min(kMostSteps, static_cast<int>(std::floor(reach / step)));
   for (int i = 1; i <= steps; ++i) {

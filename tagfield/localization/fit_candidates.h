@@ -5,14 +5,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tagfield/localization/segment_fit.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/localization/tag_fit.h"
 
 namespace tagfield {
-
-/// The spans alone, which is all that residuals.h takes besides the residuals.
-FitData spans_of(const TagPhases& phases);
 
 /// Covariance of the unknowns of a fit [m², q in m⁴]: σ² τ N⁻¹, with the residuals' variance σ² and
 /// their correlation factor τ (residuals.h). Rows of a known height are 0. Singular geometry gives

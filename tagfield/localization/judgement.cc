@@ -79,6 +79,13 @@ std::string why_hopeless(const SamplesOfTag& samples) {
   return "";
 }
 
+TagEstimate begun(const std::string& tag, const SamplesOfTag& samples) {
+  TagEstimate estimate;
+  estimate.tag = tag;
+  estimate.reads = count_reads(samples);
+  return estimate;
+}
+
 TagEstimate not_located(TagEstimate estimate, const std::string& why) {
   estimate.verdict = Verdict::kNotLocated;
   estimate.reason = fmt::format("cannot localize: {}", why);

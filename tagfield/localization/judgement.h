@@ -15,6 +15,10 @@ namespace tagfield {
 /// Fewer reads of a tag than this locate nothing.
 inline constexpr std::size_t kFewestReads = 8;
 
+/// Reads beyond one for each unknown; a fit to fewer follows the noise and seems better than it is,
+/// and fewer fit many places by chance.
+inline constexpr std::size_t kFewestSpare = 16;
+
 /// An antenna that moved less than this [m] stood still.
 inline constexpr double kStillExtent = 0.1;
 
@@ -26,6 +30,9 @@ std::size_t count_reads(const SamplesOfTag& samples);
 
 /// Why these samples can't locate anything by the phase of a moving antenna; empty if they might.
 std::string why_hopeless(const SamplesOfTag& samples);
+
+/// An estimate that says nothing yet but how many reads there are.
+TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
 
 /// The estimate without candidates, with the reason "cannot localize: WHY".
 TagEstimate not_located(TagEstimate estimate, const std::string& why);

@@ -7,40 +7,22 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/localization/dah.h"
-#include "tagfield/localization/hyperbola.h"
-#include "tagfield/localization/landmarc.h"
 #include "tagfield/localization/method.h"
-#include "tagfield/localization/particle.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/sar.h"
-#include "tagfield/localization/trilateration.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 
-/// Settings of the methods that have any.
-struct MethodSettings {
-  HyperbolaOptions hyperbola;
-  SarOptions sar;
-  DahOptions dah;
-  ParticleOptions particle;
-  TrilaterationOptions trilateration;
-  LandmarcOptions landmarc;
-};
-
 /// All methods that come with Tagfield, in the order in which people are told of them.
-std::vector<Method> built_in_methods(const MethodSettings& settings);
-
-/// The method of that name. Throws Error on an unknown one, with the nearest known.
-Method find_method(const std::vector<Method>& methods, const std::string& name);
+std::vector<Method> built_in_methods();
 
 struct LocalizationOptions {
   std::string method = "hyperbola";
-  MethodSettings settings;
+  MethodSettings settings;  ///< Of which the method takes those that it has.
   KnownBeforehand known;
   int threads = 1;
+  std::vector<Method> methods = built_in_methods();  ///< To which one's own can be added.
 };
 
 /// Locates every tag in `reads` by the method that `options` names. Reads may come in any order;

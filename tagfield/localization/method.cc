@@ -1,8 +1,65 @@
 #include "tagfield/localization/method.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "tagfield/base/parallel.h"
+#include "tagfield/base/spelling.h"
 
 namespace tagfield {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Method>& methods) {
+  std::vector<std::string> names;
+  for (const Method& method : methods) names.push_back(method.name);
+  return names;
+}
+
+bool takes(const Method& method, const std::string& key) { return has_key(method.settings, key); }
+
+/// Why nobody takes it, or who does.
+std::string who_takes(const std::string& key, const std::vector<Method>& all) {
+  std::vector<Method> those;
+  std::vector<std::string> keys;
+  for (const Method& method : all) {
+    if (takes(method, key)) those.push_back(method);
+    for (const SettingHelp& help : method.settings) keys.push_back(help.key);
+  }
+  if (those.empty()) return "is a setting of no method" + suggestion(key, keys);
+  return fmt::format("is a setting of {}", fmt::join(names_of(those), ", "));
+}
+
+}  // namespace
+
+Method configured(Method method, const MethodSettings& settings) {
+  MethodSettings own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
+               [&](const RawParameter& setting) { return takes(method, setting.key); });
+  if (!own.empty()) method.locate = method.with(own);
+  return method;
+}
+
+void refuse_unused(const MethodSettings& settings, const std::vector<Method>& used,
+                   const std::vector<Method>& all) {
+  for (const RawParameter& setting : settings) {
+    const bool is_used = std::any_of(
+        used.begin(), used.end(), [&](const Method& method) { return takes(method, setting.key); });
+    if (is_used) continue;
+    fail(setting.location,
+         fmt::format("{} is not used by {}: it {}", setting.key, fmt::join(names_of(used), ", "),
+                     who_takes(setting.key, all)));
+  }
+}
+
+Method find_method(const std::vector<Method>& methods, const std::string& name) {
+  for (const Method& method : methods) {
+    if (method.name == name) return method;
+  }
+  throw Error(fmt::format("there is no method '{}'{}", name, suggestion(name, names_of(methods))));
+}
+
 TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT) {
   Candidate there;
   there.p_WT = p_WT;
@@ -29,6 +86,24 @@ std::vector<TagEstimate> locate_each(
                                                          : reference_estimate(tag, known->second);
   });
   return estimates;
+}
+
+LocateFunction named(const std::string& method, const LocateAll& locate) {
+  return [=](const LocalizationProblem& problem, int threads, Diagnostics&) {
+    LocalizationResult result;
+    result.method = method;
+    result.estimates = locate(problem, threads);
+    return result;
+  };
+}
+
+Method one_by_one(const std::string& name, const std::string& summary, const LocateTag& locate) {
+  return {name, summary, named(name, [locate](const LocalizationProblem& problem, int threads) {
+            return locate_each(problem, threads,
+                               [&](const std::string& tag, const SamplesOfTag& samples) {
+                                 return locate(problem, tag, samples);
+                               });
+          })};
 }
 
 }  // namespace tagfield

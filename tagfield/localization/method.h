@@ -5,9 +5,11 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/poses/trajectory.h"
@@ -28,11 +30,29 @@ struct LocalizationResult {
 using LocateFunction = std::function<LocalizationResult(const LocalizationProblem& problem,
                                                         int threads, Diagnostics& diagnostics)>;
 
+/// Settings of methods by key, as they stood in a file or on the command line.
+using MethodSettings = std::vector<RawParameter>;
+
 struct Method {
   std::string name;     ///< As on the command line: "hyperbola".
   std::string summary;  ///< One line for people.
   LocateFunction locate;
+  std::vector<SettingHelp> settings{};  ///< That it takes.
+  /// How it locates with settings, all of which it takes; null where it takes none. Throws Error on
+  /// values out of their range.
+  std::function<LocateFunction(const MethodSettings&)> with{};
 };
+
+/// The method with those of `settings` that it takes.
+Method configured(Method method, const MethodSettings& settings);
+
+/// Throws Error "FILE:LINE: …" on a setting that none of the methods `used` takes, which says which
+/// of `all` do.
+void refuse_unused(const MethodSettings& settings, const std::vector<Method>& used,
+                   const std::vector<Method>& all);
+
+/// The method of that name. Throws Error on an unknown one, with the nearest known.
+Method find_method(const std::vector<Method>& methods, const std::string& name);
 
 /// Estimate of a reference tag: the place that was given.
 TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT);
@@ -42,5 +62,78 @@ TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_
 std::vector<TagEstimate> locate_each(
     const LocalizationProblem& problem, int threads,
     const std::function<TagEstimate(const std::string& tag, const SamplesOfTag& samples)>& locate);
+
+/// Locates one tag.
+using LocateTag = std::function<TagEstimate(const LocalizationProblem& problem,
+                                            const std::string& tag, const SamplesOfTag& samples)>;
+
+/// A method without settings that takes one tag at a time.
+Method one_by_one(const std::string& name, const std::string& summary, const LocateTag& locate);
+
+/// The door of a method that only makes estimates.
+using LocateAll = std::function<std::vector<TagEstimate>(const LocalizationProblem&, int threads)>;
+LocateFunction named(const std::string& method, const LocateAll& locate);
+
+/// What a method has that takes settings: `table` has the keys of all that a user may want to set,
+/// `check`, if any, throws Error on options that don't go together.
+template <class Options>
+struct OptionTable {
+  std::vector<Setting<Options>> table;
+  std::function<void(const Options&)> check{};
+};
+
+/// Throws Error on options that are out of their range or don't go together.
+template <class Options>
+void check_options(const OptionTable<Options>& of, const Options& options) {
+  check_settings(of.table, options);
+  if (of.check) of.check(options);
+}
+
+/// `options` with what the settings say instead. Throws Error on values out of their range.
+template <class Options>
+Options changed_options(const OptionTable<Options>& of, Options options,
+                        const MethodSettings& settings) {
+  apply_settings(of.table, settings, options);
+  try {
+    check_options(of, options);
+  } catch (const Error& error) {
+    fail(place_of(error.what(), settings, {}), error.what());
+  }
+  return options;
+}
+
+/// A method with options. Throws Error on `options` out of their range.
+template <class Options>
+Method method_with(const std::string& name, const std::string& summary,
+                   const OptionTable<Options>& table, const Options& options,
+                   const std::type_identity_t<std::function<std::vector<TagEstimate>(
+                       const LocalizationProblem&, int threads, const Options&)>>& locate) {
+  check_options(table, options);
+  const auto bound = [name, locate](const Options& of) {
+    return named(name, [locate, of](const LocalizationProblem& problem, int threads) {
+      return locate(problem, threads, of);
+    });
+  };
+  return {name, summary, bound(options), helps_of(table.table, options),
+          [=](const MethodSettings& settings) {
+            return bound(changed_options(table, options, settings));
+          }};
+}
+
+/// Likewise one that takes one tag at a time.
+template <class Options>
+Method one_by_one(const std::string& name, const std::string& summary,
+                  const OptionTable<Options>& table, const Options& options,
+                  const std::type_identity_t<
+                      std::function<TagEstimate(const LocalizationProblem&, const std::string& tag,
+                                                const SamplesOfTag&, const Options&)>>& locate) {
+  return method_with(name, summary, table, options,
+                     [locate](const LocalizationProblem& problem, int threads, const Options& of) {
+                       return locate_each(problem, threads,
+                                          [&](const std::string& tag, const SamplesOfTag& samples) {
+                                            return locate(problem, tag, samples, of);
+                                          });
+                     });
+}
 
 }  // namespace tagfield

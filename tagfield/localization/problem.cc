@@ -1,9 +1,8 @@
 #include "tagfield/localization/problem.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/judgement.h"
@@ -15,17 +14,12 @@ void require_finite(double value, const std::string& what) {
   if (!std::isfinite(value)) throw Error(what + " must be finite");
 }
 
-void require_positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0.0) return;
-  throw Error(fmt::format("{} must be finite and over 0, but is {}", name, value));
-}
-
 void check(const PoseErrorModel& model) {
   if (!(std::isfinite(model.sigma_m) && model.sigma_m >= 0.0 &&
         std::isfinite(model.yaw_sigma_rad) && model.yaw_sigma_rad >= 0.0)) {
     throw Error("the standard deviations of the pose error must be finite and at least 0");
   }
-  require_positive(model.time_constant_s, "time_constant_s");
+  require_positive("time_constant_s", model.time_constant_s);
 }
 
 void check(const KnownBeforehand& known) {
@@ -40,8 +34,8 @@ void check(const KnownBeforehand& known) {
     require_finite(offset.offset_rad, "the offset of antenna '" + offset.antenna + "'");
   }
   if (known.pose_error) check(*known.pose_error);
-  require_positive(known.limits.max_expected_error_m, "max_expected_error_m");
-  require_positive(known.limits.max_rms_m, "max_rms_m");
+  require_positive("max_expected_error_m", known.limits.max_expected_error_m);
+  require_positive("max_rms_m", known.limits.max_rms_m);
 }
 
 /// The offset of one channel goes before that of all.

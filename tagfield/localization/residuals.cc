@@ -1,21 +1,19 @@
 #include "tagfield/localization/residuals.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace tagfield {
 namespace {
 
-constexpr double kAnything = 1e6;
 /// No better is believed of any phase [m]: a fit without residuals is still not certain.
 constexpr double kLeastDeviation = 1e-5;
 
 /// Mean of e_i e_{i+lag} over the pairs within a segment; 0 where they are too few to tell.
-double lagged_product(const FitData& data, const Eigen::ArrayXd& residuals, Eigen::Index lag) {
+double lagged_product(const Spans& spans, const Eigen::ArrayXd& residuals, Eigen::Index lag) {
   double sum = 0.0;
   Eigen::Index all = 0;
-  for (const FitData::Span& span : data.spans) {
+  for (const TagPhases::Span& span : spans) {
     const Eigen::Index pairs = span.count - lag;
     if (pairs <= 0) continue;
     all += pairs;
@@ -27,47 +25,36 @@ double lagged_product(const FitData& data, const Eigen::ArrayXd& residuals, Eige
 
 }  // namespace
 
-double correlation_factor(const FitData& data, const Eigen::ArrayXd& residuals) {
+double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals) {
   constexpr Eigen::Index kLongestLag = 1000;
   const double power = residuals.size() > 0 ? residuals.square().mean() : 0.0;
   if (!(power > 0.0)) return 1.0;
   double factor = 1.0;
   const Eigen::Index last = std::min(kLongestLag, residuals.size() / 2);
   for (Eigen::Index lag = 1; lag < last; ++lag) {
-    const double correlation = lagged_product(data, residuals, lag) / power;
+    const double correlation = lagged_product(spans, residuals, lag) / power;
     if (correlation <= 0.0) break;
     factor += 2.0 * correlation;
   }
   return factor;
 }
 
-double residual_variance(const FitData& data, const Eigen::ArrayXd& residuals) {
+double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals) {
   const auto reads = static_cast<double>(residuals.size());
-  const auto unknowns = static_cast<double>(data.spans.size()) + 2.0;
+  const auto unknowns = static_cast<double>(spans.size()) + 2.0;
   // Slow errors are fitted away by as few unknowns as there are independent residuals.
-  const double slow = 3.0 * (correlation_factor(data, residuals) - 1.0);
+  const double slow = 3.0 * (correlation_factor(spans, residuals) - 1.0);
   const double freedom = std::max({1.0, 0.2 * reads, reads - unknowns - slow});
   return std::max(residuals.square().sum() / std::min(freedom, reads),
                   kLeastDeviation * kLeastDeviation);
 }
 
-double expected_error(const FitData& data, const Eigen::Vector2d& p) {
-  const Eigen::ArrayXd errors = residuals(data, p);
-  const Eigen::Matrix2d normal = normal_matrix(data, p);
-  const double determinant = normal.determinant();
-  const double noise = residual_variance(data, errors) * correlation_factor(data, errors);
-  // Trace of the inverse of a 2 × 2 matrix.
-  const double variance = noise * normal.trace() / determinant;
-  if (!(determinant > 0.0) || !std::isfinite(variance)) return kAnything;
-  return std::min(std::sqrt(variance), kAnything);
-}
-
-bool tells_apart(const FitData& data, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {
+bool tells_apart(const Spans& spans, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {
   constexpr double kThreshold = 16.0;
   constexpr double kDeviations = 4.0;
   constexpr double kRatioDeviations = 4.0;
-  const double factor = correlation_factor(data, best);
-  const double noise = residual_variance(data, best) * factor;
+  const double factor = correlation_factor(spans, best);
+  const double noise = residual_variance(spans, best) * factor;
   const double difference = (other.square() - best.square()).sum() / noise;
   const double chance = 2.0 * std::sqrt((other - best).square().sum() / noise);
   const double independent = static_cast<double>(best.size()) / factor;

@@ -4,21 +4,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
-#include "tagfield/localization/segment_fit.h"
+#include "tagfield/localization/tag_phases.h"
 
 namespace tagfield {
 
+/// Stretches of reads whose errors are fitted with an offset each.
+using Spans = std::vector<TagPhases::Span>;
+
 /// How many correlated residuals are worth one independent one, at least 1: the integrated
 /// autocorrelation time 1 + 2 Σ ρ_k over the lags before the first ρ_k ≤ 0.
-double correlation_factor(const FitData& data, const Eigen::ArrayXd& residuals);
+double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals);
 
 /// Variance of one residual [m²], the fitted place and offsets allowed for.
-double residual_variance(const FitData& data, const Eigen::ArrayXd& residuals);
-
-/// Root of the trace of the covariance of a place [m]: Σ = σ² τ N⁻¹ with the normal matrix N, the
-/// residuals' variance σ² and correlation factor τ. At most 1e6, which stands for "anything".
-double expected_error(const FitData& data, const Eigen::Vector2d& p);
+double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals);
 
 /// False where a place with residuals `other` explains the data so nearly as well as one with
 /// residuals `best` that chance could be the reason. To tell them apart all must hold, with
@@ -28,6 +28,6 @@ double expected_error(const FitData& data, const Eigen::Vector2d& p);
 ///     Econometrica 57, 1989);
 ///   - not by few slow errors: ln(Σ other² / Σ best²) > 4 · 2 / √(n/τ), four standard deviations
 ///     of the logarithm of a ratio of two variances.
-bool tells_apart(const FitData& data, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other);
+bool tells_apart(const Spans& spans, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other);
 
 }  // namespace tagfield

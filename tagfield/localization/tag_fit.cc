@@ -1,39 +1,32 @@
 #include "tagfield/localization/tag_fit.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/levenberg_marquardt.h"
 
 namespace tagfield {
 namespace {
 
 using Span = TagPhases::Span;
 
-double nearest_to_zero(double error, double cycle) {
-  return cycle > 0.0 ? error - cycle * std::round(error / cycle) : error;
-}
-
 double span_offset(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
                    const Span& span) {
   if (span.offset_known) return 0.0;
   double sum = 0.0;
-  double sine = 0.0;
-  double cosine = 0.0;
+  CircularMean mean;
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
     const double r = range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
     const double error = phases.value[i] - r;
-    if (phases.cycle[i] > 0.0) {
-      sine += std::sin(error * phases.wavenumber[i]);
-      cosine += std::cos(error * phases.wavenumber[i]);
-    } else {
+    if (phases.unwrapped) {
       sum += error;
+    } else {
+      mean.add(error * phases.wavenumber[i]);
     }
   }
-  if (phases.cycle[span.begin] > 0.0) {
-    return std::atan2(sine, cosine) / phases.wavenumber[span.begin];
-  }
-  return sum / static_cast<double>(span.count);
+  return phases.unwrapped ? sum / static_cast<double>(span.count)
+                          : mean.value() / phases.wavenumber[span.begin];
 }
 
 /// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
@@ -43,6 +36,13 @@ struct Step {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::VectorXd offset_shift;   ///< By span: the mean error there [m],
   Eigen::MatrixXd mean_gradient;  ///< and the mean gradient, a row a span.
+  double cost = 0.0;
+};
+
+/// A fit under way.
+struct Point {
+  TagFit fit;
+  Step step;
   double cost = 0.0;
 };
 
@@ -58,7 +58,7 @@ void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& 
   for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
     const Range range = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]);
     const double error =
-        nearest_to_zero(phases.value[i] - range.r - fit.offsets[row], phases.cycle[i]);
+        nearest_to_zero(phases, span, phases.value[i] - range.r - fit.offsets[row]);
     squares.noalias() += range.gradient * range.gradient.transpose();
     products += range.gradient * error;
     gradients += range.gradient;
@@ -90,6 +90,11 @@ Step step_at(const TagPhases& phases, const HeightModel& height, const TagFit& f
   return step;
 }
 
+void linearize(const TagPhases& phases, const HeightModel& height, Point& point) {
+  point.step = step_at(phases, height, point.fit);
+  point.cost = point.step.cost;
+}
+
 TagFit moved(const TagFit& fit, const Step& step, const PlaceVector& move) {
   TagFit next;
   next.unknowns = fit.unknowns + move;
@@ -114,40 +119,32 @@ Eigen::ArrayXd residuals_of(const TagPhases& phases, const HeightModel& height, 
     const Span& span = phases.spans[s];
     for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
       const double r = range_to(height, fit.unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
-      errors[i] = nearest_to_zero(phases.value[i] - r - fit.offsets[static_cast<Eigen::Index>(s)],
-                                  phases.cycle[i]);
+      errors[i] = nearest_to_zero(phases, span,
+                                  phases.value[i] - r - fit.offsets[static_cast<Eigen::Index>(s)]);
     }
   }
   return errors;
 }
 
 TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVector& start) {
-  constexpr int kRounds = 30;
   constexpr double kTolerance = 1e-6;  // [m]
-  TagFit fit;
-  fit.unknowns = start;
-  fit.offsets = offsets_at(phases, height, start);
-  Step here = step_at(phases, height, fit);
-  double damping = 1e-6;
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d damped = here.normal;
-    // The small constant keeps a singular matrix (nothing to learn) solvable.
-    damped.diagonal().array() += damping * here.normal.diagonal().array() + 1e-9;
-    const PlaceVector move = damped.ldlt().solve(here.gradient);
-    if (!move.allFinite() || move.norm() < kTolerance) break;
-    TagFit next = moved(fit, here, move);
-    const Step there = step_at(phases, height, next);
-    if (there.cost < here.cost) {
-      fit = std::move(next);
-      here = there;
-      damping = std::max(damping * 0.1, 1e-9);
-    } else {
-      damping = std::max(damping * 10.0, 1e-3);
-    }
-  }
-  fit.offsets += here.offset_shift;
-  fit.cost = here.cost;
-  return fit;
+  constexpr double kRidge = 1e-9;
+  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-6, .least_raised = 1e-3};
+  Point point;
+  point.fit.unknowns = start;
+  point.fit.offsets = offsets_at(phases, height, start);
+  linearize(phases, height, point);
+  point = descend(point, kHow, [&](const Point& here, double damping) -> std::optional<Point> {
+    const PlaceVector move = damped_step(here.step.normal, here.step.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+    Point there;
+    there.fit = moved(here.fit, here.step, move);
+    linearize(phases, height, there);
+    return there;
+  });
+  point.fit.offsets += point.step.offset_shift;
+  point.fit.cost = point.cost;
+  return point.fit;
 }
 
 Eigen::Matrix3d normal_of(const TagPhases& phases, const HeightModel& height,

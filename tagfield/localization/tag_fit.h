@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "tagfield/localization/tag_phases.h"
+#include "tagfield/localization/height_model.h"
 
 namespace tagfield {
 

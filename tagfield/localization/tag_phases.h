@@ -1,5 +1,5 @@
 /// @file
-/// The phases of one tag laid out for fits, unwrapped or not.
+/// The phases of one tag laid out for fits and holograms, unwrapped or not.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,94 +9,61 @@
 #include <vector>
 
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/unwrap.h"
 
 namespace tagfield {
 
-/// All reads of a tag, span after span. The reads of a span share one phase offset.
+/// All reads of a tag, span after span. The reads of a span are of one antenna and carrier and
+/// share one phase offset.
 struct TagPhases {
   struct Span {
     Eigen::Index begin = 0;
     Eigen::Index count = 0;
-    std::string antenna;
+    std::string antenna{};
     bool offset_known = false;  ///< Then the offset is 0.
+    double cycle_m = 0.0;       ///< λ/2: what a turn of the phase is in distance.
   };
   Eigen::ArrayXd x, y, z;     ///< Antenna as believed [m].
   Eigen::ArrayXd value;       ///< Phase over its wave number: distance and offset [m].
-  Eigen::ArrayXd cycle;       ///< λ/2 [m], by whole ones of which `value` is not known; or 0.
   Eigen::ArrayXd wavenumber;  ///< 4π/λ [rad/m]: what a metre turns the phase by.
   Eigen::ArrayXd time_s;
   std::vector<Span> spans;
+  bool unwrapped = false;  ///< Else `value` is known but for whole cycles.
   /// Of the antenna's places, where it is told and not 0.
   std::optional<PoseErrorModel> pose_error;
 
   [[nodiscard]] Eigen::Index size() const { return value.size(); }
 };
 
-/// Unwrapped: each segment of two or more reads is a span, with an offset of its own.
-TagPhases unwrapped_phases(const LocalizationProblem& problem,
-                           const std::vector<PhaseSegment>& segments,
-                           const std::vector<std::string>& antennas);
-
 /// As they were reported, known but for whole cycles: each antenna and channel is a span. Samples
 /// of antennas that are not in `use` are left out.
 TagPhases wrapped_phases(const LocalizationProblem& problem, const SamplesOfTag& samples,
                          const std::vector<std::string>& use);
 
-/// What is known of the tag's height, and how it is estimated where it is not.
-struct HeightModel {
-  enum class Kind {
-    kKnown,  ///< z is `z`.
-    kLevel,  ///< Antennas all at height `z`: q = (z_tag − z)² is estimated, in which ranges are
-             ///< linear.
-    kFree,   ///< z is estimated.
-  };
-  Kind kind = Kind::kKnown;
-  double z = 0.0;     ///< [m]
-  double side = 1.0;  ///< 1 above, −1 below.
+/// The problem's model of the pose error, where it is told and not 0.
+std::optional<PoseErrorModel> told_pose_error(const LocalizationProblem& problem);
 
-  [[nodiscard]] int unknowns() const { return kind == Kind::kKnown ? 2 : 3; }
-};
+/// Room for `count` reads.
+void resize(TagPhases& phases, Eigen::Index count);
 
-/// For these samples of the tag.
-HeightModel height_model(const LocalizationProblem& problem, const std::string& tag,
-                         const TagPhases& phases);
+/// Lays out one sample, with its phase as it was reported.
+void put(TagPhases& phases, Eigen::Index at, const PhaseSample& sample);
 
-/// Unknowns of a place: x, y and, where it is estimated, q or z; else the third is 0.
-using PlaceVector = Eigen::Vector3d;
+/// The reads with these numbers, which rise, by the spans told; without a pose error.
+TagPhases chosen(const TagPhases& phases, const std::vector<Eigen::Index>& reads,
+                 std::vector<TagPhases::Span> spans);
 
-PlaceVector to_unknowns(const HeightModel& height, const Eigen::Vector3d& p_WT);
-Eigen::Vector3d to_place(const HeightModel& height, const PlaceVector& unknowns);
+/// Distance of a whole turn, by a carrier [m].
+double cycle_of(double frequency_hz);
 
-/// ∂place/∂unknowns, diagonal. Where q is near 0 its deviation, of variance `variance_q`, is the
-/// scale.
-Eigen::Matrix3d place_jacobian(const HeightModel& height, const PlaceVector& unknowns,
-                               double variance_q);
+/// The longest of all spans [m]; 0 without any.
+double longest_cycle(const TagPhases& phases);
 
-/// Covariance of the place from that of the unknowns (the delta method).
-Eigen::Matrix3d to_place_covariance(const HeightModel& height, const PlaceVector& unknowns,
-                                    const Eigen::Matrix3d& covariance);
-
-/// A range and its derivative by the unknowns.
-struct Range {
-  double r = 0.0;
-  PlaceVector gradient;
-};
-
-/// From an antenna at (x, y, z), in one call each for speed.
-inline Range range_to(const HeightModel& height, const PlaceVector& unknowns, double x, double y,
-                      double z) {
-  const double dx = unknowns[0] - x;
-  const double dy = unknowns[1] - y;
-  double up = height.z - z;
-  if (height.kind == HeightModel::Kind::kFree) up = unknowns[2] - z;
-  const double square = height.kind == HeightModel::Kind::kLevel ? unknowns[2] : up * up;
-  // Nearer than 1 cm to the antenna no direction is told.
-  const double r = std::sqrt(std::max(dx * dx + dy * dy + square, 1e-4));
-  double third = 0.0;
-  if (height.kind == HeightModel::Kind::kLevel) third = 0.5 / r;
-  if (height.kind == HeightModel::Kind::kFree) third = up / r;
-  return {r, {dx / r, dy / r, third}};
+/// `error` [m] less the whole cycles by which the span's values are not known.
+inline double nearest_to_zero(const TagPhases& phases, const TagPhases::Span& span, double error) {
+  return phases.unwrapped ? error : error - span.cycle_m * std::round(error / span.cycle_m);
 }
+
+/// Mirror image of `p` across the principal axis of the antennas' places, seen from above.
+Eigen::Vector2d mirror_image(const TagPhases& phases, const Eigen::Vector2d& p);
 
 }  // namespace tagfield

@@ -67,7 +67,7 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string spoken_method(const std::string& method) {
   if (method == "hyperbola") return "hyperbolic intersections of the unwrapped phase (the paper's)";
-  for (const Method& known : built_in_methods({})) {
+  for (const Method& known : built_in_methods()) {
     if (known.name == method) return method + ": " + known.summary;
   }
   return method;

@@ -70,7 +70,7 @@ enum class KnownHeight {
 struct LocalizationSpec {
   std::string method = "hyperbola";
   std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
-  MethodSettings settings;
+  MethodSettings settings;           ///< Of `method` and of those that are compared.
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;

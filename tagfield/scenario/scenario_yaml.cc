@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 
 #include "tagfield/base/spelling.h"
@@ -147,11 +148,32 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
   return tag;
 }
 
-/// The name of a method that there is.
-std::string method_of(const YamlValue& value) {
+/// A method that there is.
+Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   std::vector<std::string> names;
-  for (const Method& method : built_in_methods({})) names.push_back(method.name);
-  return names[static_cast<std::size_t>(choice(value, names))];
+  for (const Method& method : methods) names.push_back(method.name);
+  return methods[static_cast<std::size_t>(choice(value, names))];
+}
+
+/// Those of the settings that are there, as they stand.
+std::vector<RawParameter> settings_of(YamlMap& map, const std::vector<SettingHelp>& helps) {
+  std::vector<RawParameter> settings;
+  for (const SettingHelp& help : helps) {
+    if (!map.has(help.key)) continue;
+    const YamlValue value = map.at(help.key);
+    settings.push_back({help.key, value.text(), value.location()});
+  }
+  return settings;
+}
+
+/// The settings of all methods, each once.
+std::vector<SettingHelp> settings_of(const std::vector<Method>& methods) {
+  std::vector<SettingHelp> all;
+  for (const Method& method : methods) {
+    std::copy_if(method.settings.begin(), method.settings.end(), std::back_inserter(all),
+                 [&](const SettingHelp& help) { return !has_key(all, help.key); });
+  }
+  return all;
 }
 
 PoseErrorModel pose_error_of(YamlMap map) {
@@ -163,13 +185,23 @@ PoseErrorModel pose_error_of(YamlMap map) {
   return model;
 }
 
-LocalizationSpec localization_of(YamlMap map) {
+/// The methods that are used, their settings checked.
+void read_methods(YamlMap& map, const std::vector<Method>& methods, LocalizationSpec& spec) {
+  std::vector<Method> used = {map.has("method") ? method_of(map.at("method"), methods)
+                                                : find_method(methods, spec.method)};
+  spec.method = used.front().name;
+  for (const YamlValue& other : map.list("compare")) {
+    used.push_back(method_of(other, methods));
+    spec.compare.push_back(used.back().name);
+  }
+  spec.settings = settings_of(map, settings_of(methods));
+  refuse_unused(spec.settings, used, methods);
+  for (const Method& method : used) configured(method, spec.settings);
+}
+
+LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods) {
   LocalizationSpec spec;
-  HyperbolaOptions& options = spec.settings.hyperbola;
-  if (map.has("method")) spec.method = method_of(map.at("method"));
-  for (const YamlValue& method : map.list("compare")) spec.compare.push_back(method_of(method));
-  options.stride_m = map.number("stride_m", options.stride_m, kPositive);
-  options.refine = map.boolean("refine", options.refine);
+  read_methods(map, methods, spec);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
   for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
@@ -225,17 +257,14 @@ TrackingSpec tracking_of(YamlMap map) {
   }
   if (map.has("lane")) options.lane = lane_of(YamlMap(map.at("lane")));
   if (map.has("line")) spec.line = passing_line_of(YamlMap(map.at("line")));
-  const auto positive = [&](const char* key, double& value) {
-    value = map.number(key, value, kPositive);
-  };
-  positive("min_speed_m_s", options.min_speed_m_s);
-  positive("max_speed_m_s", options.max_speed_m_s);
-  positive("height_sigma_m", options.height_sigma_m);
-  positive("reach_m", options.reach_m);
-  positive("max_gap_s", options.max_gap_s);
-  positive("max_expected_error_m", options.max_expected_error_m);
-  options.acceleration_noise =
-      map.number("acceleration_noise", options.acceleration_noise, kNotNegative);
+  apply_settings(tracking_settings(), settings_of(map, helps_of(tracking_settings())), options);
+  const auto of_particles = settings_of(map, helps_of(particle_track_settings()));
+  if (!of_particles.empty() && options.method != TrackMethod::kParticle) {
+    fail(of_particles.front().location,
+         fmt::format("{} is not used by {}: it is a setting of particle", of_particles.front().key,
+                     to_string(options.method)));
+  }
+  apply_settings(particle_track_settings(), of_particles, options);
   map.finish();
   try {
     check(options);
@@ -291,7 +320,7 @@ double time_step_of(const YamlValue& value) {
   return seconds;
 }
 
-Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
+Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostics& diagnostics) {
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");
@@ -317,7 +346,7 @@ Scenario scenario_of(YamlMap map, Diagnostics& diagnostics) {
   }
   if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
   if (map.has("localization")) {
-    scenario.localization = localization_of(YamlMap(map.at("localization")));
+    scenario.localization = localization_of(YamlMap(map.at("localization")), methods);
   }
   read_bodies(map, scenario, radio, diagnostics);
   if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
@@ -355,12 +384,12 @@ void require_use_of_keys(const ReadScenario& read) {
 }
 
 ReadScenario read_scenario(const std::string& path, const std::vector<Override>& overrides,
-                           Diagnostics& diagnostics) {
+                           const std::vector<Method>& methods, Diagnostics& diagnostics) {
   const YAML::Node root = read_yaml(path);
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
     YamlMap map(YamlValue(root, path, ""));
-    return {scenario_of(map, diagnostics), key_without_physical_antenna(map)};
+    return {scenario_of(map, methods, diagnostics), key_without_physical_antenna(map)};
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
@@ -377,8 +406,8 @@ Override parse_override(const std::string& argument) {
 }
 
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
-                       Diagnostics& diagnostics) {
-  const ReadScenario read = read_scenario(path, overrides, diagnostics);
+                       Diagnostics& diagnostics, const std::vector<Method>& methods) {
+  const ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
   // The world of one that has it may bring antennas.
   if (read.scenario.world.path.empty()) require_use_of_keys(read);
   return read.scenario;
@@ -391,10 +420,11 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
 
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
-                                           Diagnostics& diagnostics) {
+                                           Diagnostics& diagnostics,
+                                           const std::vector<Method>& methods) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
-  ReadScenario read = read_scenario(path, overrides, diagnostics);
+  ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
   scenario = read.scenario;
   if (!scenario.world.path.empty()) {
     loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);

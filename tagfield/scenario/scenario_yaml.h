@@ -18,9 +18,11 @@ using Override = std::pair<std::string, std::string>;
 Override parse_override(const std::string& argument);
 
 /// Reads a scenario. Paths in the file are relative to the file; those in `overrides` to the
-/// current folder. Throws Error "FILE:LINE: …".
+/// current folder. `methods`: those that localization may name, and whose settings it may give.
+/// Throws Error "FILE:LINE: …".
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
-                       Diagnostics& diagnostics);
+                       Diagnostics& diagnostics,
+                       const std::vector<Method>& methods = built_in_methods());
 /// Likewise, warnings unheard.
 Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides);
 
@@ -33,6 +35,7 @@ struct ScenarioWithWorld {
 /// Reads a scenario and its world. Throws Error also if there are no antennas or no tags at all.
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
-                                           Diagnostics& diagnostics);
+                                           Diagnostics& diagnostics,
+                                           const std::vector<Method>& methods = built_in_methods());
 
 }  // namespace tagfield

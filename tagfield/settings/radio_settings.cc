@@ -18,45 +18,6 @@ using settings_internal::choice_in;
 using settings_internal::Setting;
 using settings_internal::tag_table;
 
-template <class T>
-const Setting<T>* find(const std::vector<Setting<T>>& table, const std::string& key) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const Setting<T>& setting) {
-    return setting.help.key == key;
-  });
-  return found == table.end() ? nullptr : &*found;
-}
-
-template <class T>
-std::vector<SettingHelp> helps(const std::vector<Setting<T>>& table) {
-  std::vector<SettingHelp> all;
-  all.reserve(table.size());
-  for (const Setting<T>& setting : table) all.push_back(setting.help);
-  return all;
-}
-
-template <class T>
-void apply(const std::vector<Setting<T>>& table, const std::vector<RawParameter>& parameters,
-           T& model) {
-  for (const RawParameter& parameter : parameters) {
-    const Setting<T>* const setting = find(table, parameter.key);
-    if (setting == nullptr) continue;
-    try {
-      setting->set(model, parameter.value);
-    } catch (const Error& error) {
-      fail(parameter.location, fmt::format("{} {}", parameter.key, error.what()));
-    }
-  }
-}
-
-/// The place of the parameter that a complaint names first, or `otherwise`.
-Location place_of(const std::string& complaint, const std::vector<RawParameter>& parameters,
-                  const Location& otherwise) {
-  const std::string key = complaint.substr(0, complaint.find(' '));
-  const auto found = std::find_if(parameters.rbegin(), parameters.rend(),
-                                  [&](const RawParameter& p) { return p.key == key; });
-  return found == parameters.rend() ? otherwise : found->location;
-}
-
 template <class Model>
 void check_at(const Model& model, const std::vector<RawParameter>& parameters,
               const Location& location, Diagnostics& diagnostics) {
@@ -90,7 +51,7 @@ template <class T>
 void add_settings(const std::vector<Setting<T>>& table, const std::vector<RawParameter>& parameters,
                   std::vector<RawParameter>& settings) {
   std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(settings),
-               [&](const RawParameter& p) { return find(table, p.key) != nullptr; });
+               [&](const RawParameter& p) { return find_setting(table, p.key) != nullptr; });
 }
 
 }  // namespace
@@ -109,24 +70,26 @@ PropagationModel propagation_model(const RawParameter& parameter) {
 }
 
 const std::vector<SettingHelp>& antenna_settings() {
-  static const std::vector<SettingHelp> all = helps(antenna_table());
+  static const std::vector<SettingHelp> all = helps_of(antenna_table());
   return all;
 }
 
 const std::vector<SettingHelp>& tag_settings() {
-  static const std::vector<SettingHelp> all = helps(tag_table());
+  static const std::vector<SettingHelp> all = helps_of(tag_table());
   return all;
 }
 
-bool is_antenna_setting(const std::string& key) { return find(antenna_table(), key) != nullptr; }
-bool is_tag_setting(const std::string& key) { return find(tag_table(), key) != nullptr; }
+bool is_antenna_setting(const std::string& key) {
+  return find_setting(antenna_table(), key) != nullptr;
+}
+bool is_tag_setting(const std::string& key) { return find_setting(tag_table(), key) != nullptr; }
 
 std::shared_ptr<const RadioModel> radio_model_from(PropagationModel model,
                                                    const std::vector<RawParameter>& parameters,
                                                    const Location& location,
                                                    Diagnostics& diagnostics) {
   AntennaDraft draft = default_draft(model);
-  apply(antenna_table(), parameters, draft);
+  apply_settings(antenna_table(), parameters, draft);
   if (draft.takes_inventory) draft.model.gen2 = draft.gen2;
   // A link budget has no other paths, whatever the antenna's multipath would have.
   if (model == PropagationModel::kLinkBudget) {
@@ -144,7 +107,7 @@ std::shared_ptr<const TagModel> tag_model_from(const std::string& name,
                                                const Location& location, Diagnostics& diagnostics) {
   TagModel tag = *default_tag_model();
   tag.name = name;
-  apply(tag_table(), parameters, tag);
+  apply_settings(tag_table(), parameters, tag);
   check_at(tag, parameters, location, diagnostics);
   add_settings(tag_table(), parameters, tag.settings);
   return std::make_shared<const TagModel>(tag);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
@@ -18,13 +19,6 @@ enum class PropagationModel { kPaper, kLinkBudget, kMultipath };
 /// "paper", "link_budget" or "multipath". Throws Error on another word.
 PropagationModel propagation_model(const RawParameter& parameter);
 const char* to_string(PropagationModel model);
-
-/// A key, its unit and meaning.
-struct SettingHelp {
-  std::string key;
-  std::string unit;  ///< Or its words, "a | b".
-  std::string meaning;
-};
 
 /// Those of an antenna, and of a tag.
 const std::vector<SettingHelp>& antenna_settings();

@@ -3,15 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
-#include "tagfield/localization/circular_fit.h"
+#include "tagfield/fit/circular_least_squares.h"
 
 namespace tagfield {
 namespace {
 
-constexpr int kMostSteps = 30;
 constexpr double kNearest = 1e-3;     ///< Distances below are taken for this [m].
 constexpr double kLeastNoise = 0.02;  ///< [rad]
 /// What is known of any motion at all, so that normal matrices have an inverse [m, m/s].
@@ -37,6 +35,8 @@ Vector6d as_vector(const StraightMotion& motion) {
   return theta;
 }
 
+StraightMotion as_motion(const Vector6d& theta) { return {theta.head<3>(), theta.tail<3>()}; }
+
 struct FitInput {
   const Pass& pass;
   const std::vector<SubAperture>& apertures;
@@ -61,28 +61,12 @@ Normal normal_at(const FitInput& input, const StraightMotion& motion) {
   return normal;
 }
 
-StraightMotion moved(const StraightMotion& motion, const Vector6d& step) {
-  return {motion.p_WT + step.head<3>(), motion.v_WT + step.tail<3>()};
-}
-
 }  // namespace
 
 std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s) {
-  std::vector<SubAperture> apertures;
-  std::map<std::size_t, std::size_t> open;  // by group
-  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
-    const PassRead& read = pass.reads[i];
-    const auto found = open.find(read.group);
-    const bool goes_on = found != open.end() &&
-                         read.t_s - pass.reads[apertures[found->second].front()].t_s <= length_s;
-    if (goes_on) {
-      apertures[found->second].push_back(i);
-    } else {
-      open[read.group] = apertures.size();
-      apertures.push_back({i});
-    }
-  }
-  return apertures;
+  return stretches_of(
+      pass.reads.size(), [&](std::size_t i) { return pass.reads[i].group; },
+      [&](std::size_t i) { return pass.reads[i].t_s; }, length_s);
 }
 
 MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
@@ -111,26 +95,15 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
                  const MotionPrior& prior, double noise_rad, bool fix_known,
                  const StraightMotion& start) {
   const FitInput input{pass, apertures, prior, 1.0 / (noise_rad * noise_rad), fix_known};
+  constexpr LevenbergMarquardt kHow{
+      .most_steps = 30, .most_damping = 1e6, .least_relative_gain = 1e-6};
+  const CircularFit<6> best = fit_angles<6>(
+      as_vector(start), kHow,
+      [&](const Vector6d& theta) { return normal_at(input, as_motion(theta)); },
+      [](const Vector6d&) { return true; });
+  const Normal& normal = best.normal;
   LineFit fit;
-  fit.motion = start;
-  Normal normal = normal_at(input, fit.motion);
-  double damping = 1e-3;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
-    Matrix6d damped = normal.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector6d change = damped.ldlt().solve(normal.right);
-    const StraightMotion next = moved(fit.motion, change);
-    Normal there = normal_at(input, next);
-    if (!std::isfinite(there.cost) || there.cost > normal.cost) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = normal.cost - there.cost;
-    fit.motion = next;
-    normal = std::move(there);
-    damping = std::max(damping * 0.1, 1e-9);
-    if (gain < 1e-6 * std::max(1.0, normal.cost)) break;
-  }
+  fit.motion = as_motion(best.unknowns);
   const auto count = static_cast<double>(std::max<std::size_t>(pass.reads.size(), 1));
   const auto free = static_cast<double>(apertures.size() + 4);
   const auto errors = Eigen::Map<const Eigen::ArrayXd>(

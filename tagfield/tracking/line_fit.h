@@ -2,9 +2,9 @@
 /// A tag on a straight line at constant speed: how well it explains a pass, and the fit of it.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "tagfield/fit/stretches.h"
 #include "tagfield/tracking/pass.h"
 #include "tagfield/tracking/track.h"
 
@@ -17,7 +17,7 @@ struct StraightMotion {
 };
 
 /// Reads that share one phase offset: places in Pass::reads.
-using SubAperture = std::vector<std::size_t>;
+using SubAperture = ReadStretch;
 
 /// Cuts a pass into sub-apertures of up to `length_s`, each of one antenna and channel.
 std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s);

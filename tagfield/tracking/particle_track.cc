@@ -7,6 +7,7 @@
 
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
 
 namespace tagfield {
 namespace {
@@ -207,18 +208,16 @@ Gaussian joined(const Gaussian& forward, const Gaussian& backward, const Gaussia
 /// Residuals of each antenna's reads about their own circular mean.
 void add_residuals(const Pass& pass, const std::vector<Gaussian>& states, Track& track) {
   std::vector<double> angles;
-  std::map<std::size_t, Eigen::Vector2d> sums;
+  std::map<std::size_t, CircularMean> means;
   for (std::size_t i = 0; i < pass.reads.size(); ++i) {
     const PassRead& read = pass.reads[i];
     angles.push_back(read.phase_rad - read.k * (states[i].mean.head<3>() - read.p_WA).norm());
-    const auto sum = sums.emplace(read.group, Eigen::Vector2d::Zero()).first;
-    sum->second += Eigen::Vector2d(std::cos(angles[i]), std::sin(angles[i]));
+    means[read.group].add(angles[i]);
   }
   const auto count = static_cast<double>(pass.reads.size());
   double squares = 0.0;
   for (std::size_t i = 0; i < pass.reads.size(); ++i) {
-    const Eigen::Vector2d& sum = sums[pass.reads[i].group];
-    const double residual = wrap_to_pi(angles[i] - std::atan2(sum.y(), sum.x()));
+    const double residual = wrap_to_pi(angles[i] - means[pass.reads[i].group].value());
     track.coherence += std::cos(residual) / count;
     squares += residual * residual / count;
   }

@@ -6,8 +6,9 @@
 #include <limits>
 #include <map>
 
-#include "tagfield/base/median.h"
 #include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/robust_noise.h"
 
 namespace tagfield {
 namespace {
@@ -248,22 +249,12 @@ std::vector<double> residuals_of(const Pass& pass, const Slots& slots, const Smo
   return residuals;
 }
 
-/// From the median, so that reads that belong nowhere don't count.
-double noise_of(const std::vector<double>& residuals, std::size_t unknowns) {
-  const auto count = static_cast<double>(residuals.size());
-  const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
-  return std::max(kLeastNoise, sigma_by_median(residuals) * std::sqrt(count / freedom));
-}
-
-double circular_mean(const std::vector<double>& residuals, const std::vector<std::size_t>& series,
+/// Of the residuals of `series` from `begin` to before `end`.
+double mean_residual(const std::vector<double>& residuals, const std::vector<std::size_t>& series,
                      std::size_t begin, std::size_t end) {
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    cosine += std::cos(residuals[series[i]]);
-    sine += std::sin(residuals[series[i]]);
-  }
-  return std::atan2(sine, cosine);
+  CircularMean mean;
+  for (std::size_t i = begin; i < end; ++i) mean.add(residuals[series[i]]);
+  return mean.value();
 }
 
 /// Where residuals of one slot jump most, beyond what noise does, its offset begins anew. Whether
@@ -281,8 +272,8 @@ bool split_at_jumps(const Pass& pass, const std::vector<double>& residuals, doub
     double largest = least;
     std::size_t where = 0;
     for (std::size_t i = kJumpSpan; i + kJumpSpan <= of_slot.size(); ++i) {
-      const double jump = std::abs(wrap_to_pi(circular_mean(residuals, of_slot, i, i + kJumpSpan) -
-                                              circular_mean(residuals, of_slot, i - kJumpSpan, i)));
+      const double jump = std::abs(wrap_to_pi(mean_residual(residuals, of_slot, i, i + kJumpSpan) -
+                                              mean_residual(residuals, of_slot, i - kJumpSpan, i)));
       if (jump <= largest || slots.fresh[of_slot[i]] != 0) continue;
       largest = jump;
       where = i;
@@ -387,7 +378,7 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
     forward = filter(input, slots, noise, smoothed);
     smoothed = smooth_backward(forward.steps);
     residuals = residuals_of(pass, slots, smoothed);
-    if (!keep_noise) noise = noise_of(residuals, 4 + count_fresh(slots));
+    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kLeastNoise);
     if (iteration >= kPassesBefore && splits < kMostJumps &&
         split_at_jumps(pass, residuals, noise, slots)) {
       ++splits;

@@ -32,26 +32,46 @@ TrackMethod track_method(const std::string& word) {
   throw Error(fmt::format("'{}' is no method of tracking, expected ekf, ukf or particle", word));
 }
 
+const std::vector<Setting<TrackingOptions>>& tracking_settings() {
+  using O = TrackingOptions;
+  static const std::vector<Setting<O>> all = {
+      setting<O>("min_speed_m_s", "m/s", "of horizontal motion", &O::min_speed_m_s, kOverZero),
+      setting<O>("max_speed_m_s", "m/s", "of horizontal motion", &O::max_speed_m_s,
+                 {0.0, true, 30.0}),
+      setting<O>("acceleration_noise", "m/s²/√Hz", "process noise: velocity strays by it times √t",
+                 &O::acceleration_noise, kAtLeastZero),
+      setting<O>("height_sigma_m", "m", "of a height that is known", &O::height_sigma_m, kOverZero),
+      setting<O>("unknown_height_sigma_m", "m", "of one that is not", &O::unknown_height_sigma_m,
+                 kOverZero),
+      setting<O>("vertical_speed_sigma_m_s", "m/s", "of a tag", &O::vertical_speed_sigma_m_s,
+                 kOverZero),
+      setting<O>("reach_m", "m", "how far from the antennas halfway", &O::reach_m,
+                 {0.0, true, 50.0}),
+      setting<O>("gate_sigmas", "σ", "reads beyond are left out", &O::gate_sigmas, kOverZero),
+      setting<O>("max_gap_s", "s", "over longer gaps a tag is not followed", &O::max_gap_s,
+                 kOverZero),
+      setting<O>("max_expected_error_m", "m", "tracks less sure are not given",
+                 &O::max_expected_error_m, kOverZero),
+      setting<O>("min_coherence", "", "nor those that explain less", &O::min_coherence, kOverZero)};
+  return all;
+}
+
+const std::vector<Setting<TrackingOptions>>& particle_track_settings() {
+  using O = TrackingOptions;
+  static const std::vector<Setting<O>> all = {
+      setting<O>("particles", "", "of each filter", &O::particles, {100.0, false, 1e6}),
+      setting<O>("seed", "", "of the particles", &O::seed, kAtLeastZero)};
+  return all;
+}
+
 void check(const TrackingOptions& options) {
   if (options.lane) check(*options.lane);
-  require_positive("the least speed", options.min_speed_m_s);
-  require_positive("the greatest speed", options.max_speed_m_s);
+  check_settings(tracking_settings(), options);
+  check_settings(particle_track_settings(), options);
   if (options.min_speed_m_s > options.max_speed_m_s) {
-    throw Error(fmt::format("the least speed, {} m/s, is over the greatest, {} m/s",
+    throw Error(fmt::format("min_speed_m_s, {} m/s, is over max_speed_m_s, {} m/s",
                             options.min_speed_m_s, options.max_speed_m_s));
   }
-  if (options.max_speed_m_s > 30.0) throw Error("speeds over 30 m/s can't be followed");
-  require_not_negative("the acceleration noise", options.acceleration_noise);
-  require_positive("the sigma of a known height", options.height_sigma_m);
-  require_positive("the sigma of an unknown height", options.unknown_height_sigma_m);
-  require_positive("the sigma of the vertical speed", options.vertical_speed_sigma_m_s);
-  require_positive("reach", options.reach_m);
-  if (options.reach_m > 50.0) throw Error("a reach over 50 m can't be searched");
-  require_positive("gate", options.gate_sigmas);
-  require_positive("the longest gap", options.max_gap_s);
-  require_positive("the greatest expected error", options.max_expected_error_m);
-  require_positive("the least coherence", options.min_coherence);
-  require_in_range("particles", options.particles, 100, 1e6);
 }
 
 }  // namespace tagfield

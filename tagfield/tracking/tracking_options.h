@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "tagfield/base/setting.h"
 
 namespace tagfield {
 
@@ -46,6 +49,10 @@ struct TrackingOptions {
   std::size_t particles = 4000;
   std::uint64_t seed = 1;  ///< Of the particles.
 };
+
+/// The keys of all options but method and lane; those of the particles alone stand in the second.
+const std::vector<Setting<TrackingOptions>>& tracking_settings();
+const std::vector<Setting<TrackingOptions>>& particle_track_settings();
 
 /// Throws Error naming the option that is out of its range or not finite.
 void check(const TrackingOptions& options);

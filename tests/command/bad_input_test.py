@@ -349,7 +349,7 @@ NUMBERS = (  # the line of the base scenario that holds it: which numbers it tak
     (" appears_s: 0", NOT_NEGATIVE), ("disappears_s: 0.9", POSITIVE),
     ("  sigma_m: 0.01", NOT_NEGATIVE), ("yaw_sigma_deg: 0.5", NOT_NEGATIVE),
     ("time_constant_s: 5", POSITIVE), ("wheel_noise: 0.01", NOT_NEGATIVE),
-    ("stride_m: 0.3", POSITIVE), ("max_expected_error_m: 0.15", POSITIVE),
+    ("max_expected_error_m: 0.15", POSITIVE),
     ("max_rms_m: 0.08", POSITIVE), ("tag_height_m: 1", ANY))
 
 
@@ -368,6 +368,20 @@ def numbers_out_of_their_range(context):
             wrong["0"] = allowed
         for value, says in wrong.items():
             expect_bad_change(context, line, f"{key}: {value}", [key.strip(" {"), says])
+
+
+@case
+def settings_of_methods(context):
+    """Out of their range, or of methods that are not used: refused with file and line."""
+    line = "stride_m: 0.3"
+    for value, says in ((".nan", "finite"), ("seven", "finite number"), ("0", "must be over 0"),
+                        ("-1", "must be over 0"), ("1e300", "at most 1e+15")):
+        expect_bad_change(context, line, f"stride_m: {value}", ["stride_m", says])
+    expect_bad_change(context, "method: hyperbola", "method: sar",
+                      ["stride_m is not used by sar", "a setting of hyperbola"], line)
+    expect_bad_change(context, line, "max_hyperbolae: 2.5", "whole number")
+    expect_bad_change(context, line, "neighbours: 4",
+                      ["neighbours is not used by hyperbola", "landmarc"])
 
 
 @case
@@ -410,7 +424,7 @@ def lists_and_words_of_the_wrong_kind(context):
             ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[0, 2, 0]]", "must have 4 numbers"),
             ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[1, 2, 0, 1], [0, 3, 0, 1]]", "must rise"),
             ("[[0, 2, 0, 1], [1, 3, 0, 1]]", "[[0, 2, 0, 1], [0, 3, 0, 1]]", "must rise"),
-            ("refine: true", "refine: perhaps", "must be true or false"),
+            ("refine: true", "refine: perhaps", "expected true or false"),
             ("method: hyperbola", "method: parabola", ["not known", "hyperbola"]),
             ("source: noisy", "source: noizy", ["not known", "noisy"]),
             ("model: paper", "model: papier", ["papier", "expected paper, link_budget, multipath"]),
@@ -567,8 +581,11 @@ def arguments(context):
             ([*localize, "--tag-height", "tall"], "tag-height"),
             ([*localize, "--tag-height", "nan"], "height"),
             ([*localize, "--tag-height", "inf"], "height"),
-            ([*localize, "--stride", "0"], "stride"), ([*localize, "--stride", "-1"], "stride"),
-            ([*localize, "--stride", "nan"], "stride"), ([*localize, "--stride", "inf"], "stride"),
+            ([*localize, "--set", "stride_m=0.5"], ["stride_m is not used by auto", "hyperbola"]),
+            ([*localize, "--method", "hyperbola", "--set", "stride_m=0"], "must be over 0, is 0"),
+            ([*localize, "--method", "hyperbola", "--set", "stride_m=nan"], "finite"),
+            ([*localize, "--method", "hyperbola", "--set", "strid_m=1"], "did you mean 'stride_m'"),
+            ([*localize, "--method", "sar", "--set", "maxima=1.5"], "whole number"),
             ([*localize, "--threads", "0"], "threads"),
             (["check", context.write("notes.txt", "x")], ".yaml"),
             (["check", context.folder], "expected")):

@@ -167,6 +167,7 @@ BAD = (  # what stands in the suite's conditions, its line, what is said of it
     ("  - {name: a, scenario: no.yaml}\n", 5, "there is no such file"),
     ("  - {name: a, methods: [hyprbola]}\n", 5, "did you mean 'hyperbola'?"),
     ("  - {name: a, localization: {strid_m: 1}}\n", 5, "did you mean 'stride_m'?"),
+    ("  - {name: a, localization: {neighbours: 3}}\n", 5, "it is a setting of auto, landmarc"),
     ("  - {name: a, set: {tags.tag77.position: [1, 2, 3]}}\n", 5, "has no element 'tag77'"),
     ("  - {name: a}\n  - {name: a}\n", 6, "is there twice"),
     ("  - {name: a, seeds: -1}\n", 5, "expected a whole number"),

@@ -135,12 +135,14 @@ def check_own_method(context, prefix):
     out = build_and_run(context, prefix, "05_own_method",
                         context.shipped("paper_warehouse"))
     rows = re.findall(r"^  (\w+) +(\d+)/30 +\d+ +\d+ +([\d.]+)", out, re.MULTILINE)
-    check_equal([row[0] for row in rows], 2 * ["hyperbola", "centroid"], f"methods in {out!r}")
+    check_equal([row[0] for row in rows], 2 * ["hyperbola", "centroid", "sharper"],
+                f"methods in {out!r}")
     mean_mm = [float(row[2]) for row in rows]
     check_equal([row[1] for row in rows[:2]], ["30", "30"], "tags located with the true pose")
     check_between(mean_mm[0], 0.0, 10.0, "mean error of the hyperbolae [mm]")
     # The path is 3 to 6 m from the racks.
     check_between(mean_mm[1], 1000.0, 7000.0, "mean error of the centroid [mm]")
+    check(mean_mm[2] != mean_mm[1], f"its setting changes nothing: {out!r}")
 
 
 def check_installed_command(context, prefix):

@@ -96,10 +96,12 @@ def bad_input_is_told_in_one_line(context):
             ((reads,), "track: reads as CSV need --poses FILE"),
             ((reads, "--poses", poses, "--seeds", 2), "--seeds goes with a scenario only"),
             ((reads, "--poses", poses, "--both-ways"), "--both-ways goes with a lane only"),
-            ((reads, "--poses", poses, "--speed", 3, 1), "the least speed, 3 m/s, is over"),
+            ((reads, "--poses", poses, "--speed", 3, 1), "min_speed_m_s, 3 m/s, is over"),
             ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
             ((context.shipped("conveyor"), "--poses", poses), "go with reads"),
             ((context.shipped("conveyor"), "--set", "tracking.lane.width=1"), "width"),
+            ((context.shipped("conveyor"), "--set", "tracking.reach_m=51"), "at most 50"),
+            ((context.shipped("conveyor"), "--set", "tracking.particles=500"), "not used by ekf"),
             ((context.shipped("conveyor"), "--set", "tracking.method=kalman"), "tracking.method")):
         result = context.run("track", *arguments, "--out", context.folder / "bad")
         check_equal(result.code, 2, f"exit code of {arguments}")

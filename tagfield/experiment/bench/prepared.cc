@@ -1,6 +1,9 @@
 #include "tagfield/experiment/bench/prepared.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/base/spelling.h"
@@ -38,23 +41,45 @@ KnownBeforehand known_in(const Scenario& scenario, const Condition& condition) {
   return known;
 }
 
-/// The scenario with the method's own settings of localization.
-Scenario with_settings_of(const SuiteMethod& method, const PreparedCondition& prepared) {
-  std::vector<Override> overrides = prepared.condition.settings;
-  overrides.insert(overrides.end(), method.localization.begin(), method.localization.end());
-  Scenario scenario = prepared.scenario;
-  scenario.localization = load_scenario(prepared.condition.scenario, overrides).localization;
-  return scenario;
+constexpr const char* kOfLocalization = "localization.";
+
+/// The condition's settings. Those of any method that runs in it have their place there.
+std::vector<Override> overrides_of(const Suite& suite, const Condition& condition) {
+  std::vector<std::string> names;
+  for (const SuiteMethod& method : suite.methods) {
+    if (runs_in(method, condition)) names.push_back(method.method);
+  }
+  std::vector<Override> overrides = condition.settings;
+  overrides.emplace_back("localization.compare", fmt::format("[{}]", fmt::join(names, ", ")));
+  return overrides;
 }
 
-PreparedMethod prepare_method(const SuiteMethod& method, const PreparedCondition& prepared,
-                              const MethodFactory& methods) {
+/// Throws Error on a setting of other methods.
+void refuse_others(const SuiteMethod& method, const std::vector<Method>& methods) {
+  for (const auto& [path, value] : method.localization) {
+    const std::string key = path.substr(std::string(kOfLocalization).size());
+    const bool of_any = std::any_of(methods.begin(), methods.end(),
+                                    [&](const Method& any) { return has_key(any.settings, key); });
+    if (of_any) refuse_unused({{key, value, {}}}, {find_method(methods, method.method)}, methods);
+  }
+}
+
+PreparedMethod prepare_method(const Suite& suite, const SuiteMethod& method,
+                              const PreparedCondition& prepared,
+                              const std::vector<Method>& methods) {
   PreparedMethod ready;
   ready.name = method.name;
-  const bool own = !method.localization.empty();
-  const Scenario scenario = own ? with_settings_of(method, prepared) : prepared.scenario;
-  ready.method = find_method(methods(scenario.localization.settings), method.method);
-  if (own) ready.known = known_in(scenario, prepared.condition);
+  Scenario scenario = prepared.scenario;
+  if (!method.localization.empty()) {
+    refuse_others(method, methods);
+    std::vector<Override> overrides = overrides_of(suite, prepared.condition);
+    overrides.insert(overrides.end(), method.localization.begin(), method.localization.end());
+    Diagnostics unheard;
+    scenario.localization =
+        load_scenario(prepared.condition.scenario, overrides, unheard, methods).localization;
+    ready.known = known_in(scenario, prepared.condition);
+  }
+  ready.method = configured(find_method(methods, method.method), scenario.localization.settings);
   return ready;
 }
 
@@ -77,10 +102,11 @@ void find_phase_noise(PreparedCondition& prepared) {
   }
 }
 
-void load(PreparedCondition& prepared, Diagnostics& diagnostics) {
+void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondition& prepared,
+          Diagnostics& diagnostics) {
   const Condition& condition = prepared.condition;
-  ScenarioWithWorld loaded =
-      load_scenario_with_world(condition.scenario, condition.settings, diagnostics);
+  ScenarioWithWorld loaded = load_scenario_with_world(
+      condition.scenario, overrides_of(suite, condition), diagnostics, methods);
   prepared.scenario = std::move(loaded.scenario);
   prepared.scenario.real_time = 0.0;  // Nobody watches.
   prepared.known = known_in(prepared.scenario, condition);
@@ -91,12 +117,13 @@ void load(PreparedCondition& prepared, Diagnostics& diagnostics) {
 }
 
 PreparedCondition prepare_condition(const Suite& suite, const Condition& condition,
-                                    const MethodFactory& methods, Diagnostics& diagnostics) {
+                                    const std::vector<Method>& methods, Diagnostics& diagnostics) {
   PreparedCondition prepared;
   prepared.condition = condition;
   prepared.runs = condition.count.value_or(suite.count);
   Diagnostics warnings;
-  at_place(condition.location, called(condition), [&] { load(prepared, warnings); });
+  at_place(condition.location, called(condition),
+           [&] { load(suite, methods, prepared, warnings); });
   for (const std::string& warning : warnings.warnings()) {
     diagnostics.warn(called(condition) + ": " + warning);
   }
@@ -104,23 +131,23 @@ PreparedCondition prepare_condition(const Suite& suite, const Condition& conditi
     if (!runs_in(method, condition)) continue;
     prepared.methods.push_back(
         at_place(method.location, fmt::format("method '{}' in {}", method.name, called(condition)),
-                 [&] { return prepare_method(method, prepared, methods); }));
+                 [&] { return prepare_method(suite, method, prepared, methods); }));
   }
   return prepared;
 }
 
 /// Before any world is read, as that takes its time.
-void require_known_methods(const Suite& suite, const MethodFactory& methods) {
-  const std::vector<Method> known = methods({});
+void require_known_methods(const Suite& suite, const std::vector<Method>& methods) {
   for (const SuiteMethod& method : suite.methods) {
     at_place(method.location, fmt::format("method '{}'", method.name),
-             [&] { find_method(known, method.method); });
+             [&] { find_method(methods, method.method); });
   }
 }
 
 }  // namespace
 
-PreparedSuite prepare(const Suite& suite, const MethodFactory& methods, Diagnostics& diagnostics) {
+PreparedSuite prepare(const Suite& suite, const std::vector<Method>& methods,
+                      Diagnostics& diagnostics) {
   require_known_methods(suite, methods);
   PreparedSuite prepared;
   prepared.suite = suite;

@@ -2,7 +2,6 @@
 /// A suite made ready to run: scenarios and worlds read, methods found, everything checked.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,10 +13,6 @@
 #include "tagfield/simulator/navigation_world.h"
 
 namespace tagfield {
-
-/// The methods that a suite may name, with these settings: built_in_methods(), or those and one's
-/// own.
-using MethodFactory = std::function<std::vector<Method>(const MethodSettings& settings)>;
 
 struct PreparedMethod {
   std::string name;  ///< In the suite.
@@ -43,9 +38,10 @@ struct PreparedSuite {
   std::vector<PreparedCondition> conditions;
 };
 
-/// Reads the scenarios and their worlds. Throws Error, which begins with the place in the suite, on
-/// whatever could not be run.
-PreparedSuite prepare(const Suite& suite, const MethodFactory& methods, Diagnostics& diagnostics);
+/// Reads the scenarios and their worlds. `methods`: those that the suite may name. Throws Error,
+/// which begins with the place in the suite, on whatever could not be run.
+PreparedSuite prepare(const Suite& suite, const std::vector<Method>& methods,
+                      Diagnostics& diagnostics);
 
 /// The model that the scenario's pose error really has; none where nobody knows one.
 std::optional<PoseErrorModel> true_pose_error(const Scenario& scenario);

@@ -134,7 +134,7 @@ Bench run_bench(const PreparedSuite& prepared, const RunControl& control) {
   return bench;
 }
 
-Bench run_bench(const Suite& suite, const MethodFactory& methods, const RunControl& control) {
+Bench run_bench(const Suite& suite, const std::vector<Method>& methods, const RunControl& control) {
   Diagnostics diagnostics;
   const PreparedSuite prepared = prepare(suite, methods, diagnostics);
   Bench bench = run_bench(prepared, control);

@@ -15,6 +15,6 @@ namespace tagfield {
 Bench run_bench(const PreparedSuite& prepared, const RunControl& control);
 
 /// Reads scenarios, then runs. Throws Error as prepare() does.
-Bench run_bench(const Suite& suite, const MethodFactory& methods, const RunControl& control);
+Bench run_bench(const Suite& suite, const std::vector<Method>& methods, const RunControl& control);
 
 }  // namespace tagfield

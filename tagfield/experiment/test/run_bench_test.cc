@@ -8,6 +8,7 @@
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/statistics.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/localization/phase_curves/hyperbola.h"
 
 namespace tagfield {
 namespace {
@@ -33,8 +34,8 @@ Method constant_method() {
           }};
 }
 
-std::vector<Method> with_constant(const MethodSettings& settings) {
-  std::vector<Method> methods = built_in_methods(settings);
+std::vector<Method> with_constant() {
+  std::vector<Method> methods = built_in_methods();
   methods.push_back(constant_method());
   return methods;
 }
@@ -63,7 +64,7 @@ RunControl on_threads(int threads) {
 }
 
 TEST(RunBench, RunsEachMethodInItsConditions) {
-  const Bench bench = run_bench(small_suite(), with_constant, on_threads(1));
+  const Bench bench = run_bench(small_suite(), with_constant(), on_threads(1));
   EXPECT_TRUE(bench.complete);
   ASSERT_EQ(bench.entries.size(), 3U);
   EXPECT_EQ(bench.entries[0].name, "hyperbola");
@@ -87,8 +88,8 @@ TEST(RunBench, RunsEachMethodInItsConditions) {
 }
 
 TEST(RunBench, DoesNotDependOnThreads) {
-  const Bench one = run_bench(small_suite(), with_constant, on_threads(1));
-  const Bench four = run_bench(small_suite(), with_constant, on_threads(4));
+  const Bench one = run_bench(small_suite(), with_constant(), on_threads(1));
+  const Bench four = run_bench(small_suite(), with_constant(), on_threads(4));
   EXPECT_EQ(bench_to_json(one, Timing::kWithoutTimes), bench_to_json(four, Timing::kWithoutTimes));
   EXPECT_EQ(bench_tags_to_csv(one), bench_tags_to_csv(four));
 }
@@ -98,7 +99,7 @@ TEST(RunBench, StoppedKeepsWholeRuns) {
   RunControl control;
   control.stop = &stop;
   control.on_progress = [&](double share) { stop = share > 0.3; };
-  const Bench bench = run_bench(small_suite(), with_constant, control);
+  const Bench bench = run_bench(small_suite(), with_constant(), control);
   EXPECT_FALSE(bench.complete);
   EXPECT_EQ(bench.entries[0].runs.size(), 2U);
   EXPECT_EQ(bench.entries[2].runs.size(), 0U);
@@ -108,7 +109,7 @@ TEST(RunBench, SaysWhyThereIsNoBound) {
   Suite suite = small_suite();
   suite.count = 1;
   suite.conditions[0].settings = {{"antennas.mobile.phase_noise_rad", "0"}};
-  const Bench bench = run_bench(suite, with_constant, on_threads(1));
+  const Bench bench = run_bench(suite, with_constant(), on_threads(1));
   EXPECT_EQ(bench.conditions[0].no_bound, "antenna 'mobile' has no phase noise");
   EXPECT_FALSE(statistics_of(bench.entries[0]).ratio);
   EXPECT_EQ(bench.conditions[1].no_bound, "");
@@ -116,13 +117,12 @@ TEST(RunBench, SaysWhyThereIsNoBound) {
 
 TEST(RunBench, ToldPoseErrorReachesTheMethods) {
   std::optional<PoseErrorModel> told;
-  const MethodFactory methods = [&](const MethodSettings&) {
-    return std::vector<Method>{{"hear", "keeps what it is told",
-                                [&](const LocalizationProblem& problem, int, Diagnostics&) {
-                                  told = problem.pose_error;
-                                  return LocalizationResult{};
-                                }}};
-  };
+  const std::vector<Method> methods = {
+      hyperbola_method(),
+      {"hear", "keeps what it is told", [&](const LocalizationProblem& problem, int, Diagnostics&) {
+         told = problem.pose_error;
+         return LocalizationResult{};
+       }}};
   Suite suite = small_suite();
   suite.count = 1;
   suite.methods = {{"hear", "hear", {}, {}}};

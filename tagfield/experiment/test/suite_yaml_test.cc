@@ -40,7 +40,7 @@ std::string complaint_of(const std::string& text, bool prepared = false) {
   try {
     const Suite suite = load_suite(file.path());
     Diagnostics diagnostics;
-    if (prepared) prepare(suite, built_in_methods, diagnostics);
+    if (prepared) prepare(suite, built_in_methods(), diagnostics);
   } catch (const Error& error) {
     std::string said = error.what();
     const std::size_t folder = said.find(file.path());

@@ -48,7 +48,7 @@ TEST(Automatic, SeesReflectionsWhereNoPoseErrorExplainsThem) {
   hall.problem.pose_error.reset();
   EXPECT_EQ(choice_for(hall.problem).method, "joint");  // At first sight.
   Diagnostics diagnostics;
-  const Method method = find_method(built_in_methods({}), "auto");
+  const Method method = find_method(built_in_methods(), "auto");
   const LocalizationResult result = method.locate(hall.problem, 2, diagnostics);
   EXPECT_EQ(result.method, "sar");
   EXPECT_NE(result.why.find("even with the pose error estimated"), std::string::npos) << result.why;
@@ -81,7 +81,7 @@ TEST(Automatic, GoesBySignalStrengthWhereAntennasStand) {
 TEST(Automatic, RunsWhatItChoseAndSaysWhy) {
   const made::Hall hall = moving_hall({});
   Diagnostics diagnostics;
-  const Method method = find_method(built_in_methods({}), "auto");
+  const Method method = find_method(built_in_methods(), "auto");
   const LocalizationResult result = method.locate(hall.problem, 1, diagnostics);
   EXPECT_EQ(result.method, "ml");
   EXPECT_EQ(result.why, "the pose is exact and the phase fits");
@@ -90,7 +90,7 @@ TEST(Automatic, RunsWhatItChoseAndSaysWhy) {
 
 TEST(Automatic, TakesNothingAtAll) {
   Diagnostics diagnostics;
-  const Method method = find_method(built_in_methods({}), "auto");
+  const Method method = find_method(built_in_methods(), "auto");
   EXPECT_TRUE(method.locate({}, 1, diagnostics).estimates.empty());
 }
 

@@ -1,4 +1,4 @@
-#include "tagfield/localization/conic.h"
+#include "tagfield/localization/phase_curves/conic.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

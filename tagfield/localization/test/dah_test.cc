@@ -1,4 +1,4 @@
-#include "tagfield/localization/dah.h"
+#include "tagfield/localization/holograms/dah.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -12,7 +12,7 @@ namespace {
 using namespace made;
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = built_in_methods({});
+  static const std::vector<Method> all = built_in_methods();
   return all;
 }
 

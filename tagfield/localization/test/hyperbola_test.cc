@@ -1,4 +1,4 @@
-#include "tagfield/localization/hyperbola.h"
+#include "tagfield/localization/phase_curves/hyperbola.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tagfield/localization/joint_system.h"
+#include "tagfield/localization/joint/joint_system.h"
 
 #include <gtest/gtest.h>
 

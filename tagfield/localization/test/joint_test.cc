@@ -1,4 +1,4 @@
-#include "tagfield/localization/joint.h"
+#include "tagfield/localization/joint/joint.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "tagfield/localization/bound.h"
-#include "tagfield/localization/maximum_likelihood.h"
+#include "tagfield/localization/phase_curves/maximum_likelihood.h"
 #include "tagfield/localization/test/problem_of.h"
 
 namespace tagfield {

@@ -1,4 +1,4 @@
-#include "tagfield/localization/landmarc.h"
+#include "tagfield/localization/signal_strength/landmarc.h"
 
 #include <gtest/gtest.h>
 

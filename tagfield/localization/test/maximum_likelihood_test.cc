@@ -1,11 +1,11 @@
-#include "tagfield/localization/maximum_likelihood.h"
+#include "tagfield/localization/phase_curves/maximum_likelihood.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
 #include "tagfield/localization/bound.h"
-#include "tagfield/localization/least_squares.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/test/problem_of.h"
 
 namespace tagfield {

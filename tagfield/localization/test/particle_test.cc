@@ -1,10 +1,10 @@
-#include "tagfield/localization/particle.h"
+#include "tagfield/localization/holograms/particle.h"
 
 #include <gtest/gtest.h>
 
 #include "method_study.h"
 #include "tagfield/base/error.h"
-#include "tagfield/localization/sar.h"
+#include "tagfield/localization/holograms/sar.h"
 
 namespace tagfield {
 namespace {

@@ -1,4 +1,4 @@
-#include "tagfield/localization/phase_following.h"
+#include "tagfield/localization/phase_curves/phase_following.h"
 
 #include <gtest/gtest.h>
 

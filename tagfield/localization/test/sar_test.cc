@@ -1,4 +1,4 @@
-#include "tagfield/localization/sar.h"
+#include "tagfield/localization/holograms/sar.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -263,8 +263,8 @@ TEST(Sar, ASearchByFewReadsAndFarAwayIsNoTroubleEither) {
   Hall hall = made::hall(aisles(0.02), 1, Noise{}, rng);
   reflect(walls(0.5), hall);
   SarOptions options;
-  options.search.reads = 1;
-  options.search.max_range_m = 100.0;
+  options.reads = 1;
+  options.max_range_m = 100.0;
   const TagEstimate estimate = locate_one(sar_method(options), hall.problem);
   for (const Candidate& candidate : estimate.candidates) {
     EXPECT_TRUE(candidate.p_WT.allFinite());
@@ -303,10 +303,10 @@ TEST(Sar, ATagNotAtRestIsNotLocated) {
 
 TEST(Sar, BadOptionsAreErrors) {
   SarOptions options;
-  options.search.cell_m = 0.0;
+  options.cell_m = 0.0;
   EXPECT_THROW(sar_method(options), Error);
   options = {};
-  options.search.max_range_m = std::numeric_limits<double>::quiet_NaN();
+  options.max_range_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(sar_method(options), Error);
   options = {};
   options.min_share = 0.0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tagfield/localization/phase_following.h"
+#include "tagfield/localization/phase_curves/phase_following.h"
 #include "tagfield/localization/test/problem_of.h"
 
 namespace tagfield {

@@ -1,4 +1,4 @@
-#include "tagfield/localization/trilateration.h"
+#include "tagfield/localization/signal_strength/trilateration.h"
 
 #include <gtest/gtest.h>
 

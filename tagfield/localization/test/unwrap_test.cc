@@ -1,4 +1,4 @@
-#include "tagfield/localization/unwrap.h"
+#include "tagfield/localization/phase_curves/unwrap.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "made_reads.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {

@@ -7,29 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/settings/radio_settings.h"
+#include "tagfield/base/setting.h"
 
 namespace tagfield::settings_internal {
 
-/// One key: what it is for, and how its value gets into a T. Throws Error without the place.
-template <class T>
-struct Setting {
-  SettingHelp help;
-  std::function<void(T&, const std::string&)> set;
-};
-
-// What a value's text is. Each throws Error that says what was expected, without the place.
-
-double number_in(const std::string& text);
-int whole_in(const std::string& text);
-bool truth_in(const std::string& text);
-std::vector<std::string> words_in(const std::string& text);
-std::vector<double> numbers_in(const std::string& text);
-/// Which of the choices it is.
-std::size_t choice_in(const std::string& text, const std::vector<std::string>& choices);
-
-/// "a | b | c".
-std::string one_of(const std::vector<std::string>& choices);
+using tagfield::choice_in;
+using tagfield::Setting;
 
 /// A number with a unit that is `factor` of the member's.
 template <class T>

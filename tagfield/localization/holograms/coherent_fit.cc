@@ -1,0 +1,385 @@
+#include "tagfield/localization/holograms/coherent_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "tagfield/base/units.h"
+#include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/residuals.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kSame = 0.03;  ///< Maxima nearer than this are one [m].
+/// Of the best place's coherence before the climb; less is a side lobe.
+constexpr double kWorthWhile = 0.4;
+constexpr std::size_t kMirrored = 3;    ///< Of so many best places the mirror images are tried.
+constexpr std::size_t kMostNamed = 16;  ///< Maxima that are looked at.
+constexpr double kNear = 0.3;           ///< Maxima nearer than this are lobes of one place [m].
+constexpr double kUnlikely = 4.0;       ///< A log-likelihood so much less is that of another place.
+
+/// S of one aperture.
+std::complex<double> sum_of(const TagPhases& phases, const Aperture& part,
+                            const HeightModel& height, const PlaceVector& p) {
+  double in_phase = 0.0;
+  double quadrature = 0.0;
+  for (Eigen::Index i = part.begin; i < part.begin + part.count; ++i) {
+    const double r = range_to(height, p, phases.x[i], phases.y[i], phases.z[i]).r;
+    const double phase = phases.wavenumber[i] * (phases.value[i] - r);
+    in_phase += std::cos(phase);
+    quadrature += std::sin(phase);
+  }
+  return {in_phase, quadrature};
+}
+
+/// The direction of S, by which the waves are turned back; 1 where the offset is known.
+std::complex<double> direction_of(const Aperture& part, std::complex<double> sum) {
+  const double length = std::abs(sum);
+  return part.offset_known || !(length > 0.0) ? 1.0 : sum / length;
+}
+
+/// A place on the way up: coherence, its gradient and expected information.
+struct Summit {
+  PlaceVector place;
+  double cost = 0.0;  ///< The coherence with the other sign.
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double count = 0.0;
+};
+
+/// In one pass: the offset is only known when all waves are added up, so both parts are kept.
+void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& height,
+              Summit& summit) {
+  double in_phase = 0.0;
+  double quadrature = 0.0;
+  Eigen::Vector3d in_phase_slopes = Eigen::Vector3d::Zero();
+  Eigen::Vector3d quadrature_slopes = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = part.begin; i < part.begin + part.count; ++i) {
+    const Range range = range_to(height, summit.place, phases.x[i], phases.y[i], phases.z[i]);
+    const double phase = phases.wavenumber[i] * (phases.value[i] - range.r);
+    const Eigen::Vector3d slope = phases.wavenumber[i] * range.gradient;
+    const double cosine = std::cos(phase);
+    const double sine = std::sin(phase);
+    in_phase += cosine;
+    quadrature += sine;
+    in_phase_slopes += cosine * slope;
+    quadrature_slopes += sine * slope;
+    sum += slope;
+    squares += slope * slope.transpose();
+  }
+  const std::complex<double> back = direction_of(part, {in_phase, quadrature});
+  const auto count = static_cast<double>(part.count);
+  summit.cost -= in_phase * back.real() + quadrature * back.imag();
+  summit.gradient += back.real() * quadrature_slopes - back.imag() * in_phase_slopes;
+  summit.information += squares;
+  if (!part.offset_known) summit.information -= sum * sum.transpose() / count;
+  summit.count += count;
+}
+
+Summit summit_at(const TagPhases& phases, const std::vector<Aperture>& parts,
+                 const HeightModel& height, const PlaceVector& place) {
+  Summit summit;
+  summit.place = place;
+  for (const Aperture& part : parts) add_part(phases, part, height, summit);
+  // The curvature of |S| is smaller than that of n by the reads' mean cosine.
+  summit.information *= std::max(0.1, -summit.cost / std::max(summit.count, 1.0));
+  if (height.kind == HeightModel::Kind::kKnown) summit.information(2, 2) = 1.0;
+  return summit;
+}
+
+TagFit fit_at(const TagPhases& phases, const HeightModel& height, const PlaceVector& place) {
+  return {place, offsets_at(phases, height, place), 0.0};
+}
+
+/// Residuals as they run on from read to read over each stretch, less its mean: at a wrong place
+/// they run away, which wrapped ones hide.
+Eigen::ArrayXd followed(const Spans& stretches, Eigen::ArrayXd residuals) {
+  for (const TagPhases::Span& span : stretches) {
+    auto stretch = residuals.segment(span.begin, span.count);
+    for (Eigen::Index i = 1; i < span.count; ++i) {
+      stretch[i] -= span.cycle_m * std::round((stretch[i] - stretch[i - 1]) / span.cycle_m);
+    }
+    stretch -= stretch.mean();
+  }
+  return residuals;
+}
+
+/// Where no step is too long for the phase to be followed.
+Spans stretches_of(const TagPhases& phases) {
+  constexpr double kLongestStep = 0.4;  // of λ/2, which turns the phase by a whole turn
+  Spans stretches;
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      const bool follows =
+          i > span.begin && std::hypot(phases.x[i] - phases.x[i - 1], phases.y[i] - phases.y[i - 1],
+                                       phases.z[i] - phases.z[i - 1]) < kLongestStep * span.cycle_m;
+      if (!follows) stretches.push_back({i, 0, span.antenna, span.offset_known, span.cycle_m});
+      ++stretches.back().count;
+    }
+  }
+  return stretches;
+}
+
+/// Whether wrapped residuals or followed ones tell that `other` is a worse place than `best`.
+bool is_worse(const TagPhases& phases, const Eigen::ArrayXd& best, const Eigen::ArrayXd& other) {
+  if (tells_apart(phases.spans, best, other)) return true;
+  const Spans stretches = stretches_of(phases);
+  return tells_apart(stretches, followed(stretches, best), followed(stretches, other));
+}
+
+struct Maximum {
+  PlaceVector place;
+  double coherence = 0.0;
+};
+
+/// Places that differ, by falling coherence.
+std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height,
+                              const std::vector<PlaceVector>& places) {
+  std::vector<Maximum> ranked;
+  ranked.reserve(places.size());
+  for (const PlaceVector& place : places) {
+    ranked.push_back({place, coherence(phases, apertures(phases, kWholeAperture), height, place)});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.coherence > b.coherence; });
+  std::vector<Maximum> kept;
+  for (const Maximum& maximum : ranked) {
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Maximum& other) {
+      return (to_place(height, other.place) - to_place(height, maximum.place)).norm() > kSame;
+    });
+    if (apart && kept.size() < kMostNamed) kept.push_back(maximum);
+  }
+  return kept;
+}
+
+std::vector<PlaceVector> mirror_images(const TagPhases& phases,
+                                       const std::vector<Maximum>& maxima) {
+  std::vector<PlaceVector> images;
+  for (std::size_t i = 0; i < std::min(maxima.size(), kMirrored); ++i) {
+    PlaceVector image = maxima[i].place;
+    image.head<2>() = mirror_image(phases, image.head<2>());
+    images.push_back(image);
+  }
+  return images;
+}
+
+/// Those of the places from which the climb is worth while, finished.
+std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& height,
+                                  const std::vector<PlaceVector>& places, double least,
+                                  bool go_up) {
+  std::vector<PlaceVector> tops;
+  for (const PlaceVector& place : places) {
+    if (coherence(phases, apertures(phases, kWholeAperture), height, place) < least) continue;
+    tops.push_back(go_up ? climb(phases, apertures(phases, kWholeAperture), height, place) : place);
+  }
+  return tops;
+}
+
+/// The maxima near the places and near the mirror images of the best.
+std::vector<Maximum> maxima_near(const TagPhases& phases, const HeightModel& height,
+                                 const std::vector<PlaceVector>& places, bool go_up) {
+  std::vector<Maximum> starts = distinct(phases, height, places);
+  if (starts.empty()) return starts;
+  const double least = kWorthWhile * starts.front().coherence;
+  std::vector<PlaceVector> tops = finished(phases, height, places, least, go_up);
+  const std::vector<PlaceVector> images =
+      finished(phases, height, mirror_images(phases, distinct(phases, height, tops)), least, go_up);
+  tops.insert(tops.end(), images.begin(), images.end());
+  return distinct(phases, height, tops);
+}
+
+/// Concentration of von Mises noise whose mean cosine is `share`, within 1 % (Best and Fisher,
+/// Communications in Statistics B 10, 1981).
+double concentration_of(double share) {
+  if (share < 0.53) return share * (2.0 + share * share * (1.0 + share * share * 5.0 / 6.0));
+  if (share < 0.85) return -0.4 + 1.39 * share + 0.43 / (1.0 - share);
+  return 1.0 / (share * (share - 1.0) * (share - 3.0));
+}
+
+/// How much less log-likely maxima are than the best: κ ΔS, over the correlation factor of the
+/// residuals, as reads whose errors are one and the same are but one witness.
+struct Unlikelihood {
+  double best = 0.0;      ///< Coherence.
+  double per_wave = 0.0;  ///< κ over the factor.
+  double of(const Maximum& maximum) const { return per_wave * (best - maximum.coherence); }
+};
+
+Unlikelihood unlikelihood(const TagPhases& phases, const Maximum& best,
+                          const Eigen::ArrayXd& residuals) {
+  const double share =
+      best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
+  return {best.coherence, concentration_of(std::clamp(share, 0.0, 0.99)) /
+                              correlation_factor(phases.spans, residuals)};
+}
+
+Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
+                            const Maximum& maximum) {
+  return residuals_of(phases, height, fit_at(phases, height, maximum.place));
+}
+
+/// Maxima that the data can't tell from the best.
+struct Rivals {
+  std::vector<Maximum> lobes;   ///< Near the best, of bent phases.
+  std::vector<Maximum> others;  ///< Other places.
+};
+
+/// `unlikely` is null where phases are not bent: then residuals alone judge.
+Rivals rivals_of(const TagPhases& phases, const HeightModel& height,
+                 const std::vector<Maximum>& maxima, const Unlikelihood* unlikely) {
+  const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
+  const Eigen::Vector3d p_WT = to_place(height, maxima.front().place);
+  Rivals rivals;
+  for (std::size_t i = 1; i < maxima.size(); ++i) {
+    const Maximum& maximum = maxima[i];
+    if (unlikely != nullptr && unlikely->of(maximum) > kUnlikely) continue;
+    if (is_worse(phases, best, residuals_at(phases, height, maximum))) continue;
+    const bool near = (to_place(height, maximum.place) - p_WT).norm() < kNear;
+    (unlikely != nullptr && near ? rivals.lobes : rivals.others).push_back(maximum);
+  }
+  return rivals;
+}
+
+/// Lets the covariance span the lobes near the place as well, as far as they are likely.
+void span_lobes(const HeightModel& height, const Unlikelihood& unlikely,
+                const std::vector<Maximum>& lobes, Candidate& candidate) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double weights = 1.0;
+  for (const Maximum& lobe : lobes) {
+    const double weight = std::exp(-std::max(0.0, unlikely.of(lobe)));
+    const Eigen::Vector3d apart = to_place(height, lobe.place) - candidate.p_WT;
+    spread += weight * apart * apart.transpose();
+    weights += weight;
+  }
+  spread /= weights;
+  if (candidate.covariance) *candidate.covariance += spread;
+  candidate.expected_error_m =
+      std::hypot(candidate.expected_error_m, std::sqrt(spread.topLeftCorner<2, 2>().trace()));
+}
+
+Candidate scaled(Candidate candidate, double factor) {
+  candidate.expected_error_m *= factor;
+  if (candidate.covariance) *candidate.covariance *= factor * factor;
+  return candidate;
+}
+
+/// How much greater errors are than residuals tell: slow ones, which no told pose error explains,
+/// are taken for distance in part. Those of reflections, correlated over a metre or two of the way,
+/// were twice as great (docs/methods.md); white noise has no such part.
+double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
+  constexpr double kSlow = 3.0;  // Reads that are worth one; from there on errors are slow.
+  if (phases.pose_error) return 1.0;
+  return 1.0 + std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlow - 1.0));
+}
+
+/// Where phases are bent, residuals may tell of more than the told pose error does.
+Candidate careful_candidate(const TagPhases& phases, const HeightModel& height,
+                            const PlaceVector& place, bool bent) {
+  Candidate honest = candidate_at(phases, height, place);
+  if (!bent) return honest;
+  const TagFit fit = fit_at(phases, height, place);
+  const double factor = fitted_away(phases, residuals_of(phases, height, fit));
+  const Candidate by_residuals = scaled(
+      make_candidate(height, place, covariance_of(phases, height, fit), honest.rms_m), factor);
+  return by_residuals.expected_error_m > honest.expected_error_m ? by_residuals : honest;
+}
+
+}  // namespace
+
+double coherent_share(const TagPhases& phases, const HeightModel& height,
+                      const PlaceVector& place) {
+  const double waves = coherence(phases, apertures(phases, kWholeAperture), height, place);
+  return waves / static_cast<double>(std::max<Eigen::Index>(phases.size(), 1));
+}
+
+double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
+                 const HeightModel& height, const PlaceVector& place) {
+  double sum = 0.0;
+  for (const Aperture& part : parts) {
+    const std::complex<double> waves = sum_of(phases, part, height, place);
+    sum += part.offset_known ? waves.real() : std::abs(waves);
+  }
+  return sum;
+}
+
+PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
+                  const HeightModel& height, const PlaceVector& start) {
+  constexpr double kTolerance = 1e-5;   // [m]
+  constexpr double kNoGain = 1e-5;      // of a coherence of many reads
+  constexpr double kLongestStep = 0.3;  // [m]; beyond is another lobe
+  constexpr double kRidge = 1e-9;
+  constexpr LevenbergMarquardt kHow{.most_steps = 40,
+                                    .damping = 1e-4,
+                                    .least_damping = 1e-12,
+                                    .raise = 8.0,
+                                    .least_raised = 1e-3};
+  const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
+    PlaceVector move = damped_step(here.information, here.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;
+    if (move.head<2>().norm() > kLongestStep) move *= kLongestStep / move.head<2>().norm();
+    return summit_at(phases, parts, height, here.place + move);
+  };
+  return descend(summit_at(phases, parts, height, start), kHow, step).place;
+}
+
+Candidate candidate_at(const TagPhases& phases, const HeightModel& height,
+                       const PlaceVector& place) {
+  const TagFit fit = fit_at(phases, height, place);
+  return make_candidate(phases, height, fit);
+}
+
+TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
+                         const std::vector<PlaceVector>& places, const CoherentJudgement& judgement,
+                         const EstimateLimits& limits, TagEstimate estimate) {
+  const std::vector<Maximum> maxima = maxima_near(phases, height, places, judgement.climb);
+  if (maxima.empty()) {
+    return not_located(std::move(estimate), "no place is in reach of most reads");
+  }
+  const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
+  const double share = coherent_share(phases, height, maxima.front().place);
+  if (share < judgement.min_share) {
+    return not_located(
+        std::move(estimate),
+        fmt::format("the phase does not fit a tag at rest: {:.0f} % of its waves add up, at least "
+                    "{:.0f} % should",
+                    100.0 * share, 100.0 * judgement.min_share));
+  }
+  const bool bent = judgement.at_maxima && share < kBentShare;
+  const Unlikelihood unlikely = unlikelihood(phases, maxima.front(), best);
+  const Rivals rivals = rivals_of(phases, height, maxima, bent ? &unlikely : nullptr);
+  const auto candidate_of = [&](const Maximum& maximum) {
+    return scaled(careful_candidate(phases, height, maximum.place, bent), judgement.error_factor);
+  };
+  estimate.candidates.push_back(candidate_of(maxima.front()));
+  span_lobes(height, unlikely, rivals.lobes, estimate.candidates.front());
+  for (const Maximum& other : rivals.others) estimate.candidates.push_back(candidate_of(other));
+  judge(limits, estimate);
+  return estimate;
+}
+
+TagEstimate locate_by_waves(const LocalizationProblem& problem, const std::string& tag,
+                            const SamplesOfTag& samples, const CoherentJudgement& judgement,
+                            const FindPlaces& find) {
+  TagEstimate estimate = begun(tag, samples);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
+  TagPhases phases = coherent_reads(problem, samples);
+  for (TagPhases::Span& span : phases.spans) {
+    span.offset_known = span.offset_known && judgement.known_offsets;
+  }
+  estimate.reads = static_cast<std::size_t>(phases.size());
+  const std::string why_too_few = too_few(phases);
+  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
+  const HeightModel height = height_model(problem, tag, phases);
+  return judge_places(phases, height, find(phases, height), judgement, problem.limits,
+                      std::move(estimate));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,148 @@
+#include "tagfield/localization/holograms/dah.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+#include "tagfield/localization/phase_noise.h"
+
+namespace tagfield {
+namespace {
+
+/// Phase error that the grid's spacing adds [rad]: a tag is seldom where a cell has its middle.
+constexpr double kGridNoise = 0.35;
+constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which on there are several references.
+constexpr Eigen::Index kReferences = 4;
+/// The reference's own noise and the weights make errors so many times as large as they must be, as
+/// was found by trying.
+constexpr double kErrorFactor = 2.6;
+constexpr std::size_t kFinished = 6;     ///< So many of the brightest places are finished.
+constexpr double kFirstSpacing = 0.012;  ///< Of the tile that looks for the summit [m].
+constexpr double kLastSpacing = 1e-4;    ///< [m]
+
+/// erfc(x), x ≥ 0, to 5·10⁻⁴ (Abramowitz and Stegun, 7.1.27).
+Tile complementary_error(const Tile& x) {
+  const Tile root = 1.0f + x * (0.278393f + x * (0.230389f + x * (0.000972f + x * 0.078108f)));
+  return root.square().square().inverse();
+}
+
+Tile against(const SearchReads& reads, const Aperture& aperture, const SearchRead& reference,
+             float turns_scale, const Tile& x, const Tile& y) {
+  const Tile of_reference = residual_turns(reference, x, y);
+  Tile in_phase = Tile::Zero();
+  Tile quadrature = Tile::Zero();
+  Tile cosine;
+  Tile sine;
+  for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
+    const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
+    const Tile turns = wrapped_turns(residual_turns(read, x, y) - of_reference);
+    const Tile weight = complementary_error(turns.abs() * turns_scale);
+    wave_of(turns, cosine, sine);
+    in_phase += weight * cosine;
+    quadrature += weight * sine;
+  }
+  return (in_phase.square() + quadrature.square()).sqrt();
+}
+
+/// Square array of places about `p`, `spacing` apart.
+void lay_tile(const Eigen::Vector2d& p, double spacing, Tile& x, Tile& y) {
+  constexpr int kSide = 8;
+  static_assert(kSide * kSide == kTile);
+  for (int i = 0; i < kTile; ++i) {
+    // One of the places is `p` itself.
+    const int column = i % kSide - kSide / 2;
+    const int row = i / kSide - kSide / 2;
+    x[i] = static_cast<float>(p.x() + spacing * column);
+    y[i] = static_cast<float>(p.y() + spacing * row);
+  }
+}
+
+/// The summit near `p`, relative to the reads' middle.
+Eigen::Vector2d summit(const SearchReads& reads, double noise_rad, Eigen::Vector2d p) {
+  constexpr int kMostMoves = 30;
+  Tile x;
+  Tile y;
+  double spacing = kFirstSpacing;
+  for (int move = 0; move < kMostMoves && spacing > kLastSpacing; ++move) {
+    lay_tile(p, spacing, x, y);
+    Eigen::Index best = 0;
+    differential_brightness(reads, noise_rad, x, y).maxCoeff(&best);
+    const Eigen::Vector2d there(static_cast<double>(x[best]), static_cast<double>(y[best]));
+    if ((there - p).cwiseAbs().maxCoeff() < 2.5 * spacing) spacing /= 4.0;
+    p = there;
+  }
+  return p;
+}
+
+/// The places on their summits, at the heights that they have.
+std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& height,
+                                  std::vector<PlaceVector> places, double noise_rad) {
+  if (places.size() > kFinished) places.resize(kFinished);
+  for (PlaceVector& place : places) {
+    const Eigen::Vector2d middle = middle_of(phases);
+    const SearchReads reads =
+        search_reads(phases, kWholeAperture, to_place(height, place).z(), middle);
+    place.head<2>() = middle + summit(reads, noise_rad, place.head<2>() - middle);
+  }
+  return places;
+}
+
+TagEstimate locate_by_differences(const LocalizationProblem& problem, const std::string& tag,
+                                  const SamplesOfTag& samples, const DahOptions& options) {
+  CoherentJudgement judgement;
+  judgement.min_share = options.min_share;
+  judgement.error_factor = kErrorFactor;
+  judgement.climb = false;
+  judgement.at_maxima = false;
+  judgement.known_offsets = false;  // Differences have lost the offset.
+  const double noise = largest_phase_noise(samples, options.least_noise_rad);
+  const double grid_noise = std::hypot(noise, kGridNoise);
+  const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
+    return differential_brightness(reads, grid_noise, x, y);
+  };
+  return locate_by_waves(
+      problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
+        return finished(phases, height, search_places(phases, height, options, brightness), noise);
+      });
+}
+
+/// The keys of its options.
+const OptionTable<DahOptions>& option_table() {
+  using O = DahOptions;
+  static const OptionTable<O> of = [] {
+    OptionTable<O> table{
+        {setting<O>("least_noise_rad", "rad", "standard deviation of a phase, if not more is seen",
+                    &O::least_noise_rad, kOverZero),
+         setting<O>("min_share", "", "of the waves that add up; less is no tag at rest",
+                    &O::min_share, kShareRange)}};
+    add_search_options(table);
+    return table;
+  }();
+  return of;
+}
+
+}  // namespace
+
+Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
+                             const Tile& y) {
+  const auto turns_scale = static_cast<float>(kTwoPi / (2.0 * noise_rad));
+  Tile light = Tile::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    const Eigen::Index references = aperture.count >= kLongAperture ? kReferences : 1;
+    for (Eigen::Index k = 0; k < references; ++k) {
+      const Eigen::Index at = aperture.begin + (2 * k + 1) * aperture.count / (2 * references);
+      light +=
+          against(reads, aperture, reads.reads[static_cast<std::size_t>(at)], turns_scale, x, y) /
+          static_cast<float>(references);
+    }
+  }
+  return light;
+}
+
+Method dah_method(const DahOptions& options) {
+  return one_by_one("dah",
+                    "differential augmented hologram: phase differences, weighted by probability",
+                    option_table(), options, locate_by_differences);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,27 @@
+/// @file
+/// Differential augmented holograms, after Yang et al., "Tagoram: real-time tracking of mobile RFID
+/// tags to high precision using COTS devices", MobiCom 2014, doi 10.1145/2639108.2639111: phase
+/// differences against a reference read, each weighted by how probable it is. docs/methods.md.
+#pragma once
+
+#include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/holograms/hologram.h"
+#include "tagfield/localization/method.h"
+
+namespace tagfield {
+
+struct DahOptions : SearchOptions {
+  double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
+  double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
+};
+
+/// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0
+/// the reference, and the weight w = P(|N(0, (√2 σ)²)| > |ε|) = erfc(|ε|/2σ). Long apertures have
+/// four references, of which the mean counts.
+Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
+                             const Tile& y);
+
+/// "dah": all tags, one by one. Throws Error on options out of their range.
+Method dah_method(const DahOptions& options = {});
+
+}  // namespace tagfield

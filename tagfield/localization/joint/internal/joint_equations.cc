@@ -1,0 +1,185 @@
+#include "tagfield/localization/joint/internal/joint_equations.h"
+
+#include <cmath>
+
+#include "tagfield/base/parallel.h"
+
+namespace tagfield {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Keeps matrices invertible where nothing is told of an unknown [1/m²].
+constexpr double kTiny = 1e-6;
+
+template <int D>
+ChainPart<D> empty_chain(Index knots) {
+  return {Blocks<D>::Zero(D, D * knots), Blocks<D>::Zero(D, D * knots),
+          Eigen::VectorXd::Zero(D * knots)};
+}
+
+/// Derivative of a read's range by the unknowns of a knot: the antenna moves back by the error.
+template <int D>
+Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
+                                    const PlaceVector& gradient, Index knot) {
+  const Eigen::Vector3d by_error(gradient[0], gradient[1],
+                                 -gradient[0] * tag.lever_y[i] + gradient[1] * tag.lever_x[i]);
+  const Eigen::Matrix3d& scale = system.knots.scale[static_cast<std::size_t>(knot)];
+  return scale.topLeftCorner<D, D>().transpose() * by_error.head<D>();
+}
+
+/// Adds one read's products with the pose error.
+template <int D>
+void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int column,
+                  const ReadNow& now, double weight, TagPart<D>& part) {
+  const Index before = (tag.knot[i] - tag.first_knot) * Index{D};
+  const Index after = before + D;
+  const double w = tag.knot_weight[i];
+  using Vector = Eigen::Matrix<double, D, 1>;
+  const Eigen::Vector3d& g = now.range.gradient;
+  const Vector a = (1.0 - w) * by_knot<D>(system, tag, i, g, tag.knot[i]);
+  const Vector b = w * by_knot<D>(system, tag, i, g, tag.knot[i] + 1);
+  for (int c = 0; c < part.layout.place; ++c) {
+    part.coupling.col(c).template segment<D>(before) += weight * g[c] * a;
+    part.coupling.col(c).template segment<D>(after) += weight * g[c] * b;
+  }
+  if (column >= 0) {
+    part.coupling.col(column).template segment<D>(before) += weight * a;
+    part.coupling.col(column).template segment<D>(after) += weight * b;
+  }
+  part.chain.diagonal.template middleCols<D>(before) += (weight * a) * a.transpose();
+  part.chain.diagonal.template middleCols<D>(after) += (weight * b) * b.transpose();
+  part.chain.next.template middleCols<D>(before) += (weight * a) * b.transpose();
+  part.chain.gradient.template segment<D>(before) += weight * now.error * a;
+  part.chain.gradient.template segment<D>(after) += weight * now.error * b;
+}
+
+/// Adds one read's products to the tag's part.
+template <int D>
+void add_read(const JointSystem& system, const JointTag& tag, std::size_t span, Index i,
+              TagPart<D>& part) {
+  const ReadNow now = read_now(system, tag, span, i);
+  const double k = tag.phases.wavenumber[i] / system.noise_rad;
+  const double weight = k * k * tag.weight;
+  const int place = part.layout.place;
+  const int column = part.layout.of_span[span];
+  const Eigen::Vector3d& g = now.range.gradient;
+  for (int c = 0; c < place; ++c) {
+    for (int r = 0; r < place; ++r) part.normal(r, c) += weight * g[r] * g[c];
+    part.gradient[c] += weight * now.error * g[c];
+  }
+  if (column >= 0) {
+    part.normal(column, column) += weight;
+    for (int c = 0; c < place; ++c) {
+      part.normal(column, c) += weight * g[c];
+      part.normal(c, column) += weight * g[c];
+    }
+    part.gradient[column] += weight * now.error;
+  }
+  if (tag.knot[i] >= 0) add_to_knots(system, tag, i, column, now, weight, part);
+}
+
+template <int D>
+TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
+  TagPart<D> part;
+  part.layout = layout_of(tag);
+  const Index m = part.layout.size;
+  part.normal = Eigen::MatrixXd::Zero(m, m);
+  part.gradient = Eigen::VectorXd::Zero(m);
+  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * Index{D}, m);
+  part.chain = empty_chain<D>(tag.knot_count);
+  for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
+    const TagPhases::Span& span = tag.phases.spans[s];
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      add_read(system, tag, s, i, part);
+    }
+  }
+  part.normal.diagonal().array() += kTiny;
+  return part;
+}
+
+/// What is known of the pose error beforehand: uᵀ Λ u with the process' precision Λ.
+template <int D>
+void add_prior(const JointSystem& system, ChainPart<D>& chain) {
+  constexpr int size = D;
+  for (const PoseKnots::Chain& of : system.knots.chains) {
+    const double rho = system.knots.correlation(of);
+    const double fresh = 1.0 / (1.0 - rho * rho);
+    for (Index k = 0; k < of.count; ++k) {
+      const Index at = (of.first + k) * size;
+      const bool has_next = k + 1 < of.count;
+      const double own = (k == 0 ? 1.0 : fresh) + (has_next ? rho * rho * fresh : 0.0);
+      chain.diagonal.middleCols(at, size).diagonal().array() += own;
+      chain.gradient.segment(at, size) -= own * system.u.segment(at, size);
+      if (!has_next) continue;
+      chain.next.middleCols(at, size).diagonal().array() -= rho * fresh;
+      chain.gradient.segment(at, size) += rho * fresh * system.u.segment(at + size, size);
+      chain.gradient.segment(at + size, size) += rho * fresh * system.u.segment(at, size);
+    }
+  }
+}
+
+}  // namespace
+
+Layout layout_of(const JointTag& tag) {
+  Layout layout;
+  layout.place = tag.fixed ? 0 : tag.height.unknowns();
+  int next = layout.place;
+  for (const TagPhases::Span& span : tag.phases.spans) {
+    layout.of_span.push_back(span.offset_known ? -1 : next);
+    if (!span.offset_known) ++next;
+  }
+  layout.size = next;
+  return layout;
+}
+
+ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t span, Index i) {
+  const Eigen::Vector2d moved = displacement_at(system, tag, i);
+  ReadNow now;
+  now.range = range_to(tag.height, tag.fit.unknowns, tag.phases.x[i] - moved.x(),
+                       tag.phases.y[i] - moved.y(), tag.phases.z[i]);
+  now.error = nearest_to_zero(
+      tag.phases, tag.phases.spans[span],
+      tag.phases.value[i] - now.range.r - tag.fit.offsets[static_cast<Index>(span)]);
+  return now;
+}
+
+double prior_cost(const JointSystem& system) {
+  const int size = system.knots.size;
+  double cost = 0.0;
+  for (const PoseKnots::Chain& of : system.knots.chains) {
+    const double rho = system.knots.correlation(of);
+    const double fresh = 1.0 / (1.0 - rho * rho);
+    cost += system.u.segment(of.first * size, size).squaredNorm();
+    for (Index k = 1; k < of.count; ++k) {
+      const Index at = (of.first + k) * size;
+      cost += fresh *
+              (system.u.segment(at, size) - rho * system.u.segment(at - size, size)).squaredNorm();
+    }
+  }
+  return cost;
+}
+
+template <int D>
+Linear<D> linearize(const JointSystem& system, int threads) {
+  Linear<D> linear;
+  linear.tags.resize(system.tags.size());
+  parallel_for(system.tags.size(), threads,
+               [&](std::size_t j) { linear.tags[j] = part_of<D>(system, system.tags[j]); });
+  linear.chain = empty_chain<D>(system.knots.count());
+  for (std::size_t j = 0; j < system.tags.size(); ++j) {
+    const Index begin = system.tags[j].first_knot * Index{D};
+    const Index count = system.tags[j].knot_count * Index{D};
+    const ChainPart<D>& part = linear.tags[j].chain;
+    linear.chain.diagonal.middleCols(begin, count) += part.diagonal;
+    linear.chain.next.middleCols(begin, count) += part.next;
+    linear.chain.gradient.segment(begin, count) += part.gradient;
+  }
+  add_prior(system, linear.chain);
+  return linear;
+}
+
+template Linear<2> linearize<2>(const JointSystem& system, int threads);
+template Linear<3> linearize<3>(const JointSystem& system, int threads);
+
+}  // namespace tagfield

@@ -1,0 +1,269 @@
+#include "tagfield/localization/joint/internal/joint_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/median.h"
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/phase_noise.h"
+#include "tagfield/localization/residuals.h"
+
+namespace tagfield {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Where nothing is known of the pose error it is looked for from here.
+constexpr PoseErrorModel kFirstGuess{0.02, 0.02, 5.0};
+/// Knots a time constant: straight lines between them miss 2 % of the variance.
+constexpr double kKnotsPerTimeConstant = 40.0;
+/// With many tags, where the knots' own system is solved whole.
+constexpr double kCoarseKnots = 20.0;
+constexpr double kMostUnknowns = 3000.0;  ///< Of the knots in that case.
+
+PoseErrorModel model_of(const LocalizationProblem& problem) {
+  return problem.pose_error.value_or(kFirstGuess);
+}
+
+bool has_told_covariances(const LocalizationProblem& problem) {
+  return std::any_of(problem.tracks.begin(), problem.tracks.end(),
+                     [](const auto& named) { return !named.second.covariance.empty(); });
+}
+
+double duration_of(const LocalizationProblem& problem) {
+  double begin = 1e300;
+  double end = -1e300;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    for (const auto& [antenna, series] : of_tag) {
+      if (series.empty()) continue;
+      begin = std::min(begin, to_seconds(series.front().stamp));
+      end = std::max(end, to_seconds(series.back().stamp));
+    }
+  }
+  return std::max(end - begin, 0.0);
+}
+
+/// Time between knots, finer where few tags make that cheap.
+double knot_spacing(const LocalizationProblem& problem, std::size_t tags, double time_constant_s) {
+  constexpr Index kUnknownsOfTag = 4;
+  const double fine = time_constant_s / kKnotsPerTimeConstant;
+  const double duration = duration_of(problem);
+  const auto unknowns = static_cast<Index>(2.0 * duration / fine) + 2;
+  if (eliminates_knots_first(unknowns, std::vector<Index>(tags, kUnknownsOfTag))) return fine;
+  return std::max(time_constant_s / kCoarseKnots, 2.0 * duration / kMostUnknowns);
+}
+
+/// Covariances that come with the poses count only where no model was given.
+PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& model,
+                   double spacing_s) {
+  const bool told = !problem.pose_error && has_told_covariances(problem);
+  PoseKnots knots = make_knots(problem, told ? nullptr : &model, spacing_s);
+  knots.time_constant_s = model.time_constant_s;
+  return knots;
+}
+
+/// From the phases before any fit; 0 where they don't tell.
+double first_noise(const LocalizationProblem& problem) {
+  std::vector<double> of_series;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    for (const auto& [antenna, series] : of_tag) {
+      const double noise = phase_noise(series);
+      if (noise > 0.0) of_series.push_back(noise);
+    }
+  }
+  const double usual = problem.half_turns ? 0.2 : 0.1;
+  return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
+}
+
+JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
+                   const UnwrappedFit& unwrapped) {
+  JointTag joint;
+  joint.id = tag;
+  joint.phases = unwrapped.phases;
+  joint.height = unwrapped.height;
+  joint.fit = unwrapped.fits.front();
+  const auto known = problem.reference_tags.find(tag);
+  if (known == problem.reference_tags.end()) return joint;
+  joint.fixed = true;
+  joint.height = {HeightModel::Kind::kKnown, known->second.z(), 1.0};
+  joint.fit.unknowns = to_unknowns(joint.height, known->second);
+  joint.fit.offsets = offsets_at(joint.phases, joint.height, joint.fit.unknowns);
+  return joint;
+}
+
+/// Residuals of one tag where the system stands [m], in the order of its reads.
+Eigen::ArrayXd residuals_of(const JointSystem& system, const JointTag& tag) {
+  TagPhases phases = tag.phases;
+  for (Index i = 0; i < phases.size(); ++i) {
+    const Eigen::Vector2d moved = displacement_at(system, tag, i);
+    phases.x[i] -= moved.x();
+    phases.y[i] -= moved.y();
+  }
+  return tagfield::residuals_of(phases, tag.height, tag.fit);
+}
+
+/// Phase noise from residuals of neighbouring reads of all tags.
+double noise_of_neighbours(const JointSystem& system) {
+  constexpr std::size_t kFewest = 30;
+  std::vector<double> all;
+  for (const JointTag& tag : system.tags) {
+    const auto of_tag = neighbour_differences(tag.phases, residuals_of(system, tag));
+    all.insert(all.end(), of_tag.begin(), of_tag.end());
+  }
+  return all.size() < kFewest ? system.noise_rad : noise_of_differences(std::move(all));
+}
+
+/// Tags whose residuals are far greater than noise (reflections, a tag that moves) count for less.
+void weigh(JointSystem& system) {
+  constexpr double kTolerated = 2.0;
+  for (JointTag& tag : system.tags) {
+    const auto unknowns = static_cast<double>(tag.phases.spans.size()) + 2.0;
+    const auto reads = static_cast<double>(tag.phases.size());
+    const double freedom = std::max(reads - unknowns, 0.5 * reads);
+    const double excess = tag.fit.cost / (freedom * system.noise_rad * system.noise_rad);
+    if (excess < kTolerated) {
+      tag.weight = 1.0;
+      continue;
+    }
+    const double correlation = correlation_factor(tag.phases.spans, residuals_of(system, tag));
+    tag.weight = 1.0 / (excess * correlation);
+  }
+}
+
+/// The tag's samples and problem as if the corrected poses were the believed ones.
+UnwrappedFit fit_corrected(const JointState& state, std::size_t index) {
+  const JointSystem& system = state.system;
+  const SamplesOfTag corrected =
+      corrected_samples(*state.problem, system.knots, system.u, *state.samples[index]);
+  return fit_unwrapped(*state.problem, system.tags[index].id, corrected);
+}
+
+/// The wrapped fit with corrected poses from where the tag stands.
+JointTag wrapped_tag(const JointState& state, std::size_t index) {
+  const JointSystem& system = state.system;
+  const JointTag& tag = system.tags[index];
+  std::vector<std::string> antennas;
+  for (const TagPhases::Span& span : tag.phases.spans) antennas.push_back(span.antenna);
+  JointTag wrapped = tag;
+  wrapped.phases = wrapped_phases(*state.problem, *state.samples[index], antennas);
+  attach(*state.problem, system.knots, wrapped);
+  const SamplesOfTag corrected =
+      corrected_samples(*state.problem, system.knots, system.u, *state.samples[index]);
+  const TagPhases phases = wrapped_phases(*state.problem, corrected, antennas);
+  if (tag.fixed) {
+    wrapped.fit.offsets = offsets_at(phases, tag.height, tag.fit.unknowns);
+  } else {
+    wrapped.fit = fit_tag(phases, tag.height, tag.fit.unknowns);
+  }
+  wrapped.fit.cost =
+      (tagfield::residuals_of(phases, tag.height, wrapped.fit) * phases.wavenumber).square().sum();
+  return wrapped;
+}
+
+/// Whether whole cycles can be told: the wrapped phases fit about as well as the unwrapped ones.
+bool fits_as_well(const JointTag& wrapped, const JointTag& unwrapped) {
+  constexpr double kWorse = 1.3;
+  const auto reads = static_cast<double>(unwrapped.phases.size());
+  const double freedom =
+      std::max(reads - static_cast<double>(unwrapped.phases.spans.size()), 0.5 * reads);
+  return wrapped.fit.cost / static_cast<double>(wrapped.phases.size()) <
+         kWorse * unwrapped.fit.cost / freedom;
+}
+
+}  // namespace
+
+JointState begin_jointly(const LocalizationProblem& problem, int threads) {
+  std::vector<const SamplesByTag::value_type*> tags;
+  for (const auto& entry : problem.samples) tags.push_back(&entry);
+  std::vector<UnwrappedFit> fits(tags.size());
+  parallel_for(tags.size(), threads, [&](std::size_t i) {
+    fits[i] = fit_unwrapped(problem, tags[i]->first, tags[i]->second);
+  });
+  JointState state;
+  state.problem = &problem;
+  state.system.noise_rad = first_noise(problem);
+  const PoseErrorModel model = model_of(problem);
+  state.system.knots =
+      knots_of(problem, model, knot_spacing(problem, tags.size(), model.time_constant_s));
+  const PoseKnots& knots = state.system.knots;
+  state.system.u = Eigen::VectorXd::Zero(knots.count() * knots.size);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const auto& [tag, samples] = *tags[i];
+    if (!fits[i].why_not.empty()) {
+      state.not_located[tag] = not_located(begun(tag, samples), fits[i].why_not);
+      continue;
+    }
+    JointTag joint = joint_tag(problem, tag, fits[i]);
+    attach(problem, knots, joint);
+    state.system.tags.push_back(std::move(joint));
+    state.samples.push_back(&samples);
+  }
+  state.alternatives.resize(state.system.tags.size());
+  return state;
+}
+
+void fit_unwrapped_jointly(JointState& state, int threads) {
+  JointSystem& system = state.system;
+  minimize(system, kMostRoundsOfJointFit, threads);
+  system.noise_rad = noise_of_neighbours(system);
+  weigh(system);
+  minimize(system, kMostRoundsOfJointFit, threads);
+}
+
+std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads) {
+  std::vector<UnwrappedFit> fits(state.system.tags.size());
+  parallel_for(fits.size(), threads, [&](std::size_t i) {
+    if (!state.system.tags[i].fixed) fits[i] = fit_corrected(state, i);
+  });
+  return fits;
+}
+
+void find_better_places(JointState& state, int threads) {
+  constexpr int kMostRounds = 3;
+  constexpr double kMoved = 0.03;   // [m]
+  constexpr double kBetter = 0.85;  // Of the cost.
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::vector<UnwrappedFit> fits = fit_all_corrected(state, threads);
+    bool any = false;
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      JointTag& tag = state.system.tags[i];
+      if (tag.fixed || fits[i].fits.empty()) continue;
+      const TagFit& best = fits[i].fits.front();
+      const bool elsewhere = (best.unknowns - tag.fit.unknowns).head<2>().norm() > kMoved;
+      if (!elsewhere || best.cost > kBetter * tag.fit.cost) continue;
+      tag.fit.unknowns = best.unknowns;
+      tag.fit.offsets = offsets_at(tag.phases, tag.height, best.unknowns);
+      any = true;
+    }
+    if (!any) return;
+    weigh(state.system);
+    minimize(state.system, kMostRoundsOfJointFit, threads);
+  }
+}
+
+void fit_wrapped_jointly(JointState& state, int threads) {
+  JointSystem& system = state.system;
+  cost_of(system);
+  std::vector<JointTag> wrapped(system.tags.size());
+  parallel_for(wrapped.size(), threads, [&](std::size_t i) { wrapped[i] = wrapped_tag(state, i); });
+  for (std::size_t i = 0; i < wrapped.size(); ++i) {
+    if (fits_as_well(wrapped[i], system.tags[i])) system.tags[i] = std::move(wrapped[i]);
+  }
+  minimize(system, kMostRoundsOfJointFit, threads);
+  system.noise_rad = noise_of_neighbours(system);
+  weigh(system);
+  minimize(system, kMostRoundsOfJointFit, threads);
+}
+
+Candidate candidate_of(const JointSystem& system, std::size_t tag,
+                       const Eigen::Matrix3d& covariance) {
+  const JointTag& at = system.tags[tag];
+  const double rms_m = std::sqrt(residuals_of(system, at).square().mean());
+  return make_candidate(at.height, at.fit.unknowns, covariance, rms_m);
+}
+
+}  // namespace tagfield

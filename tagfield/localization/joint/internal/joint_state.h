@@ -1,0 +1,54 @@
+/// @file
+/// The steps of the joint estimate.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/joint/joint_system.h"
+#include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/problem.h"
+#include "tagfield/localization/tag_estimate.h"
+
+namespace tagfield {
+
+/// Rounds of minimize() from a place that is far off.
+inline constexpr int kMostRoundsOfJointFit = 25;
+
+struct JointState {
+  const LocalizationProblem* problem = nullptr;
+  JointSystem system;
+  std::vector<const SamplesOfTag*> samples;          ///< By tag of the system.
+  std::vector<std::vector<Candidate>> alternatives;  ///< Likewise: other places that may be.
+  std::map<std::string, TagEstimate> not_located;    ///< Tags that can't be in the system.
+};
+
+/// Each tag by itself on its unwrapped phase, and knots for the pose error.
+JointState begin_jointly(const LocalizationProblem& problem, int threads);
+
+/// Minimizes, learns the phase noise from it, and gives tags that don't fit less weight.
+void fit_unwrapped_jointly(JointState& state, int threads);
+
+/// Strength and time constant of the pose error by which the reads are most likely.
+void learn_pose_error(JointState& state, int threads);
+
+/// Each tag by itself on its unwrapped phase, as if the corrected poses were the believed ones; of
+/// reference tags nothing.
+std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads);
+
+/// Looks for each tag's place anew from the corrected poses, and goes on from better ones.
+void find_better_places(JointState& state, int threads);
+
+/// Exchanges unwrapped phases by wrapped ones, tag by tag where they fit as well, and minimizes.
+void fit_wrapped_jointly(JointState& state, int threads);
+
+/// Other places that explain the reads nearly as well: of single tags with the corrected poses, and
+/// of all tags mirrored across a straight way.
+void find_alternatives(JointState& state, int threads);
+
+/// Where a tag stands, with the covariance of its unknowns.
+Candidate candidate_of(const JointSystem& system, std::size_t tag,
+                       const Eigen::Matrix3d& covariance);
+
+}  // namespace tagfield

@@ -1,0 +1,164 @@
+#include "tagfield/localization/joint/joint_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/localization/joint/internal/joint_equations.h"
+#include "tagfield/localization/joint/internal/joint_solution.h"
+
+namespace tagfield {
+namespace {
+
+using Index = Eigen::Index;
+
+Eigen::Vector3d padded(const Eigen::VectorXd& u, Index knot, int size) {
+  Eigen::Vector3d all = Eigen::Vector3d::Zero();
+  all.head(size) = u.segment(knot * size, size);
+  return all;
+}
+
+/// A system under way.
+struct Point {
+  JointSystem system;
+  double cost = 0.0;
+};
+
+void apply(const Move& move, JointSystem& system) {
+  system.u += move.u;
+  for (std::size_t j = 0; j < system.tags.size(); ++j) {
+    JointTag& tag = system.tags[j];
+    const Layout layout = layout_of(tag);
+    tag.fit.unknowns.head(layout.place) += move.of_tag[j].head(layout.place);
+    for (std::size_t s = 0; s < layout.of_span.size(); ++s) {
+      if (layout.of_span[s] < 0) continue;
+      tag.fit.offsets[static_cast<Index>(s)] += move.of_tag[j][layout.of_span[s]];
+    }
+  }
+}
+
+bool is_finite(const Move& move) {
+  return move.u.allFinite() &&
+         std::all_of(move.of_tag.begin(), move.of_tag.end(),
+                     [](const Eigen::VectorXd& of_tag) { return of_tag.allFinite(); });
+}
+
+/// Greatest change of a place [m].
+double length_of(const JointSystem& system, const Move& move) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < system.tags.size(); ++j) {
+    if (system.tags[j].fixed || move.of_tag[j].size() < 2) continue;
+    most = std::max(most, move.of_tag[j].head<2>().norm());
+  }
+  return most;
+}
+
+}  // namespace
+
+void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag) {
+  const Index reads = tag.phases.size();
+  tag.knot = Eigen::ArrayXi::Constant(reads, -1);
+  tag.knot_weight = Eigen::ArrayXd::Zero(reads);
+  tag.lever_x = Eigen::ArrayXd::Zero(reads);
+  tag.lever_y = Eigen::ArrayXd::Zero(reads);
+  int first = 0;
+  int last = -1;
+  for (const TagPhases::Span& span : tag.phases.spans) {
+    const auto found = knots.chain_of.find(span.antenna);
+    if (found == knots.chain_of.end()) continue;
+    const PoseKnots::Chain& chain = knots.chains[found->second];
+    const Trajectory& reference = problem.tracks.at(chain.reference).X_WA;
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const KnotPlace place = place_in(chain, tag.phases.time_s[i]);
+      tag.knot[i] = static_cast<int>(place.at);
+      tag.knot_weight[i] = place.weight;
+      first = last < 0 ? tag.knot[i] : std::min(first, tag.knot[i]);
+      last = std::max(last, tag.knot[i] + 1);
+      if (span.antenna == chain.reference) continue;
+      const RigidTransform X_WR = held_pose_at(reference, time_from_seconds(tag.phases.time_s[i]));
+      tag.lever_x[i] = tag.phases.x[i] - X_WR.translation.x();
+      tag.lever_y[i] = tag.phases.y[i] - X_WR.translation.y();
+    }
+  }
+  tag.first_knot = first;
+  tag.knot_count = last < 0 ? 0 : last - first + 1;
+}
+
+Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Index i) {
+  const Index at = tag.knot[i];
+  if (at < 0) return Eigen::Vector2d::Zero();
+  const PoseKnots& knots = system.knots;
+  const double w = tag.knot_weight[i];
+  const auto k = static_cast<std::size_t>(at);
+  const Eigen::Vector3d error = (1.0 - w) * (knots.scale[k] * padded(system.u, at, knots.size)) +
+                                w * (knots.scale[k + 1] * padded(system.u, at + 1, knots.size));
+  const double yaw = knots.size == 3 ? error.z() : 0.0;
+  return {error.x() - yaw * tag.lever_y[i], error.y() + yaw * tag.lever_x[i]};
+}
+
+double cost_of(JointSystem& system) {
+  double total = prior_cost(system);
+  for (JointTag& tag : system.tags) {
+    double cost = 0.0;
+    for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
+      const TagPhases::Span& span = tag.phases.spans[s];
+      for (Index i = span.begin; i < span.begin + span.count; ++i) {
+        const double error = read_now(system, tag, s, i).error * tag.phases.wavenumber[i];
+        cost += error * error;
+      }
+    }
+    tag.fit.cost = cost;
+    total += cost * tag.weight / (system.noise_rad * system.noise_rad);
+  }
+  return total;
+}
+
+double minimize(JointSystem& system, int rounds, int threads) {
+  constexpr double kTolerance = 2e-6;  // [m]
+  LevenbergMarquardt how{.damping = 1e-6, .least_raised = 1e-3};
+  how.most_steps = rounds;
+  how.least_gain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
+  double length = std::numeric_limits<double>::infinity();  // Of the last step.
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    if (length < kTolerance) return std::nullopt;
+    const Move move = damped_move(here.system, damping, threads);
+    if (!is_finite(move)) return Point{{}, std::numeric_limits<double>::quiet_NaN()};
+    length = length_of(here.system, move);
+    Point there{here.system, 0.0};
+    apply(move, there.system);
+    there.cost = cost_of(there.system);
+    return there;
+  };
+  const double cost = cost_of(system);
+  system = descend(Point{std::move(system), cost}, how, step).system;
+  return cost_of(system);
+}
+
+JointCovariance covariance_of(const JointSystem& system, int threads) {
+  return inverse_of_normal(system, threads);
+}
+
+double evidence(const JointSystem& system, double cost, double log_determinant) {
+  // ln |Λ| of the prior: each step of a chain has the precision 1/(1 − ρ²) in each unknown.
+  double prior = 0.0;
+  for (const PoseKnots::Chain& chain : system.knots.chains) {
+    const double rho = system.knots.correlation(chain);
+    prior -= static_cast<double>((chain.count - 1) * system.knots.size) * std::log1p(-rho * rho);
+  }
+  return cost + log_determinant - prior;
+}
+
+bool eliminates_knots_first(Index knot_unknowns, const std::vector<Index>& unknowns) {
+  double all = 0.0;
+  double by_tags = 0.0;
+  const auto knots = static_cast<double>(knot_unknowns);
+  for (const Index m : unknowns) {
+    const auto count = static_cast<double>(m);
+    all += count;
+    by_tags += knots * knots * count;
+  }
+  return knots * all * all + all * all * all / 3.0 < by_tags + knots * knots * knots / 3.0;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,72 @@
+/// @file
+/// The normal equations of all tags and the pose error together, and their solution. Tags are
+/// coupled through the pose error alone, and that from knot to knot: either the chain of knots is
+/// eliminated first, or the tags, whichever is less work.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/joint/pose_knots.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+
+/// A tag in the system.
+struct JointTag {
+  std::string id;
+  TagPhases phases;
+  HeightModel height;
+  bool fixed = false;   ///< Its place is known: a reference tag.
+  double weight = 1.0;  ///< Of its reads, 1 for those with the system's noise.
+  TagFit fit;           ///< Place and offsets, where the system is linearized.
+  // By read: the knot before it (−1 for an antenna without error), how far towards the next, and
+  // the antenna's place from its body's reference [m].
+  Eigen::ArrayXi knot;
+  Eigen::ArrayXd knot_weight, lever_x, lever_y;
+  int first_knot = 0;
+  int knot_count = 0;  ///< Knots that its reads touch lie in [first_knot, first_knot + knot_count).
+};
+
+struct JointSystem {
+  PoseKnots knots;
+  Eigen::VectorXd u;  ///< Pose error in units of its standard deviation; `knots.size` a knot.
+  std::vector<JointTag> tags;
+  double noise_rad = 0.1;  ///< Of a phase.
+};
+
+/// Sets `knot`, `lever_x` and so on for the tag's phases.
+void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag);
+
+/// How far the believed place of the antenna at the tag's i-th read is off, seen from above [m].
+Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Eigen::Index i);
+
+/// Σ (residual/noise)² · weight of all reads plus uᵀ Λ u of the pose error. Sets each tag's
+/// fit.cost [rad²].
+double cost_of(JointSystem& system);
+
+/// Gauss and Newton's method with Levenberg's damping, from where the system stands. Returns the
+/// cost there. Threads share the tags.
+double minimize(JointSystem& system, int rounds, int threads);
+
+/// What is known at the minimum.
+struct JointCovariance {
+  /// By tag, of its unknowns; rows of known heights and of fixed tags are 0.
+  std::vector<Eigen::Matrix3d> of_tag;
+  /// Of all tags' unknowns, 3 rows a tag. Where the tags were eliminated first, only the blocks of
+  /// `of_tag`.
+  Eigen::MatrixXd of_all;
+  double log_determinant = 0.0;  ///< Of the normal equations' matrix.
+};
+JointCovariance covariance_of(const JointSystem& system, int threads);
+
+/// −2 ln of the data's density given the pose error's model, up to a constant: by this models are
+/// compared. `cost` is cost_of() at the minimum.
+double evidence(const JointSystem& system, double cost, double log_determinant);
+
+/// Whether the chain of knots would be eliminated first for so many tags with so many unknowns
+/// each.
+bool eliminates_knots_first(Eigen::Index knot_unknowns, const std::vector<Eigen::Index>& unknowns);
+
+}  // namespace tagfield

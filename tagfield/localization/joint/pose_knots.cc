@@ -1,0 +1,215 @@
+#include "tagfield/localization/joint/pose_knots.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kRigid_m = 0.005;
+constexpr double kRigid_rad = 0.0087;  // Half a degree.
+
+double extent_of_track(const Trajectory& track) {
+  Eigen::AlignedBox3d box;
+  for (const StampedPose& pose : track) box.extend(pose.X_WB.translation);
+  return track.empty() ? 0.0 : box.sizes().norm();
+}
+
+/// Whether B keeps its pose in A at a dozen times that both know.
+bool is_rigid(const Trajectory& a, const Trajectory& b) {
+  constexpr std::size_t kLooks = 12;
+  std::optional<RigidTransform> first;
+  std::size_t looks = 0;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    const StampedPose& at = a[i * (a.size() - 1) / (kLooks - 1)];
+    const auto X_WB = pose_at(b, at.stamp);
+    if (!X_WB) continue;
+    const RigidTransform X_AB = at.X_WB.inverse() * *X_WB;
+    if (!first) first = X_AB;
+    ++looks;
+    if ((X_AB.translation - first->translation).norm() > kRigid_m ||
+        X_AB.rotation.angularDistance(first->rotation) > kRigid_rad) {
+      return false;
+    }
+  }
+  return looks >= 2;
+}
+
+/// First and last time that any antenna of the body read anything [s].
+struct Period {
+  double begin = 0.0;
+  double end = 0.0;
+  bool any = false;
+};
+
+Period period_of(const LocalizationProblem& problem, const Body& body) {
+  Period period;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    for (const std::string& antenna : body.antennas) {
+      const auto series = of_tag.find(antenna);
+      if (series == of_tag.end() || series->second.empty()) continue;
+      const double begin = to_seconds(series->second.front().stamp);
+      const double end = to_seconds(series->second.back().stamp);
+      period.begin = period.any ? std::min(period.begin, begin) : begin;
+      period.end = period.any ? std::max(period.end, end) : end;
+      period.any = true;
+    }
+  }
+  return period;
+}
+
+Eigen::Matrix3d model_scale(const PoseErrorModel& model) {
+  return Eigen::Vector3d(model.sigma_m, model.sigma_m, model.yaw_sigma_rad).asDiagonal();
+}
+
+/// Lower triangular root of a covariance, made positive definite where rounding spoilt that.
+Eigen::Matrix3d root(Eigen::Matrix3d covariance) {
+  covariance = 0.5 * (covariance + covariance.transpose().eval());
+  covariance.diagonal().array() += 1e-12;
+  const Eigen::LLT<Eigen::Matrix3d> factors(covariance);
+  if (factors.info() != Eigen::Success) {
+    return covariance.diagonal().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  }
+  return factors.matrixL();
+}
+
+/// Root of the covariance told nearest to a time.
+Eigen::Matrix3d told_scale(const BelievedTrack& track, double time_s) {
+  const auto after = std::lower_bound(
+      track.X_WA.begin(), track.X_WA.end(), time_s,
+      [](const StampedPose& pose, double t) { return to_seconds(pose.stamp) < t; });
+  const auto last = static_cast<std::ptrdiff_t>(track.X_WA.size()) - 1;
+  const std::ptrdiff_t i = std::min(after - track.X_WA.begin(), last);
+  return root(track.covariance[static_cast<std::size_t>(i)]);
+}
+
+void add_chain(const LocalizationProblem& problem, const Body& body, const PoseErrorModel* model,
+               double spacing_s, PoseKnots& knots) {
+  const Period period = period_of(problem, body);
+  if (!period.any) return;
+  const double length = period.end - period.begin;
+  PoseKnots::Chain chain;
+  chain.reference = body.reference;
+  chain.first = knots.count();
+  const auto steps = std::max(1.0, std::ceil(length / spacing_s));
+  chain.count = static_cast<Eigen::Index>(steps) + 1;
+  chain.begin_s = period.begin;
+  chain.spacing_s = std::max(length / steps, 1e-6);
+  const BelievedTrack& track = problem.tracks.at(body.reference);
+  for (Eigen::Index k = 0; k < chain.count; ++k) {
+    const double time_s = chain.begin_s + static_cast<double>(k) * chain.spacing_s;
+    knots.scale.push_back(model != nullptr ? model_scale(*model) : told_scale(track, time_s));
+  }
+  for (const std::string& antenna : body.antennas) knots.chain_of[antenna] = knots.chains.size();
+  knots.chains.push_back(chain);
+}
+
+/// The believed place less the error there.
+Eigen::Vector3d corrected_place(const LocalizationProblem& problem, const PoseKnots::Chain& chain,
+                                const Eigen::Vector3d& error, const Eigen::Vector3d& p_WA,
+                                Time stamp) {
+  const auto X_WR = held_pose_at(problem.tracks.at(chain.reference).X_WA, stamp);
+  const Eigen::Vector3d lever = p_WA - X_WR.translation;
+  return p_WA -
+         Eigen::Vector3d(error.x() - error.z() * lever.y(), error.y() + error.z() * lever.x(), 0.0);
+}
+
+}  // namespace
+
+std::vector<Body> bodies_of(const LocalizationProblem& problem) {
+  std::vector<Body> bodies;
+  for (const auto& [antenna, track] : problem.tracks) {
+    if (extent_of_track(track.X_WA) < kStillExtent) continue;
+    const auto same =
+        std::find_if(bodies.begin(), bodies.end(), [&, &moving = track](const Body& b) {
+          return is_rigid(problem.tracks.at(b.reference).X_WA, moving.X_WA);
+        });
+    if (same == bodies.end()) {
+      bodies.push_back({antenna, {antenna}});
+    } else {
+      same->antennas.push_back(antenna);
+    }
+  }
+  return bodies;
+}
+
+double PoseKnots::correlation(const Chain& chain) const {
+  return std::exp(-chain.spacing_s / time_constant_s);
+}
+
+PoseKnots make_knots(const LocalizationProblem& problem, const PoseErrorModel* model,
+                     double spacing_s) {
+  PoseKnots knots;
+  if (model != nullptr) knots.time_constant_s = model->time_constant_s;
+  if (model != nullptr && model->sigma_m <= 0.0 && model->yaw_sigma_rad <= 0.0) return knots;
+  for (const Body& body : bodies_of(problem)) {
+    if (body.antennas.size() > 1) knots.size = 3;
+    add_chain(problem, body, model, spacing_s, knots);
+  }
+  return knots;
+}
+
+PoseKnots scaled(PoseKnots knots, double factor) {
+  for (Eigen::Matrix3d& scale : knots.scale) scale *= factor;
+  return knots;
+}
+
+KnotPlace place_in(const PoseKnots::Chain& chain, double time_s) {
+  const double steps = (time_s - chain.begin_s) / chain.spacing_s;
+  const auto last = static_cast<double>(chain.count - 2);
+  const double at = std::clamp(std::floor(steps), 0.0, last);
+  return {chain.first + static_cast<Eigen::Index>(at), std::clamp(steps - at, 0.0, 1.0)};
+}
+
+Eigen::Vector3d error_at(const PoseKnots& knots, const Eigen::VectorXd& u,
+                         const PoseKnots::Chain& chain, double time_s) {
+  const KnotPlace place = place_in(chain, time_s);
+  const auto error = [&](Eigen::Index knot) {
+    Eigen::Vector3d padded = Eigen::Vector3d::Zero();
+    padded.head(knots.size) = u.segment(knot * knots.size, knots.size);
+    return Eigen::Vector3d(knots.scale[static_cast<std::size_t>(knot)] * padded);
+  };
+  Eigen::Vector3d sum = (1.0 - place.weight) * error(place.at) + place.weight * error(place.at + 1);
+  if (knots.size == 2) sum.z() = 0.0;
+  return sum;
+}
+
+std::vector<AntennaPose> corrected_poses(const LocalizationProblem& problem, const PoseKnots& knots,
+                                         const Eigen::VectorXd& u) {
+  std::vector<AntennaPose> poses;
+  for (const auto& [antenna, track] : problem.tracks) {
+    const auto found = knots.chain_of.find(antenna);
+    for (const StampedPose& pose : track.X_WA) {
+      RigidTransform X_WA = pose.X_WB;
+      if (found != knots.chain_of.end()) {
+        const PoseKnots::Chain& chain = knots.chains[found->second];
+        const Eigen::Vector3d error = error_at(knots, u, chain, to_seconds(pose.stamp));
+        X_WA.translation = corrected_place(problem, chain, error, X_WA.translation, pose.stamp);
+        X_WA.rotation = Eigen::AngleAxisd(-error.z(), Eigen::Vector3d::UnitZ()) * X_WA.rotation;
+      }
+      poses.push_back({pose.stamp, antenna, X_WA, std::nullopt});
+    }
+  }
+  return poses;
+}
+
+SamplesOfTag corrected_samples(const LocalizationProblem& problem, const PoseKnots& knots,
+                               const Eigen::VectorXd& u, const SamplesOfTag& samples) {
+  SamplesOfTag corrected = samples;
+  for (auto& [antenna, series] : corrected) {
+    const auto found = knots.chain_of.find(antenna);
+    if (found == knots.chain_of.end()) continue;
+    const PoseKnots::Chain& chain = knots.chains[found->second];
+    for (PhaseSample& sample : series) {
+      const Eigen::Vector3d error = error_at(knots, u, chain, to_seconds(sample.stamp));
+      sample.p_WA = corrected_place(problem, chain, error, sample.p_WA, sample.stamp);
+    }
+  }
+  return corrected;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,108 @@
+#include "tagfield/localization/phase_curves/phase_following.h"
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+/// Uncertainty of the expected phase [rad] beyond which whole turns are not sure.
+constexpr double kUnsure = kTwoPi / 6.5;
+/// How fast the direction to the tag changes with the antenna's way. A tag 1.7 m beside it turns by
+/// 0.6 rad over a metre; the rest is for nearer ones, which turn for long to the same side.
+constexpr double kTurning = 0.6;       // [1/m]
+constexpr double kMoreTurning = 0.05;  // Variance [1/m].
+constexpr double kLeastNoise = 0.02;   // [rad]
+
+/// The direction to the tag and how far the last phase is off, with their covariance. The last
+/// phase' own error is a part of the state as the next difference contains it.
+struct Follower {
+  Eigen::Vector4d state = Eigen::Vector4d::Zero();  ///< u, then the error of the followed phase.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+Follower start(double noise_rad) {
+  Follower follower;
+  // Any direction is as likely: a unit vector has variance 1/3 in each axis; in the plane 1/2.
+  follower.covariance.diagonal() << 0.5, 0.5, 0.5, noise_rad * noise_rad;
+  return follower;
+}
+
+/// Change of the phase that is expected over `step` [m], given the last measured phase.
+struct Expected {
+  double change = 0.0;
+  double variance = 0.0;
+  Eigen::RowVector4d H;
+};
+
+Expected expect(Follower& follower, const Eigen::Vector3d& step, double wavenumber,
+                double noise_rad) {
+  const double way = step.norm();
+  follower.covariance.diagonal().head<3>().array() +=
+      kTurning * kTurning * way * way + kMoreTurning * way;
+  Expected expected;
+  expected.H << -wavenumber * step.transpose(), -1.0;
+  expected.change = expected.H.dot(follower.state);
+  expected.variance = expected.H * follower.covariance * expected.H.transpose();
+  expected.variance += noise_rad * noise_rad;
+  return expected;
+}
+
+/// Learns from the measured change; afterwards the state's last entry is the new phase's error.
+void learn(Follower& follower, const Expected& expected, double innovation, double noise_rad) {
+  // The new phase = expected + innovation, its error e' is the noise, which the innovation
+  // contains: cov(innovation, e') = σ².
+  const Eigen::Vector4d gain = follower.covariance * expected.H.transpose() / expected.variance;
+  const Eigen::Matrix4d before = follower.covariance;
+  const double noise = noise_rad * noise_rad;
+  follower.state += gain * innovation;
+  follower.covariance -= gain * expected.variance * gain.transpose();
+  const double own_gain = noise / expected.variance;
+  follower.state[3] = own_gain * innovation;
+  const Eigen::Vector3d cross = -own_gain * (before * expected.H.transpose()).head<3>();
+  follower.covariance.row(3).head<3>() = cross.transpose();
+  follower.covariance.col(3).head<3>() = cross;
+  follower.covariance(3, 3) = noise * (1.0 - own_gain);
+}
+
+void begin_segment(const PhaseSample& sample, std::vector<PhaseSegment>& segments) {
+  segments.emplace_back();
+  segments.back().samples.push_back(sample);
+  segments.back().distance_m.push_back(0.0);
+}
+
+}  // namespace
+
+std::vector<PhaseSegment> follow(const std::vector<PhaseSample>& samples, double noise_rad) {
+  const double noise = std::max(noise_rad, kLeastNoise);
+  std::vector<PhaseSegment> segments;
+  Follower follower;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const PhaseSample& sample = samples[i];
+    if (i == 0 || samples[i - 1].frequency_hz != sample.frequency_hz) {
+      begin_segment(sample, segments);
+      follower = start(noise);
+      continue;
+    }
+    const double wavenumber = 2.0 * kTwoPi / wavelength(sample.frequency_hz);
+    const Expected expected =
+        expect(follower, sample.p_WA - samples[i - 1].p_WA, wavenumber, noise);
+    if (!(std::sqrt(expected.variance) < kUnsure)) {
+      begin_segment(sample, segments);
+      follower = start(noise);
+      continue;
+    }
+    const double measured = sample.phase_rad - samples[i - 1].phase_rad;
+    const double innovation = wrap_to_pi(measured - expected.change);
+    learn(follower, expected, innovation, noise);
+    PhaseSegment& segment = segments.back();
+    segment.distance_m.push_back(segment.distance_m.back() +
+                                 (expected.change + innovation) / wavenumber);
+    segment.samples.push_back(sample);
+  }
+  return segments;
+}
+
+}  // namespace tagfield

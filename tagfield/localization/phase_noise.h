@@ -1,0 +1,18 @@
+/// @file
+/// How noisy phases are, as they show by themselves.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/localization/phase_sample.h"
+
+namespace tagfield {
+
+/// Standard deviation [rad] of the phase noise, from the second differences of the phase over
+/// evenly spaced samples (a median, so gaps and turns don't disturb it); 0 where too few tell it.
+double phase_noise(const std::vector<PhaseSample>& samples);
+
+/// The largest of any antenna [rad], at least `least`.
+double largest_phase_noise(const SamplesOfTag& samples, double least);
+
+}  // namespace tagfield

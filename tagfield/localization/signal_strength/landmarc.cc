@@ -1,0 +1,164 @@
+#include "tagfield/localization/signal_strength/landmarc.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/signal_strength/rssi_samples.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kFewestReferences = 3;
+/// Distances in signal space below this are one [dB]: weights stay finite.
+constexpr double kLeastDistance = 0.01;
+
+struct Reference {
+  Eigen::Vector3d p_WT;
+  RssiVector rssi;
+};
+
+struct References {
+  std::vector<Reference> tags;
+  double unread_dbm = 0.0;  ///< Stands for an RSSI of a tag that was not read.
+};
+
+References references_of(const LocalizationProblem& problem, const LandmarcOptions& options) {
+  References references;
+  double weakest = 0.0;
+  for (const auto& [tag, samples] : problem.samples) {
+    RssiVector rssi = rssi_over_time(samples, options.bin_s);
+    for (const auto& [bin, value] : rssi) weakest = std::min(weakest, value);
+    const auto place = problem.reference_tags.find(tag);
+    if (place == problem.reference_tags.end() || rssi.empty()) continue;
+    references.tags.push_back({place->second, std::move(rssi)});
+  }
+  references.unread_dbm = weakest - options.unread_margin_db;
+  return references;
+}
+
+double value_at(const RssiVector& rssi, const RssiVector::key_type& bin, double otherwise) {
+  const auto found = rssi.find(bin);
+  return found == rssi.end() ? otherwise : found->second;
+}
+
+/// E: root of the mean square difference over the bins in which either was read [dB].
+double signal_distance(const RssiVector& a, const RssiVector& b, double unread_dbm) {
+  std::set<RssiVector::key_type> bins;
+  for (const auto& [bin, value] : a) bins.insert(bin);
+  for (const auto& [bin, value] : b) bins.insert(bin);
+  double sum = 0.0;
+  for (const auto& bin : bins) {
+    sum += std::pow(value_at(a, bin, unread_dbm) - value_at(b, bin, unread_dbm), 2);
+  }
+  return std::sqrt(sum / static_cast<double>(bins.size()));
+}
+
+struct Neighbour {
+  const Reference* reference = nullptr;
+  double distance_db = 0.0;
+};
+
+std::vector<Neighbour> nearest(const References& references, const RssiVector& rssi,
+                               std::size_t count) {
+  std::vector<Neighbour> neighbours;
+  for (const Reference& reference : references.tags) {
+    neighbours.push_back(
+        {&reference, signal_distance(rssi, reference.rssi, references.unread_dbm)});
+  }
+  std::stable_sort(neighbours.begin(), neighbours.end(),
+                   [](const auto& a, const auto& b) { return a.distance_db < b.distance_db; });
+  neighbours.resize(std::min(count, neighbours.size()));
+  return neighbours;
+}
+
+/// Mean of the neighbours' places by the weights 1/E², with their weighted scatter as covariance.
+Candidate between(const std::vector<Neighbour>& neighbours) {
+  double sum = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  std::vector<double> weights;
+  for (const Neighbour& neighbour : neighbours) {
+    weights.push_back(1.0 / std::pow(std::max(neighbour.distance_db, kLeastDistance), 2));
+    sum += weights.back();
+    mean += weights.back() * neighbour.reference->p_WT;
+  }
+  mean /= sum;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const Eigen::Vector3d apart = neighbours[i].reference->p_WT - mean;
+    scatter += weights[i] / sum * apart * apart.transpose();
+  }
+  Candidate candidate;
+  candidate.p_WT = mean;
+  candidate.expected_error_m = std::sqrt(scatter(0, 0) + scatter(1, 1));
+  candidate.covariance = scatter;
+  return candidate;
+}
+
+/// A height that is known is not estimated.
+void keep_height(const LocalizationProblem& problem, const std::string& tag, Candidate& candidate) {
+  const bool known = problem.heights.of_all || problem.heights.of_tag.count(tag) > 0;
+  if (!known) return;
+  candidate.p_WT.z() = plane_height(problem, tag);
+  candidate.covariance->row(2).setZero();
+  candidate.covariance->col(2).setZero();
+}
+
+TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const References& references,
+                                 const std::string& tag, const SamplesOfTag& samples,
+                                 const LandmarcOptions& options) {
+  TagEstimate estimate = begun(tag, samples);
+  if (references.tags.size() < kFewestReferences) {
+    return not_located(std::move(estimate),
+                       fmt::format("needs reference tags: {} were read with RSSI, at least {} are "
+                                   "needed",
+                                   references.tags.size(), kFewestReferences));
+  }
+  if (estimate.reads == 0)
+    return not_located(std::move(estimate), "no reads that have an antenna pose");
+  const RssiVector rssi = rssi_over_time(samples, options.bin_s);
+  if (rssi.empty()) return not_located(std::move(estimate), "no read has an RSSI");
+  const std::vector<Neighbour> neighbours = nearest(references, rssi, options.neighbours);
+  Candidate candidate = between(neighbours);
+  keep_height(problem, tag, candidate);
+  estimate.candidates = {candidate};
+  EstimateLimits limits;
+  limits.max_expected_error_m = options.max_expected_error_m;
+  judge(limits, estimate);
+  return estimate;
+}
+
+std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
+                                    const LandmarcOptions& options) {
+  const References references = references_of(problem, options);
+  return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+    return locate_by_neighbours(problem, references, tag, samples, options);
+  });
+}
+
+/// The keys of its options.
+const OptionTable<LandmarcOptions>& option_table() {
+  using O = LandmarcOptions;
+  static const OptionTable<O> of{
+      {setting<O>("neighbours", "", "nearest reference tags whose mean is taken", &O::neighbours,
+                  kAtLeastOne),
+       setting<O>("bin_s", "s", "RSSI is averaged over so long", &O::bin_s, kOverZero),
+       setting<O>("unread_margin_db", "dB", "by which a read missing is below the weakest of all",
+                  &O::unread_margin_db, kAtLeastZero),
+       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+                  &O::max_expected_error_m, kOverZero)}};
+  return of;
+}
+
+}  // namespace
+
+Method landmarc_method(const LandmarcOptions& options) {
+  return method_with("landmarc", "the nearest reference tags by RSSI, their mean", option_table(),
+                     options, locate_all);
+}
+
+}  // namespace tagfield

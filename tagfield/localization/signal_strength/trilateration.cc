@@ -1,0 +1,412 @@
+#include "tagfield/localization/signal_strength/trilateration.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/residuals.h"
+#include "tagfield/localization/signal_strength/rssi_samples.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kCell = 0.5;       ///< Of the grid that is searched [m].
+constexpr double kSame = 0.2;       ///< Minima nearer than this are one [m].
+constexpr std::size_t kStarts = 8;  ///< Cells to start a fit from.
+constexpr double kNearest = 0.05;   ///< Distances below this count as this [m].
+constexpr double kAnything = 1e6;   ///< Expected error where nothing is known [m].
+constexpr Eigen::Index kFewestBins = 6;
+/// The error of a mean of many reads does not go below this [dB]: reflections and the pattern.
+constexpr double kLeastNoise = 0.5;
+
+/// Height of an antenna's line as far as it is known [dBm at 1 m].
+struct Level {
+  double mean_dbm = 0.0;
+  double precision = 0.0;  ///< 1/variance [1/dB²], in units of the bins' noise; 0: unknown.
+};
+
+/// The law of one problem.
+struct Law {
+  double slope_db = 40.0;
+  std::map<std::string, Level> levels;  ///< By antenna.
+};
+
+/// The bins of one tag, antenna after antenna.
+struct Bins {
+  Eigen::ArrayXd x, y, z, rssi, weight;
+  Spans spans;
+};
+
+Bins bins_of(const SamplesOfTag& samples, double length) {
+  Bins bins;
+  std::vector<RssiBin> all;
+  for (const auto& [antenna, series] : rssi_along_paths(samples, length)) {
+    bins.spans.push_back(
+        {static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(series.size()), antenna});
+    all.insert(all.end(), series.begin(), series.end());
+  }
+  const auto count = static_cast<Eigen::Index>(all.size());
+  for (Eigen::ArrayXd* column : {&bins.x, &bins.y, &bins.z, &bins.rssi, &bins.weight}) {
+    column->resize(count);
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const RssiBin& bin = all[static_cast<std::size_t>(i)];
+    bins.x[i] = bin.p_WA.x();
+    bins.y[i] = bin.p_WA.y();
+    bins.z[i] = bin.p_WA.z();
+    bins.rssi[i] = bin.rssi_dbm;
+    // Beyond a few reads the bins' errors are those of the surroundings.
+    bins.weight[i] = std::min(bin.reads, 4.0) / 4.0;
+  }
+  return bins;
+}
+
+Eigen::ArrayXd distances(const Bins& bins, const Eigen::Vector3d& p_WT) {
+  return ((bins.x - p_WT.x()).square() + (bins.y - p_WT.y()).square() +
+          (bins.z - p_WT.z()).square())
+      .sqrt()
+      .max(kNearest);
+}
+
+Level level_of(const Law& law, const std::string& antenna) {
+  const auto level = law.levels.find(antenna);
+  return level == law.levels.end() ? Level{} : level->second;
+}
+
+/// A span's level that suits best, with what is known of it.
+double best_level(const Bins& bins, const TagPhases::Span& span, const Level& known,
+                  const Eigen::ArrayXd& above_line) {
+  const auto weight = bins.weight.segment(span.begin, span.count);
+  const double sum = (weight * above_line.segment(span.begin, span.count)).sum();
+  return (sum + known.precision * known.mean_dbm) / (weight.sum() + known.precision);
+}
+
+/// RSSI less that of the law, levels fitted, times the root of the weight [dB].
+struct Misfit {
+  Eigen::ArrayXd residuals;
+  double cost = 0.0;  ///< With what the levels' deviations cost.
+};
+
+Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
+  Misfit misfit;
+  misfit.residuals = bins.rssi + law.slope_db * distances(bins, p_WT).log10();
+  for (const TagPhases::Span& span : bins.spans) {
+    const Level known = level_of(law, span.antenna);
+    const double level = best_level(bins, span, known, misfit.residuals);
+    misfit.residuals.segment(span.begin, span.count) -= level;
+    misfit.cost += known.precision * (level - known.mean_dbm) * (level - known.mean_dbm);
+  }
+  misfit.residuals *= bins.weight.sqrt();
+  misfit.cost += misfit.residuals.square().sum();
+  return misfit;
+}
+
+/// Σ J Jᵀ by x and y [dB²/m²], levels eliminated, and the gradient.
+struct Step {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+};
+
+Step step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
+             const Eigen::ArrayXd& residuals) {
+  const Eigen::ArrayXd square = distances(bins, p_WT).square();
+  const double factor = -law.slope_db / std::log(10.0);
+  Eigen::ArrayXd ux = factor * (p_WT.x() - bins.x) / square;
+  Eigen::ArrayXd uy = factor * (p_WT.y() - bins.y) / square;
+  Step step;
+  for (const TagPhases::Span& span : bins.spans) {
+    const auto weight = bins.weight.segment(span.begin, span.count);
+    const double sum = weight.sum() + level_of(law, span.antenna).precision;
+    for (Eigen::ArrayXd* column : {&ux, &uy}) {
+      auto part = column->segment(span.begin, span.count);
+      const double mean = (weight * part).sum() / sum;
+      part -= mean;
+    }
+  }
+  const Eigen::ArrayXd root = bins.weight.sqrt();
+  ux *= root;
+  uy *= root;
+  step.normal << ux.square().sum(), (ux * uy).sum(), (ux * uy).sum(), uy.square().sum();
+  step.gradient = {(ux * residuals).sum(), (uy * residuals).sum()};
+  return step;
+}
+
+struct Fit {
+  Eigen::Vector3d p_WT;
+  double cost = 0.0;
+};
+
+/// A fit under way.
+struct Point {
+  Eigen::Vector3d p_WT;
+  Eigen::ArrayXd residuals;
+  double cost = 0.0;
+};
+
+Point point_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
+  Misfit misfit = misfit_at(bins, law, p_WT);
+  return {p_WT, std::move(misfit.residuals), misfit.cost};
+}
+
+/// In the plane of the tag.
+Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
+  constexpr double kTolerance = 1e-5;  // [m]
+  constexpr double kRidge = 1e-9;
+  constexpr double kLongestStep = 1.0;  // [m]
+  constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-3, .raise = 8.0};
+  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+    const Step at = step_at(bins, law, here.p_WT, here.residuals);
+    Eigen::Vector2d move = evenly_damped_step(at.normal, at.gradient, damping, kRidge);
+    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+    if (move.norm() > kLongestStep) move.normalize();
+    return point_at(bins, law, here.p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0));
+  };
+  const Point best = descend(point_at(bins, law, start), kHow, step);
+  return {best.p_WT, best.cost};
+}
+
+std::vector<Fit> distinct(std::vector<Fit> fits, double apart, std::size_t count) {
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+  std::vector<Fit> kept;
+  for (const Fit& fit : fits) {
+    const bool is_new = std::all_of(kept.begin(), kept.end(), [&](const Fit& other) {
+      return (other.p_WT - fit.p_WT).norm() > apart;
+    });
+    if (is_new && kept.size() < count) kept.push_back(fit);
+  }
+  return kept;
+}
+
+bool in_reach(const Bins& bins, const Eigen::Vector3d& p_WT, double max_range) {
+  return distances(bins, p_WT).maxCoeff() <= max_range;
+}
+
+/// Minima of the misfit, best first; none where no place is in reach of all reads.
+std::vector<Fit> minima_of(const Bins& bins, const Law& law, double height, double max_range) {
+  const Eigen::Vector3d middle(0.5 * (bins.x.minCoeff() + bins.x.maxCoeff()),
+                               0.5 * (bins.y.minCoeff() + bins.y.maxCoeff()), height);
+  std::vector<Fit> cells;
+  const int reach = static_cast<int>(std::min(max_range / kCell, 200.0)) + 1;
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = -reach; j <= reach; ++j) {
+      const Eigen::Vector3d p_WT = middle + kCell * Eigen::Vector3d(i, j, 0.0);
+      if (!in_reach(bins, p_WT, max_range)) continue;
+      cells.push_back({p_WT, misfit_at(bins, law, p_WT).cost});
+    }
+  }
+  std::vector<Fit> fits;
+  for (const Fit& cell : distinct(std::move(cells), 2.0 * kCell, kStarts)) {
+    fits.push_back(refined(bins, law, cell.p_WT));
+  }
+  return distinct(std::move(fits), kSame, kStarts);
+}
+
+Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
+  const Misfit misfit = misfit_at(bins, law, p_WT);
+  const double noise =
+      std::max(residual_variance(bins.spans, misfit.residuals), kLeastNoise * kLeastNoise) *
+      correlation_factor(bins.spans, misfit.residuals);
+  const Eigen::Matrix2d inverse =
+      noise * step_at(bins, law, p_WT, misfit.residuals).normal.inverse();
+  Candidate candidate;
+  candidate.p_WT = p_WT;
+  candidate.expected_error_m = kAnything;
+  candidate.covariance = Eigen::Matrix3d::Zero();
+  candidate.covariance->diagonal().head<2>().setConstant(0.5 * kAnything * kAnything);
+  if (inverse.allFinite() && inverse.trace() > 0.0 && inverse.trace() < kAnything * kAnything) {
+    candidate.covariance->topLeftCorner<2, 2>() = inverse;
+    candidate.expected_error_m = std::sqrt(inverse.trace());
+  }
+  // What the misfit is in distance, at the mean distance.
+  candidate.rms_m = std::sqrt(misfit.residuals.square().mean()) * std::log(10.0) / law.slope_db *
+                    distances(bins, p_WT).mean();
+  return candidate;
+}
+
+/// Straight line through RSSI over log-distance of the reference tags: slope with its prior, one
+/// level for each antenna.
+struct LineSums {
+  double weight = 0.0, log = 0.0, rssi = 0.0, log_log = 0.0, log_rssi = 0.0;
+};
+
+std::map<std::string, LineSums> sums_of_references(const LocalizationProblem& problem,
+                                                   double bin_m) {
+  std::map<std::string, LineSums> sums;
+  for (const auto& [tag, p_WT] : problem.reference_tags) {
+    const auto samples = problem.samples.find(tag);
+    if (samples == problem.samples.end()) continue;
+    for (const auto& [antenna, series] : rssi_along_paths(samples->second, bin_m)) {
+      LineSums& sum = sums[antenna];
+      for (const RssiBin& bin : series) {
+        const double log = std::log10(std::max((p_WT - bin.p_WA).norm(), kNearest));
+        sum.weight += 1.0;
+        sum.log += log;
+        sum.rssi += bin.rssi_dbm;
+        sum.log_log += log * log;
+        sum.log_rssi += log * bin.rssi_dbm;
+      }
+    }
+  }
+  return sums;
+}
+
+/// Of the slope: half the prior's squared deviation in units of about 2 dB of noise.
+double prior_weight(const TrilaterationOptions& options) {
+  constexpr double kNoise = 2.0;
+  return kNoise * kNoise / (options.slope_sigma_db * options.slope_sigma_db);
+}
+
+/// The law by the reference tags; levels only where there are any.
+Law law_of_references(const LocalizationProblem& problem, const TrilaterationOptions& options) {
+  const auto sums = sums_of_references(problem, options.bin_m);
+  Law law;
+  law.slope_db = options.slope_db;
+  double squares = 0.0;
+  double products = 0.0;
+  for (const auto& [antenna, sum] : sums) {
+    squares += sum.log_log - sum.log * sum.log / sum.weight;
+    products += sum.log_rssi - sum.log * sum.rssi / sum.weight;
+  }
+  if (options.slope_sigma_db > 0.0 && !sums.empty()) {
+    const double prior = prior_weight(options);
+    law.slope_db = std::max(10.0, (prior * options.slope_db - products) / (prior + squares));
+  }
+  constexpr double kNoise = 2.0;
+  const double spread = std::max(options.tag_sigma_db, 0.1);
+  for (const auto& [antenna, sum] : sums) {
+    law.levels[antenna] = {(sum.rssi + law.slope_db * sum.log) / sum.weight,
+                           kNoise * kNoise / (spread * spread)};
+  }
+  return law;
+}
+
+/// What all tags together cost under a slope.
+double cost_of(const std::vector<Bins>& tags, const std::vector<double>& heights, const Law& law,
+               const TrilaterationOptions& options) {
+  double cost = prior_weight(options) * std::pow(law.slope_db - options.slope_db, 2);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const std::vector<Fit> fits = minima_of(tags[i], law, heights[i], options.max_range_m);
+    if (!fits.empty()) cost += fits.front().cost;
+  }
+  return cost;
+}
+
+/// Without reference tags: the slope under which all tags fit best.
+double fitted_slope(const LocalizationProblem& problem, const TrilaterationOptions& options) {
+  constexpr std::size_t kMostTags = 12;
+  std::vector<Bins> tags;
+  std::vector<double> heights;
+  for (const auto& [tag, samples] : problem.samples) {
+    Bins bins = bins_of(samples, options.bin_m);
+    if (bins.rssi.size() < kFewestBins || tags.size() == kMostTags) continue;
+    tags.push_back(std::move(bins));
+    heights.push_back(plane_height(problem, tag));
+  }
+  double best = options.slope_db;
+  double least = -1.0;
+  for (int i = -4; i <= 4; ++i) {
+    Law law;
+    law.slope_db = options.slope_db + 0.5 * options.slope_sigma_db * i;
+    if (law.slope_db < 10.0) continue;
+    const double cost = cost_of(tags, heights, law, options);
+    if (least < 0.0 || cost < least) best = law.slope_db;
+    least = least < 0.0 ? cost : std::min(least, cost);
+  }
+  return best;
+}
+
+Law law_of(const LocalizationProblem& problem, const TrilaterationOptions& options) {
+  Law law = law_of_references(problem, options);
+  if (law.levels.empty() && options.slope_sigma_db > 0.0) {
+    law.slope_db = fitted_slope(problem, options);
+  }
+  return law;
+}
+
+std::string why_not(const SamplesOfTag& samples, const Bins& bins) {
+  if (count_reads(samples) == 0) return "no reads that have an antenna pose";
+  if (bins.rssi.size() == 0) return "no read has an RSSI";
+  if (bins.rssi.size() < kFewestBins) {
+    return fmt::format("RSSI from {} places only, at least {} are needed", bins.rssi.size(),
+                       kFewestBins);
+  }
+  return "";
+}
+
+TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& law,
+                               const std::string& tag, const SamplesOfTag& samples,
+                               const TrilaterationOptions& options) {
+  TagEstimate estimate = begun(tag, samples);
+  const Bins bins = bins_of(samples, options.bin_m);
+  const std::string why = why_not(samples, bins);
+  if (!why.empty()) return not_located(std::move(estimate), why);
+  const std::vector<Fit> fits =
+      minima_of(bins, law, plane_height(problem, tag), options.max_range_m);
+  if (fits.empty()) return not_located(std::move(estimate), "no place is in reach of all reads");
+  const Eigen::ArrayXd best = misfit_at(bins, law, fits.front().p_WT).residuals;
+  const double misfit_db = std::sqrt(best.square().mean());
+  if (misfit_db > options.max_misfit_db) {
+    return not_located(std::move(estimate),
+                       fmt::format("RSSI does not fit a law of distance: misfit {:.1f} dB, limit "
+                                   "{:.1f} dB",
+                                   misfit_db, options.max_misfit_db));
+  }
+  for (const Fit& fit : fits) {
+    const bool first = estimate.candidates.empty();
+    if (first || !tells_apart(bins.spans, best, misfit_at(bins, law, fit.p_WT).residuals)) {
+      estimate.candidates.push_back(candidate_at(bins, law, fit.p_WT));
+    }
+  }
+  EstimateLimits limits;
+  limits.max_expected_error_m = options.max_expected_error_m;
+  limits.max_rms_m = std::numeric_limits<double>::infinity();  // The misfit was judged above.
+  judge(limits, estimate);
+  if (estimate.verdict == Verdict::kAmbiguous) {
+    estimate.reason =
+        fmt::format("{} places explain the RSSI equally well", estimate.candidates.size());
+  }
+  return estimate;
+}
+
+std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
+                                    const TrilaterationOptions& options) {
+  const Law law = law_of(problem, options);
+  return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
+    return locate_by_strength(problem, law, tag, samples, options);
+  });
+}
+
+/// The keys of its options.
+const OptionTable<TrilaterationOptions>& option_table() {
+  using O = TrilaterationOptions;
+  static const OptionTable<O> of{
+      {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
+                  kOverZero),
+       setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
+                  &O::slope_sigma_db, kAtLeastZero),
+       setting<O>("tag_sigma_db", "dB", "how tags of one kind differ", &O::tag_sigma_db,
+                  kAtLeastZero),
+       setting<O>("bin_m", "m", "reads over so much travel are averaged", &O::bin_m, kOverZero),
+       setting<O>("max_range_m", "m", "no tag is read from further away", &O::max_range_m,
+                  kOverZero),
+       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+                  &O::max_expected_error_m, kOverZero),
+       setting<O>("max_misfit_db", "dB", "a worse rms is no law of distance", &O::max_misfit_db,
+                  kOverZero)}};
+  return of;
+}
+
+}  // namespace
+
+Method trilateration_method(const TrilaterationOptions& options) {
+  return method_with("trilateration",
+                     "distances by RSSI over a logarithmic law, its slope fitted too",
+                     option_table(), options, locate_all);
+}
+
+}  // namespace tagfield
