@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
 #include "tagfield/base/spelling.h"
 
 namespace tagfield {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {

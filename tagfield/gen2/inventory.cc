@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
-#include "tagfield/gen2/slot_draw.h"
+#include "tagfield/gen2/internal/slot_draw.h"
 
 namespace tagfield {
 namespace {

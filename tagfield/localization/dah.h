@@ -7,14 +7,9 @@
 #include "tagfield/localization/coherent_fit.h"
 #include "tagfield/localization/hologram.h"
 #include "tagfield/localization/method.h"
+#include "tagfield/localization/method_settings.h"
 
 namespace tagfield {
-
-struct DahOptions {
-  SearchOptions search;
-  double least_noise_rad = 0.1;  ///< Standard deviation of a phase, if not more is seen; over 0.
-  double min_share = 0.5;        ///< See CoherentJudgement; in (0, 1].
-};
 
 /// Σ over apertures of |Σ_i w_i e^{jε_i}| with ε_i = (φ_i − φ_0) − k (r_i − r_0) wrapped, read 0
 /// the reference, and the weight w = P(|N(0, (√2 σ)²)| > |ε|) = erfc(|ε|/2σ). Long apertures have

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tagfield/localization/coherent_reads.h"
+#include "tagfield/localization/method_settings.h"
 
 namespace tagfield {
 
@@ -64,16 +65,6 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
 
 /// Σ |Σ e^{j(φ − k r)}| over the apertures; the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
-
-struct SearchOptions {
-  double max_range_m = 12.0;  ///< Half of the reads are from nearer; over 0.
-  double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
-  std::size_t maxima = 12;    ///< So many are returned at most.
-  std::size_t reads = 800;    ///< Coarse levels take so many at most, evenly thinned.
-  /// Whole apertures on all of the area at once: some twenty times the work. Reflections bend the
-  /// phase over decimetres, so that short apertures are brightest elsewhere.
-  bool thorough = false;
-};
 
 /// Throws Error on options out of their range.
 void check(const SearchOptions& options);

@@ -4,17 +4,11 @@
 #pragma once
 
 #include "tagfield/localization/method.h"
+#include "tagfield/localization/method_settings.h"
 #include "tagfield/localization/phase_sample.h"
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {
-
-struct HyperbolaOptions {
-  double stride_m = 0.3;            ///< Travel of the antenna between two hyperbolae.
-  std::size_t max_hyperbolae = 50;  ///< Of one tag; more are thinned out (time grows as n³).
-  double max_step = 0.8;            ///< See unwrap().
-  bool refine = true;               ///< Finish with Gauss-Newton from the best intersections.
-};
 
 /// Locates one tag at rest in the plane z = `tag_height` [m, world]. Antennas that stand still
 /// tell nothing by phase differences and are left out. With the pose error's model, where it is

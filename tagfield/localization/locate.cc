@@ -6,9 +6,15 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/localization/automatic.h"
+#include "tagfield/localization/dah.h"
+#include "tagfield/localization/hyperbola.h"
 #include "tagfield/localization/joint.h"
+#include "tagfield/localization/landmarc.h"
 #include "tagfield/localization/least_squares.h"
 #include "tagfield/localization/maximum_likelihood.h"
+#include "tagfield/localization/particle.h"
+#include "tagfield/localization/sar.h"
+#include "tagfield/localization/trilateration.h"
 
 namespace tagfield {
 

@@ -7,28 +7,13 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/localization/dah.h"
-#include "tagfield/localization/hyperbola.h"
-#include "tagfield/localization/landmarc.h"
 #include "tagfield/localization/method.h"
-#include "tagfield/localization/particle.h"
+#include "tagfield/localization/method_settings.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/sar.h"
-#include "tagfield/localization/trilateration.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
-
-/// Settings of the methods that have any.
-struct MethodSettings {
-  HyperbolaOptions hyperbola;
-  SarOptions sar;
-  DahOptions dah;
-  ParticleOptions particle;
-  TrilaterationOptions trilateration;
-  LandmarcOptions landmarc;
-};
 
 /// All methods that come with Tagfield, in the order in which people are told of them.
 std::vector<Method> built_in_methods(const MethodSettings& settings);

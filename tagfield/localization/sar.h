@@ -7,13 +7,9 @@
 #include "tagfield/localization/coherent_fit.h"
 #include "tagfield/localization/hologram.h"
 #include "tagfield/localization/method.h"
+#include "tagfield/localization/method_settings.h"
 
 namespace tagfield {
-
-struct SarOptions {
-  SearchOptions search;
-  double min_share = 0.35;  ///< See CoherentJudgement; in (0, 1].
-};
 
 /// "sar": all tags, one by one. Throws Error on options out of their range.
 Method sar_method(const SarOptions& options);

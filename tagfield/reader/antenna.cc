@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
 
 namespace tagfield {
 namespace {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tagfield/base/error.h"
-#include "tagfield/report/checked_json.h"
+#include "tagfield/report/internal/checked_json.h"
 #include "tagfield/report/summary.h"
 
 namespace tagfield {

@@ -2,7 +2,6 @@
 /// A suite made ready to run: scenarios and worlds read, methods found, everything checked.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,10 +13,6 @@
 #include "tagfield/simulator/navigation_world.h"
 
 namespace tagfield {
-
-/// The methods that a suite may name, with these settings: built_in_methods(), or those and one's
-/// own.
-using MethodFactory = std::function<std::vector<Method>(const MethodSettings& settings)>;
 
 struct PreparedMethod {
   std::string name;  ///< In the suite.

@@ -4,16 +4,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/method.h"
+#include "tagfield/localization/method_settings.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
+
+/// The methods that a suite may name, with these settings: built_in_methods(), or those and one's
+/// own.
+using MethodFactory = std::function<std::vector<Method>(const MethodSettings& settings)>;
 
 /// A method under a name of its own, with settings of its own.
 struct SuiteMethod {
