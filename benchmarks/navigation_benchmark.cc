@@ -44,7 +44,7 @@ std::optional<Ready> ready(benchmark::State& state) {
 
 Survey survey_of(const Ready& ready, std::uint64_t seed) {
   const Scenario& scenario = ready.scenario;
-  return survey(scenario.navigation, ready.world, mapping_robot(scenario), scenario.time_step_s,
+  return survey(navigation_of(scenario), ready.world, mapping_robot(scenario), scenario.time_step_s,
                 seed, kThreads, nullptr, {});
 }
 

@@ -1,4 +1,4 @@
-# Installs headers, libraries and the CMake package, so that another project can
+# Installs libraries and the CMake package (headers: each room its own), so that another project can
 #   find_package(tagfield REQUIRED COMPONENTS simulator)
 #   target_link_libraries(program PRIVATE tagfield::simulator)
 include(CMakePackageConfigHelpers)
@@ -10,8 +10,6 @@ foreach(component IN LISTS tagfield_built)
   install(TARGETS ${rooms} EXPORT tagfield-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT tagfield-${component} NAMESPACE tagfield:: DESTINATION ${package})
 endforeach()
-install(DIRECTORY tagfield DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN internal EXCLUDE PATTERN test EXCLUDE)
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/tagfieldConfig.cmake.in ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
   INSTALL_DESTINATION ${package})

@@ -1,13 +1,15 @@
-# tagfield_room(NAME [ONE_BY_ONE] SOURCES a.cc … LINKS room … PRIVATE library … HEADERS <header> …
-#               TESTS a_test.cc … TEST_PARTS n)
+# tagfield_room(NAME [ONE_BY_ONE] SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
+#               HEADERS <header> … TESTS a_test.cc … TEST_PARTS n)
 #
 # One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
 # links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
-# sources and are included by their path from the top of the source tree. HEADERS are those of libraries
-# that many of its sources include and other rooms don't. ONE_BY_ONE says that its sources can't be
-# compiled as one, as names of theirs stand for several things.
+# sources and are included by their path from the top of the source tree; PUBLIC_HEADERS are for users'
+# programs too (docs/api.md). HEADERS are those of libraries that many of its sources include and other
+# rooms don't. ONE_BY_ONE says that its sources can't be compiled as one, as names of theirs stand for
+# several things.
 function(tagfield_room name)
-  cmake_parse_arguments(ROOM "ONE_BY_ONE" "TEST_PARTS" "SOURCES;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
+  cmake_parse_arguments(ROOM "ONE_BY_ONE" "TEST_PARTS"
+    "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
   foreach(link IN LISTS ROOM_LINKS)
     if(link MATCHES "^tagfield::" AND NOT TARGET ${link})
       message(FATAL_ERROR "tagfield/${name} links ${link}, which is in no component that it needs")
@@ -28,10 +30,19 @@ function(tagfield_room name)
   else()
     tagfield_read_headers_once(${target} ${ROOM_HEADERS})
   endif()
+  tagfield_public_headers(${name} ${ROOM_PUBLIC_HEADERS})
   if(TAGFIELD_TESTS AND ROOM_TESTS)
     tagfield_test(${name}_test SOURCES ${ROOM_TESTS} LINKS tagfield::${name}
                   PARTS ${ROOM_TEST_PARTS})
   endif()
+endfunction()
+
+# tagfield_public_headers(ROOM a.h …): are installed, under include/tagfield/ROOM/.
+function(tagfield_public_headers room)
+  foreach(header IN LISTS ARGN)
+    get_filename_component(folder tagfield/${room}/${header} DIRECTORY)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  endforeach()
 endfunction()
 
 # tagfield_plain_arithmetic(TARGET): no errno from mathematical functions, and complex numbers are

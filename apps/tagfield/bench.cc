@@ -11,6 +11,7 @@
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/bench_page.h"
 #include "tagfield/experiment/bench/bench_text.h"
+#include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
 #include "tagfield/files/files.h"

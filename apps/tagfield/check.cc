@@ -11,6 +11,7 @@
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"
+#include "tagfield/simulator/navigation_world.h"
 #include "tagfield/simulator/simulation.h"
 #include "tagfield/world/triangulate.h"
 

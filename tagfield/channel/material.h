@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/base/error.h"
+
 namespace tagfield {
 
 /// A material by Recommendation ITU-R P.2040, section 3: at f [GHz] its relative permittivity is
@@ -32,6 +34,22 @@ const std::vector<Material>& known_materials();
 
 /// The one of this name. Throws Error with the nearest name if there is none.
 const Material& find_material(const std::vector<Material>& materials, const std::string& name);
+
+/// Says that what is called so is made of `material`: a model, a link or a collision by its scoped
+/// name ("rack", "rack::link", "rack::link::shelf"), or all that wear a visual's material of that
+/// name; `*` stands for any characters.
+struct MaterialRule {
+  std::string name;
+  Material material;
+  Location location;  ///< Where it was written, for messages.
+};
+
+struct RadioWorldOptions {
+  std::vector<MaterialRule> rules;                      ///< The last that fits counts.
+  std::vector<Material> materials = known_materials();  ///< What guesses are taken from.
+  std::string otherwise = "concrete";  ///< Of all that no rule fits and no name tells.
+  double least_facet_m2 = 0.1;         ///< Smaller flat pieces block waves but do not mirror them.
+};
 
 /// Throws Error naming the parameter that is out of its range.
 void check(const Material& material);

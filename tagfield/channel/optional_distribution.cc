@@ -9,6 +9,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/base/random.h"
 #include "tagfield/base/spelling.h"
 
 namespace tagfield {

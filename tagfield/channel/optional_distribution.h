@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/random.h"
-
 namespace tagfield {
+
+class RandomStream;
 
 enum class DistributionKind {
   kNone,

@@ -2,11 +2,12 @@
 /// The paper's signal model: phase by eq. (4), RSSI by eq. (5). See docs/paper_model.md.
 #pragma once
 
-#include "tagfield/base/random.h"
 #include "tagfield/channel/optional_distribution.h"
 #include "tagfield/link/link_geometry.h"
 
 namespace tagfield {
+
+class RandomStream;
 
 /// The parameters of Table 1 that shape the signal.
 struct PaperModel {

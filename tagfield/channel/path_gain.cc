@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
-#include "tagfield/channel/fresnel.h"
+#include "tagfield/channel/internal/fresnel.h"
 
 namespace tagfield {
 namespace {

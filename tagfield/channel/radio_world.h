@@ -14,22 +14,6 @@
 
 namespace tagfield {
 
-/// Says that what is called so is made of `material`: a model, a link or a collision by its scoped
-/// name ("rack", "rack::link", "rack::link::shelf"), or all that wear a visual's material of that
-/// name; `*` stands for any characters.
-struct MaterialRule {
-  std::string name;
-  Material material;
-  Location location;  ///< Where it was written, for messages.
-};
-
-struct RadioWorldOptions {
-  std::vector<MaterialRule> rules;                      ///< The last that fits counts.
-  std::vector<Material> materials = known_materials();  ///< What guesses are taken from.
-  std::string otherwise = "concrete";  ///< Of all that no rule fits and no name tells.
-  double least_facet_m2 = 0.1;         ///< Smaller flat pieces block waves but do not mirror them.
-};
-
 /// Surfaces and materials. May be used by several threads at once.
 struct RadioWorld {
   RadioScene scene;

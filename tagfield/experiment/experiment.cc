@@ -8,9 +8,9 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/internal/navigation_summary.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
-#include "tagfield/experiment/navigation_summary.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/report/method_summary.h"
 

@@ -1,5 +1,7 @@
 #include "tagfield/field/antenna_facts.h"
 
+#include "tagfield/reader/radio_model.h"
+
 namespace tagfield {
 
 bool meets_world(const AntennaParameters& antenna) { return physical(antenna) != nullptr; }

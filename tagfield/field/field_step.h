@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "tagfield/base/time.h"
-#include "tagfield/channel/radio_world.h"
+#include "tagfield/channel/material.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
+#include "tagfield/world/scene.h"
 
 namespace tagfield {
+
+struct TagModel;
 
 /// What belongs to one antenna as long as it lives.
 struct FieldAntenna {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tagfield/reader/radio_model.h"
+
 namespace tagfield {
 namespace {
 

@@ -4,9 +4,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <utility>
 
+#include "tagfield/base/error.h"
 #include "tagfield/field/antenna_facts.h"
+#include "tagfield/field/internal/telling.h"
+#include "tagfield/field/radio_air.h"
+#include "tagfield/field/tag_population.h"
 
 namespace tagfield {
 namespace {
@@ -33,20 +39,60 @@ std::shared_ptr<const AntennaInfo> info_of(const FieldAntenna& antenna) {
 
 }  // namespace
 
-RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world)
+class RfidField::Impl {
+ public:
+  Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world);
+
+  void step(const FieldStep& step);
+  void finish() { telling_.tell(Time::max()); }
+  std::vector<std::string> take_warnings();
+  [[nodiscard]] std::int64_t reads() const { return reads_; }
+
+ private:
+  struct Antenna {
+    std::shared_ptr<const FieldAntenna> antenna;
+    std::shared_ptr<const AntennaInfo> info;
+  };
+  void add_antenna(const std::shared_ptr<const FieldAntenna>& antenna);
+  void remove_antenna(const std::string& name);
+  void set_world(const FieldWorld& world);
+  void begin_anew();
+  void require_tag(std::uint32_t number) const;
+  const std::shared_ptr<const AntennaInfo>& info(
+      const std::shared_ptr<const FieldAntenna>& antenna);
+  void remove(std::uint32_t number, Time stamp);
+  void add(const TagAdded& tag);
+  void move(const std::vector<TagMoved>& moved);
+  void tell_places(const FieldStep& step);
+  void update(const AntennaDue& due, Time stamp);
+
+  Telling telling_;
+  TagPopulation tags_;             ///< Slots are the driver's numbers.
+  std::vector<Antenna> antennas_;  ///< As they came.
+  std::shared_ptr<const RadioWorld> world_;
+  RadioAir air_;
+  std::optional<Time> updated_;  ///< Stamp of the last step in which antennas were due.
+  Diagnostics diagnostics_;
+  std::size_t warnings_taken_ = 0;
+  std::vector<std::uint32_t> moved_;  ///< Numbers; kept to save allocations.
+  std::vector<TagReply> replies_;     ///< Likewise.
+  std::int64_t reads_ = 0;
+};
+
+RfidField::Impl::Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world)
     : telling_(std::move(outlets)),
       tags_(kCell),
       world_(empty_unless(std::move(world))),
       air_(world_) {}
 
-void RfidField::add_antenna(const std::shared_ptr<const FieldAntenna>& antenna) {
+void RfidField::Impl::add_antenna(const std::shared_ptr<const FieldAntenna>& antenna) {
   const std::shared_ptr<const AntennaInfo> info = info_of(*antenna);
   antennas_.push_back({antenna, info});
   if (meets_world(antenna->parameters)) air_.add(antenna->parameters, antenna->seed);
   for (const auto& listener : telling_.outlets().reads) listener->on_antenna_added(*info);
 }
 
-void RfidField::remove_antenna(const std::string& name) {
+void RfidField::Impl::remove_antenna(const std::string& name) {
   air_.remove(name);
   antennas_.erase(std::remove_if(antennas_.begin(), antennas_.end(),
                                  [&](const Antenna& known) { return known.info->name == name; }),
@@ -54,7 +100,7 @@ void RfidField::remove_antenna(const std::string& name) {
   for (const auto& listener : telling_.outlets().reads) listener->on_antenna_removed(name);
 }
 
-void RfidField::set_world(const FieldWorld& world) {
+void RfidField::Impl::set_world(const FieldWorld& world) {
   try {
     world_ = made(world, diagnostics_);
   } catch (const Error& error) {
@@ -65,7 +111,7 @@ void RfidField::set_world(const FieldWorld& world) {
 }
 
 /// The air with the antennas that there are, which remember nothing.
-void RfidField::begin_anew() {
+void RfidField::Impl::begin_anew() {
   telling_.tell(Time::max());
   for (const auto& listener : telling_.outlets().reads) listener->on_restart();
   air_ = RadioAir(world_);
@@ -75,7 +121,7 @@ void RfidField::begin_anew() {
   }
 }
 
-std::vector<std::string> RfidField::take_warnings() {
+std::vector<std::string> RfidField::Impl::take_warnings() {
   const std::vector<std::string>& all = diagnostics_.warnings();
   std::vector<std::string> fresh(
       std::next(all.begin(), static_cast<std::ptrdiff_t>(warnings_taken_)), all.end());
@@ -83,12 +129,12 @@ std::vector<std::string> RfidField::take_warnings() {
   return fresh;
 }
 
-void RfidField::require_tag(std::uint32_t number) const {
+void RfidField::Impl::require_tag(std::uint32_t number) const {
   if (!tags_.has(number)) throw Error(fmt::format("there is no tag of number {}", number));
 }
 
 /// What knows the antenna by its name; a driver may tell more of it than when it was added.
-const std::shared_ptr<const AntennaInfo>& RfidField::info(
+const std::shared_ptr<const AntennaInfo>& RfidField::Impl::info(
     const std::shared_ptr<const FieldAntenna>& antenna) {
   const std::string& name = antenna->parameters.name;
   const auto known = std::find_if(antennas_.begin(), antennas_.end(),
@@ -100,14 +146,14 @@ const std::shared_ptr<const AntennaInfo>& RfidField::info(
   return known->info;
 }
 
-void RfidField::remove(std::uint32_t number, Time stamp) {
+void RfidField::Impl::remove(std::uint32_t number, Time stamp) {
   require_tag(number);
   telling_.add_removed(stamp, tags_.id(number));
   air_.forget_tag(number);
   tags_.remove(number);
 }
 
-void RfidField::add(const TagAdded& tag) {
+void RfidField::Impl::add(const TagAdded& tag) {
   if (!is_finite(tag.X_WT)) {
     throw Error(fmt::format("tag '{}' is not at a finite place", tag.id));
   }
@@ -116,7 +162,7 @@ void RfidField::add(const TagAdded& tag) {
   if (tag.model) tags_.set_model(tag.number, tag.model);
 }
 
-void RfidField::move(const std::vector<TagMoved>& moved) {
+void RfidField::Impl::move(const std::vector<TagMoved>& moved) {
   moved_.clear();
   for (const TagMoved& tag : moved) {
     if (!is_finite(tag.X_WT)) continue;
@@ -128,7 +174,7 @@ void RfidField::move(const std::vector<TagMoved>& moved) {
 }
 
 /// Tags that came and rest, by their numbers; then those that moved, new ones among them.
-void RfidField::tell_places(const FieldStep& step) {
+void RfidField::Impl::tell_places(const FieldStep& step) {
   if (telling_.outlets().truth.empty()) return;
   std::map<std::uint32_t, const TagAdded*> fresh;
   for (const TagAdded& tag : step.added) fresh[tag.number] = &tag;
@@ -152,7 +198,7 @@ void RfidField::tell_places(const FieldStep& step) {
   for (const AntennaPose& robot : step.robots) telling_.add_robot(robot);
 }
 
-void RfidField::update(const AntennaDue& due, Time stamp) {
+void RfidField::Impl::update(const AntennaDue& due, Time stamp) {
   const AntennaParameters& parameters = due.antenna->parameters;
   const std::shared_ptr<const AntennaInfo>& antenna = info(due.antenna);
   if (!is_finite(due.X_WA)) return;
@@ -169,7 +215,7 @@ void RfidField::update(const AntennaDue& due, Time stamp) {
   telling_.add(antenna, stamp, due.X_WA, due.X_PA);
 }
 
-void RfidField::step(const FieldStep& step) {
+void RfidField::Impl::step(const FieldStep& step) {
   if (!step.due.empty() && updated_ && step.stamp < *updated_) begin_anew();
   for (const std::string& antenna : step.antennas_removed) remove_antenna(antenna);
   if (step.world) set_world(*step.world);
@@ -183,6 +229,18 @@ void RfidField::step(const FieldStep& step) {
   telling_.tell(std::min(step.stamp, air_.complete_until()));
 }
 
-void RfidField::finish() { telling_.tell(Time::max()); }
+RfidField::RfidField(Outlets outlets, std::shared_ptr<const RadioWorld> world)
+    : impl_(std::make_unique<Impl>(std::move(outlets), std::move(world))) {}
+RfidField::~RfidField() = default;
+RfidField::RfidField(RfidField&&) noexcept = default;
+RfidField& RfidField::operator=(RfidField&&) noexcept = default;
+
+void RfidField::step(const FieldStep& step) { impl_->step(step); }
+
+void RfidField::finish() { impl_->finish(); }
+
+std::vector<std::string> RfidField::take_warnings() { return impl_->take_warnings(); }
+
+std::int64_t RfidField::reads() const { return impl_->reads(); }
 
 }  // namespace tagfield

@@ -7,7 +7,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
-#include "tagfield/gen2/slot_draw.h"
+#include "tagfield/gen2/internal/slot_draw.h"
 
 namespace tagfield {
 

@@ -7,8 +7,8 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/field/antenna_facts.h"
-#include "tagfield/planning/antenna_place.h"
-#include "tagfield/planning/tag_coverage.h"
+#include "tagfield/planning/internal/antenna_place.h"
+#include "tagfield/planning/internal/tag_coverage.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield {

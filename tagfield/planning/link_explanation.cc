@@ -6,7 +6,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/field/port_turns.h"
-#include "tagfield/planning/link_budget_lines.h"
+#include "tagfield/planning/internal/link_budget_lines.h"
 #include "tagfield/planning/link_verdict.h"
 #include "tagfield/planning/moment.h"
 

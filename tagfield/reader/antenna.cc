@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "tagfield/base/range_check.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
 
 namespace tagfield {
 namespace {

@@ -10,13 +10,14 @@
 #include "tagfield/base/time.h"
 #include "tagfield/channel/paper_model.h"
 #include "tagfield/link/link_geometry.h"
-#include "tagfield/reader/radio_model.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 
-/// The paper's antenna reads all tags within a range; the defaults are Table 1's mobile antenna with
-/// gain 1.
+struct RadioModel;  // of radio_model.h; radio_model_from() of settings/ makes one
+
+/// The paper's antenna reads all tags within a range; the defaults are Table 1's mobile antenna
+/// with gain 1.
 struct PaperAntenna {
   PaperModel model;
   double range_m = 7.0;       ///< Nominal range r; greater than 0.

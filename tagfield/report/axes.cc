@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/report/color_map.h"
-#include "tagfield/report/ticks.h"
+#include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/ticks.h"
 
 namespace tagfield {
 namespace {

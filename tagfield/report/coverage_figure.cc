@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "tagfield/report/color_bands.h"
-#include "tagfield/report/map_outline.h"
-#include "tagfield/report/map_view.h"
+#include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/internal/map_outline.h"
+#include "tagfield/report/internal/map_view.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tagfield/report/axes.h"
-#include "tagfield/report/error_rows.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/error_rows.h"
 
 namespace tagfield {
 namespace {

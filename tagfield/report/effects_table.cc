@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "tagfield/report/tables.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

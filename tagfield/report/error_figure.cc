@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tagfield/report/axes.h"
-#include "tagfield/report/error_rows.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/error_rows.h"
 
 namespace tagfield {
 namespace {

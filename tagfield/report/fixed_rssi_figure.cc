@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "tagfield/report/color_map.h"
 #include "tagfield/report/figures.h"
-#include "tagfield/report/fixed_rssi.h"
-#include "tagfield/report/map_view.h"
+#include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/fixed_rssi.h"
+#include "tagfield/report/internal/map_view.h"
 
 namespace tagfield {
 namespace {

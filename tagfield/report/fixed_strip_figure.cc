@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "tagfield/report/axes.h"
-#include "tagfield/report/color_map.h"
 #include "tagfield/report/figures.h"
-#include "tagfield/report/fixed_rssi.h"
+#include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/fixed_rssi.h"
 
 namespace tagfield {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "tagfield/report/figures.h"
-#include "tagfield/report/map_view.h"
+#include "tagfield/report/internal/map_view.h"
 
 namespace tagfield {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tagfield/report/tables.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tagfield/base/units.h"
-#include "tagfield/report/tables.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

@@ -2,10 +2,10 @@
 
 #include "tagfield/files/files.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/report/style_sheet.h"
-#include "tagfield/report/tables.h"
 
 namespace tagfield {
 namespace {

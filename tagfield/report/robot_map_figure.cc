@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tagfield/report/figures.h"
-#include "tagfield/report/map_outline.h"
-#include "tagfield/report/map_view.h"
+#include "tagfield/report/internal/map_outline.h"
+#include "tagfield/report/internal/map_view.h"
 
 namespace tagfield {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "tagfield/base/error.h"
-#include "tagfield/report/checked_json.h"
+#include "tagfield/report/internal/checked_json.h"
 #include "tagfield/report/summary.h"
 
 namespace tagfield {

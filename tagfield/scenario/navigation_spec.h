@@ -35,4 +35,12 @@ struct NavigationSpec {
   double mapping_limit_s = 1800.0;  ///< Simulated time after which mapping ends, whatever is left.
 };
 
+struct Scenario;
+
+/// How the scenario's robots find their way.
+const NavigationSpec& navigation_of(const Scenario& scenario);
+
+/// Likewise, to be changed in this scenario and no copy of it. Holds until the next call.
+NavigationSpec& own_navigation(Scenario& scenario);
+
 }  // namespace tagfield

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/laser/simulated_laser.h"
+
 namespace tagfield {
 namespace {
 

@@ -9,10 +9,11 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/time.h"
-#include "tagfield/laser/simulated_laser.h"
 #include "tagfield/poses/trajectory.h"
 
 namespace tagfield {
+
+struct Obstacles;  // of laser/simulated_laser.h
 
 /// Taller than a robot's laser; seen from above a disc, or a rectangle.
 struct ObstacleSpec {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/channel/radio_world.h"
-#include "tagfield/localization/locate.h"
+#include "tagfield/channel/material.h"
+#include "tagfield/localization/method.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
-#include "tagfield/scenario/navigation_spec.h"
 #include "tagfield/scenario/obstacle.h"
 #include "tagfield/scenario/pose_belief.h"
 #include "tagfield/scenario/robot_spec.h"
@@ -23,6 +23,10 @@
 #include "tagfield/tracking/tracking_options.h"
 
 namespace tagfield {
+
+struct NavigationSpec;
+struct RadioWorld;
+struct TagModel;
 
 /// An antenna and what carries it. Frame P is the carrier's: the robot's base, or the world.
 struct AntennaSpec {
@@ -99,7 +103,8 @@ struct Scenario {
   double real_time = 0.0;            ///< Multiple of real time to run at; 0 for as fast as it can.
   std::vector<RobotSpec> robots;
   PoseBelief pose;
-  NavigationSpec navigation;  ///< For PoseSource::kSlam.
+  /// For PoseSource::kSlam, as the scenario's file tells it; null for what is usual.
+  std::shared_ptr<const NavigationSpec> navigation;
   std::vector<ObstacleSpec> obstacles;
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;

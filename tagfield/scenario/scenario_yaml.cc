@@ -9,12 +9,15 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/radio_world.h"
 #include "tagfield/field/antenna_facts.h"
+#include "tagfield/localization/locate.h"
+#include "tagfield/localization/method.h"
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
+#include "tagfield/scenario/internal/tag_table.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/recorded_motion.h"
-#include "tagfield/scenario/tag_table.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
 #include "tagfield/sdf/load_world.h"
@@ -334,7 +337,7 @@ Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostic
   if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
   if (map.has("navigation")) {
     const YamlValue navigation = map.at("navigation");
-    const PoseSource source = read_navigation(navigation, scenario.navigation);
+    const PoseSource source = read_navigation(navigation, own_navigation(scenario));
     if (map.has("pose") && map.at("pose").node()["source"] && source != scenario.pose.source) {
       navigation.fail(fmt::format("is {}, but pose.source is {}", to_string(source),
                                   to_string(scenario.pose.source)));
@@ -357,9 +360,8 @@ Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostic
 }
 
 bool any_physical(const Scenario& scenario) {
-  return std::any_of(
-      scenario.antennas.begin(), scenario.antennas.end(),
-      [](const AntennaSpec& antenna) { return meets_world(antenna.parameters); });
+  return std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
+                     [](const AntennaSpec& antenna) { return meets_world(antenna.parameters); });
 }
 
 void require_end(const Scenario& scenario, const std::string& path) {

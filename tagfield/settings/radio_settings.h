@@ -9,9 +9,11 @@
 
 #include "tagfield/base/raw_parameter.h"
 #include "tagfield/base/setting.h"
-#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
+
+struct RadioModel;
+struct TagModel;
 
 /// Which model an antenna is simulated by.
 enum class PropagationModel { kPaper, kLinkBudget, kMultipath };

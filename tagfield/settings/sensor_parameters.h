@@ -14,6 +14,8 @@
 
 namespace tagfield {
 
+struct TagModel;
+
 /// What the plugin of an `rfid` sensor says.
 ///
 /// The published parameters, with their published defaults: `frequency` [Hz] 865.7e6, `noisephi`

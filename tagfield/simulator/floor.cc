@@ -6,6 +6,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
+#include "tagfield/laser/simulated_laser.h"
 
 namespace tagfield {
 namespace {

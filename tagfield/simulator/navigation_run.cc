@@ -6,6 +6,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/simulator/internal/self_driving.h"
 
 namespace tagfield {
 namespace {
@@ -27,7 +28,7 @@ SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunCont
     if (!control.on_progress) return;
     control.on_progress(kMappingShare * std::min(simulated_s / kUsualMapping_s, 1.0));
   };
-  navigation.survey = survey(scenario.navigation, world, robot, scenario.time_step_s, seed,
+  navigation.survey = survey(navigation_of(scenario), world, robot, scenario.time_step_s, seed,
                              control.threads, control.stop, on_progress);
   navigation.map = navigation.survey->map;
   return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
@@ -61,7 +62,7 @@ class TouchWatch {
 class BeliefWatch {
  public:
   BeliefWatch(const Scenario& scenario, NavigationRun& navigation)
-      : is_told_(scenario.navigation.start == StartBelief::kKnown), navigation_(navigation) {}
+      : is_told_(navigation_of(scenario).start == StartBelief::kKnown), navigation_(navigation) {}
 
   void look(const Robot& robot, Time now) {
     const auto [entry, is_new] = places_.try_emplace(robot.name());

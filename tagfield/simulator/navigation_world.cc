@@ -78,7 +78,7 @@ void require_good_carryings(const Scenario& scenario, const RobotClearance& clea
 
 /// Whether a place has to be drawn for a robot.
 bool draws_places(const Scenario& scenario) {
-  return scenario.navigation.start == StartBelief::kRandom ||
+  return navigation_of(scenario).start == StartBelief::kRandom ||
          std::any_of(scenario.robots.begin(), scenario.robots.end(), [](const RobotSpec& robot) {
            return robot.random_goals > 0 ||
                   std::any_of(robot.carried.begin(), robot.carried.end(),
@@ -111,7 +111,7 @@ NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
   if (scenario.world.path.empty()) {
     throw Error("navigation 'slam' needs a world: the scenario has no 'world'");
   }
-  const NavigationSpec& navigation = scenario.navigation;
+  const NavigationSpec& navigation = navigation_of(scenario);
   const RobotSpec& robot = mapping_robot(scenario);
   const Eigen::Vector2d start = position_of(robot.start);
   RobotClearance clearance(scene, RobotOutline{});

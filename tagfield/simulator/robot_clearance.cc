@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/laser/simulated_laser.h"
 #include "tagfield/map/top_view.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/keep_out.h"

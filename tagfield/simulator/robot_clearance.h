@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/laser/simulated_laser.h"
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/motion/unicycle.h"
 #include "tagfield/scenario/obstacle.h"

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/channel/radio_world.h"
 #include "tagfield/scenario/recorded_motion.h"
+#include "tagfield/simulator/internal/self_driving.h"
+#include "tagfield/simulator/internal/tag_schedule.h"
+#include "tagfield/simulator/robot.h"
 
 namespace tagfield {
 namespace {
@@ -53,7 +57,7 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets out
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
       end_(end_of(scenario)),
-      schedule_(scenario.tags),
+      schedule_(std::make_unique<TagSchedule>(scenario.tags)),
       field_(std::move(outlets), scenario.radio_world) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
   bool has_mapped = true;
@@ -72,6 +76,10 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets out
   for (const TagSpec& tag : scenario.tags) require_robot(tag.on, tag.location);
   handle_events(Time{});
 }
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const Robot* Simulation::robot_named(const std::string& name) const {
   const auto found = std::find_if(robots_.begin(), robots_.end(),
@@ -184,8 +192,8 @@ void Simulation::step() {
 
 /// Lets tags appear and disappear that are due by `until`.
 void Simulation::handle_events(Time until) {
-  while (const auto tag = schedule_.next_to_appear(until)) add_tag(*tag);
-  while (const auto id = schedule_.next_to_disappear(until)) {
+  while (const auto tag = schedule_->next_to_appear(until)) add_tag(*tag);
+  while (const auto id = schedule_->next_to_disappear(until)) {
     // Whoever uses this class may have removed the tag already.
     if (tags_.count(*id) > 0) remove_tag(*id);
   }

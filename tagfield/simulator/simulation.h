@@ -14,11 +14,13 @@
 #include "tagfield/field/field_driver.h"
 #include "tagfield/field/rfid_field.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/simulator/robot.h"
-#include "tagfield/simulator/self_driving.h"
-#include "tagfield/simulator/tag_schedule.h"
 
 namespace tagfield {
+
+class Robot;
+class TagSchedule;
+struct RadioWorld;
+struct SelfDriving;
 
 /// Runs a scenario step by step and tells its outlets what comes of it. Tags and antennas can be
 /// added and removed between any two steps. The same scenario and seed tell the same.
@@ -29,6 +31,9 @@ class Simulation {
   /// twice, an unknown robot, a parameter out of range.
   Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets = {},
              const SelfDriving* driving = nullptr);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
 
   /// Goes on by one time step. Reads are stamped with the time of their antenna's update, or of the
   /// tag's answer, wherever in the step that falls.
@@ -80,9 +85,9 @@ class Simulation {
   Time step_begin_{};  ///< Beginning of the last step.
   std::vector<Robot> robots_;
   std::unordered_map<std::string, AntennaSpec> antennas_;
-  std::unordered_map<std::string, std::uint32_t> tags_;  ///< Numbers by ID.
+  std::unordered_map<std::string, std::uint32_t> tags_;         ///< Numbers by ID.
   std::vector<std::pair<std::uint32_t, TagSpec>> moving_tags_;  ///< In rising order of numbers.
-  TagSchedule schedule_;
+  std::unique_ptr<TagSchedule> schedule_;
   FieldDriver driver_;
   RfidField field_;
 };

@@ -7,10 +7,10 @@
 #include <complex>
 
 #include "tagfield/base/parallel.h"
-#include "tagfield/tracking/line_search.h"
-#include "tagfield/tracking/particle_track.h"
-#include "tagfield/tracking/pass.h"
-#include "tagfield/tracking/smoother.h"
+#include "tagfield/tracking/internal/line_search.h"
+#include "tagfield/tracking/internal/particle_track.h"
+#include "tagfield/tracking/internal/pass.h"
+#include "tagfield/tracking/internal/smoother.h"
 
 namespace tagfield {
 namespace {

@@ -11,10 +11,6 @@ import shutil
 from common import (Skip, case, check, check_between, check_equal, check_in, check_near, main,
                     position, read_csv, read_json, run)
 
-ROOMS = ("base", "poses", "world", "sdf", "link", "channel", "reader", "stream", "localization",
-         "report", "simulator", "bench")
-
-
 def documented_commands(path):
     """The tagfield commands that stand indented in a text or in a file's comments."""
     text = re.sub(r"\\\n\s*#?\s*", " ", path.read_text(encoding="utf-8"))
@@ -94,35 +90,40 @@ def own_csv(context):
 # --- The installed package ------------------------------------------------------------------------
 
 def install(context):
-    missing = [room for room in ROOMS
-               if not list(context.build.rglob(f"libtagfield_{room}.a"))]
-    if missing:
-        raise Skip(f"not all libraries are built: {', '.join(missing)}")
+    if not list(context.build.rglob("libtagfield_experiment.a")):
+        raise Skip("not all libraries are built")
     prefix = context.folder / "installed"
     result = run(["cmake", "--install", context.build, "--prefix", prefix])
     check_equal(result.code, 0, f"exit code of cmake --install ({result.err[-400:]!r})")
     return prefix
 
 
-def build_and_run(context, prefix, name, *arguments):
-    """What an example prints that was built against the package; "" where it could not be."""
-    example = context.source / "examples" / name
-    build = context.folder / name
+def configure(source, build, prefix, *options):
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    for command in (["cmake", *generator, "-S", example, "-B", build,
-                     f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"],
-                    ["cmake", "--build", build]):
-        result = run(command, timeout=600)
-        if not check(result.code == 0, f"{command[1]}: {(result.out + result.err)[-1500:]}"):
+    return run(["cmake", *generator, "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
+                "-DCMAKE_BUILD_TYPE=Release", *options], timeout=600)
+
+
+def build_and_run(context, prefix, source, *arguments, options=()):
+    """What a program prints that was built against the package; "" where it could not be."""
+    program = re.sub(r"^\d+_", "", source.name)
+    build = context.folder / program
+    for name, step in (("configure", lambda: configure(source, build, prefix, *options)),
+                       ("build", lambda: run(["cmake", "--build", build], timeout=600))):
+        result = step()
+        if not check(result.code == 0, f"{name} {program}: {(result.out + result.err)[-1500:]}"):
             return ""
-    program = name.split("_", 1)[1]
     result = run([build / program, *arguments], cwd=context.folder)
     check_equal((result.code, result.err), (0, ""), f"exit code and stderr of {program}")
     return result.out
 
 
+def build_example(context, prefix, name, *arguments):
+    return build_and_run(context, prefix, context.source / "examples" / name, *arguments)
+
+
 def check_own_program(context, prefix):
-    out = build_and_run(context, prefix, "04_own_program")
+    out = build_example(context, prefix, "04_own_program")
     found = {name: (float(x), float(y)) for name, x, y in
              re.findall(r"^(\w+): (-?[\d.]+) (-?[\d.]+) m$", out, re.MULTILINE)}
     # Where own_program.cc puts them.
@@ -132,8 +133,7 @@ def check_own_program(context, prefix):
 
 
 def check_own_method(context, prefix):
-    out = build_and_run(context, prefix, "05_own_method",
-                        context.shipped("paper_warehouse"))
+    out = build_example(context, prefix, "05_own_method", context.shipped("paper_warehouse"))
     rows = re.findall(r"^  (\w+) +(\d+)/30 +\d+ +\d+ +([\d.]+)", out, re.MULTILINE)
     check_equal([row[0] for row in rows], 2 * ["hyperbola", "centroid", "sharper"],
                 f"methods in {out!r}")
@@ -143,6 +143,36 @@ def check_own_method(context, prefix):
     # The path is 3 to 6 m from the racks.
     check_between(mean_mm[1], 1000.0, 7000.0, "mean error of the centroid [mm]")
     check(mean_mm[2] != mean_mm[1], f"its setting changes nothing: {out!r}")
+
+
+def told_rates(reads, distances, interval_s=5.0):
+    """Reads a second of each antenna and the farthest read yet, each interval_s, from a run's tables."""
+    told, counts, farthest, end = [], {}, 0.0, interval_s
+    for read, distance in zip(reads, distances):
+        farthest = max(farthest, float(distance["distance_m"]))
+        if float(read["stamp_s"]) >= end:
+            told.append((end, {name: n / interval_s for name, n in counts.items()}, farthest))
+            counts = dict.fromkeys(counts, 0)
+            while end <= float(read["stamp_s"]):
+                end += interval_s
+        counts[read["antenna"]] = counts.get(read["antenna"], 0) + 1
+    return told
+
+
+def check_own_outlet(context, prefix):
+    out = build_example(context, prefix, "06_own_outlet", context.shipped("two_antennas"))
+    folder = context.simulate("two_antennas", "--no-page")
+    expected = told_rates(read_csv(folder / "reads.csv"), read_csv(folder / "truth/distances.csv"))
+    lines = out.splitlines()
+    check(len(lines) > 3, f"own_outlet prints {out!r}")
+    check_equal(len(lines), len(expected), "lines of own_outlet")
+    for line, (end, rates, farthest) in zip(lines, expected):
+        check(line.startswith(f"{end:5.1f} s:"), f"{line!r} is of {end} s")
+        check_near(float(re.search(r"up to ([\d.]+) m", line).group(1)), farthest, 0.006, line)
+        told = {name: float(rate) for name, rate in re.findall(r" (\w+) (\d+) reads/s", line)}
+        check_equal(set(told), set(rates), f"antennas in {line!r}")
+        for name, rate in rates.items():
+            check_near(told[name], rate, 0.51, f"rate of {name} in {line!r}")
 
 
 def check_installed_command(context, prefix):
@@ -159,6 +189,7 @@ def the_installed_package(context):
     check_installed_command(context, prefix)
     check_own_program(context, prefix)
     check_own_method(context, prefix)
+    check_own_outlet(context, prefix)
     for path in prefix.rglob("*"):
         name = str(path.relative_to(prefix))
         check("/test/" not in name and "/internal/" not in name, f"{name} is installed")
@@ -166,6 +197,30 @@ def the_installed_package(context):
             text = path.read_text(encoding="utf-8")
             check(str(context.source) not in text and str(context.build) not in text,
                   f"{name} names the source or the build tree")
+
+
+OTHER_PACKAGES = ("Boost", "CLI11", "PkgConfig", "assimp", "embree", "mrpt-slam", "nlohmann_json",
+                  "sdformat12", "yaml-cpp")
+
+
+@case
+def a_component_needs_its_own_packages_alone(context):
+    """Localization where CMake finds Eigen and fmt and none of what other components need."""
+    prefix = install(context)
+    source = context.source / "tests/command/localization_alone"
+    options = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in OTHER_PACKAGES]
+    out = build_and_run(context, prefix, source, options=options)
+    places = re.findall(r"^tag: ([-\d.]+) ([-\d.]+) m$", out, re.MULTILINE)
+    check(places and math.dist(map(float, places[0]), (1.5, 2.0)) < 0.01,
+          f"the tag at (1.5, 2) is located at {out!r}")
+    linked = run(["ldd", context.folder / "localization_alone/localization_alone"]).out
+    libraries = {re.match(r"\s*(?:/\S*/)?(ld-linux|lib[a-z]+|linux-vdso)", line).group(1)
+                 for line in linked.splitlines()}
+    check_equal(libraries - {"ld-linux", "linux-vdso", "libc", "libm", "libgcc", "libstdc"}, {"libfmt"},
+                "libraries that the program loads")
+    result = configure(source, context.folder / "kitchen", prefix, "-DCOMPONENTS=localization;kitchen")
+    check(result.code != 0, "a component that there is not is found")
+    check_in("there is no component 'kitchen'", " ".join(result.err.split()), "what CMake says of it")
 
 
 EIGEN = "Eigen/Core"
@@ -203,7 +258,9 @@ def installed_headers_stand_alone(context):
     prefix = install(context)
     include = prefix / "include"
     headers = sorted(str(path.relative_to(include)) for path in include.rglob("*.h"))
-    check(len(headers) > 40, f"only {len(headers)} headers are installed")
+    listed = re.findall(r"^\| `(tagfield/\S+\.h)`", (context.source / "docs/api.md").read_text(
+        encoding="utf-8"), re.MULTILINE)
+    check_equal(headers, sorted(listed), "the headers that are installed, and those in docs/api.md")
     eigen = precompile_eigen(context.folder)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         said = pool.map(lambda header: compile_alone(header, include, eigen), headers)

@@ -1,4 +1,4 @@
-#include "tagfield/channel/fresnel.h"
+#include "tagfield/channel/internal/fresnel.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

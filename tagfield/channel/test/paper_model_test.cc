@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "tagfield/base/random.h"
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/statistics.h"
 #include "tagfield/base/units.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tagfield/experiment/bench/bench_files.h"
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/files/csv.h"
 
 namespace tagfield {

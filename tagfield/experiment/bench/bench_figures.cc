@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 
-#include "tagfield/experiment/bench/series.h"
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/series.h"
+#include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

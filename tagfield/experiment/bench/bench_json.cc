@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tagfield/experiment/bench/bench_files.h"
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 
 namespace tagfield {
 namespace {

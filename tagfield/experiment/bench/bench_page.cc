@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "tagfield/experiment/bench/bench_figures.h"
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

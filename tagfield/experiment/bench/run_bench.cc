@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "tagfield/base/parallel.h"
-#include "tagfield/experiment/bench/condition_run.h"
+#include "tagfield/experiment/internal/condition_run.h"
 
 namespace tagfield {
 namespace {

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "tagfield/experiment/bench/bench.h"
-#include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/simulator/run_control.h"
 
 namespace tagfield {
+
+struct PreparedSuite;  // of prepared.h
 
 /// Each condition with each seed is simulated once, and all its methods get the same problem. The
 /// result does not depend on the number of threads, times excepted. Runs that were not over when

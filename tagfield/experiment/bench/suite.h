@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/scenario/scenario_yaml.h"
 

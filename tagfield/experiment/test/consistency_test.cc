@@ -1,4 +1,4 @@
-#include "tagfield/experiment/bench/consistency.h"
+#include "tagfield/experiment/internal/consistency.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tagfield/experiment/navigation_summary.h"
+#include "tagfield/experiment/internal/navigation_summary.h"
 
 #include <gtest/gtest.h>
 

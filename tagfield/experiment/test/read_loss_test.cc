@@ -1,4 +1,4 @@
-#include "tagfield/experiment/bench/read_loss.h"
+#include "tagfield/experiment/internal/read_loss.h"
 
 #include <gtest/gtest.h>
 

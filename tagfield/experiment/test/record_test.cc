@@ -1,4 +1,4 @@
-#include "tagfield/experiment/bench/record.h"
+#include "tagfield/experiment/internal/record.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,10 @@ namespace {
 
 Truth hall() {
   Truth truth;
-  truth.tag_positions = {{Time{}, "a", {1, 2, 3}},      {Time{}, "b", {4, 5, 1}},
-                         {Time{}, "moving", {0, 0, 0}}, {time_from_seconds(1.0), "moving", {1, 0, 0}},
-                         {Time{}, "known", {7, 7, 1}},  {Time{}, "unread", {8, 8, 1}}};
+  truth.tag_positions = {
+      {Time{}, "a", {1, 2, 3}},      {Time{}, "b", {4, 5, 1}},
+      {Time{}, "moving", {0, 0, 0}}, {time_from_seconds(1.0), "moving", {1, 0, 0}},
+      {Time{}, "known", {7, 7, 1}},  {Time{}, "unread", {8, 8, 1}}};
   return truth;
 }
 
@@ -39,8 +40,8 @@ const std::vector<TagEstimate> kEstimates = {
 
 std::vector<TagRecord> records(const LocalizationProblem& problem) {
   const std::vector<std::string> order = {"a", "b", "moving", "known", "unread"};
-  return records_of(problem, judged(with_all_tags(kEstimates, {}, order), {}, hall(),
-                                    problem.reference_tags));
+  return records_of(
+      problem, judged(with_all_tags(kEstimates, {}, order), {}, hall(), problem.reference_tags));
 }
 
 TEST(Records, PutEstimatesBesideTheTruth) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tagfield/experiment/bench/bench_files.h"
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 

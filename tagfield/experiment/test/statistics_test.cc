@@ -1,4 +1,4 @@
-#include "tagfield/experiment/bench/statistics.h"
+#include "tagfield/experiment/internal/statistics.h"
 
 #include <gtest/gtest.h>
 

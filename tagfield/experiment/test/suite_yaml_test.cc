@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"

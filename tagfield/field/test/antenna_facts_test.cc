@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/channel/antenna_pattern.h"
+#include "tagfield/reader/channel_plan.h"
+#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tagfield/reader/radio_model.h"
+
 namespace tagfield {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "tagfield/field/telling.h"
+#include "tagfield/field/internal/telling.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "tagfield/gen2/slot_draw.h"
+#include "tagfield/gen2/internal/slot_draw.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "tagfield/planning/internal/tag_coverage.h"
 #include "tagfield/planning/moment.h"
-#include "tagfield/planning/tag_coverage.h"
 #include "tagfield/planning/test/radio_hall.h"
+#include "tagfield/simulator/robot.h"
 
 namespace tagfield {
 namespace {

@@ -7,7 +7,11 @@
 #include <string>
 
 #include "tagfield/base/units.h"
+#include "tagfield/channel/radio_world.h"
+#include "tagfield/reader/channel_plan.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/scenario.h"
+#include "tagfield/world/scene.h"
 
 namespace tagfield {
 

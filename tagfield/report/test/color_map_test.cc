@@ -1,4 +1,4 @@
-#include "tagfield/report/color_map.h"
+#include "tagfield/report/internal/color_map.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

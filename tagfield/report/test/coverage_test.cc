@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tagfield/report/color_bands.h"
 #include "tagfield/report/coverage_page.h"
+#include "tagfield/report/internal/color_bands.h"
 
 namespace tagfield {
 namespace {

@@ -1,4 +1,4 @@
-#include "tagfield/report/map_outline.h"
+#include "tagfield/report/internal/map_outline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tagfield/report/map_view.h"
+#include "tagfield/report/internal/map_view.h"
 
 #include <gtest/gtest.h>
 

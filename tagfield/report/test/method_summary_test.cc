@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tagfield/report/tables.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/test/balanced_tags.h"
 
 namespace tagfield {

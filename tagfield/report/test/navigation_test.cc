@@ -4,9 +4,9 @@
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/tables.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/page_text.h"
-#include "tagfield/report/tables.h"
 #include "tagfield/report/test/balanced_tags.h"
 #include "tagfield/report/test/run_folder.h"
 

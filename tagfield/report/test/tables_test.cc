@@ -1,4 +1,4 @@
-#include "tagfield/report/tables.h"
+#include "tagfield/report/internal/tables.h"
 
 #include <gtest/gtest.h>
 

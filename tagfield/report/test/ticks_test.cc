@@ -1,4 +1,4 @@
-#include "tagfield/report/ticks.h"
+#include "tagfield/report/internal/ticks.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/profile.h"
 #include "tagfield/scenario/yaml_values.h"
 

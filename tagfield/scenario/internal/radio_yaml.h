@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tagfield/base/raw_parameter.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/settings/radio_settings.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/laser/simulated_laser.h"
 
 namespace tagfield {
 namespace {

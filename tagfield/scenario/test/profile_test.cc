@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tagfield/base/error.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {

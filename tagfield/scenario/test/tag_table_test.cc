@@ -1,4 +1,4 @@
-#include "tagfield/scenario/tag_table.h"
+#include "tagfield/scenario/internal/tag_table.h"
 
 #include <gtest/gtest.h>
 

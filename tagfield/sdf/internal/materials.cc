@@ -6,8 +6,8 @@
 #include <sdf/Material.hh>
 #include <sdf/Mesh.hh>
 
+#include "tagfield/sdf/internal/mesh_file.h"
 #include "tagfield/sdf/internal/shapes.h"
-#include "tagfield/sdf/mesh_file.h"
 
 namespace tagfield::sdf_internal {
 namespace {

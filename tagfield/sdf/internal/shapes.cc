@@ -7,7 +7,7 @@
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
 
-#include "tagfield/sdf/mesh_file.h"
+#include "tagfield/sdf/internal/mesh_file.h"
 
 namespace tagfield::sdf_internal {
 namespace {

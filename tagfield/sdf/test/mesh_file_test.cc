@@ -1,4 +1,4 @@
-#include "tagfield/sdf/mesh_file.h"
+#include "tagfield/sdf/internal/mesh_file.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,10 @@
 #include <iterator>
 
 #include "tagfield/base/units.h"
+#include "tagfield/channel/antenna_pattern.h"
+#include "tagfield/gen2/link_timing.h"
+#include "tagfield/gen2/session.h"
+#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {

@@ -50,7 +50,7 @@ TEST(NavigationWorld, TellsTheDriverWhatIsLow) {
   EXPECT_TRUE(is_free(world.true_map.at(cell.x(), cell.y())));
   const OccupancyGrid map = driving_map(world.true_map, world);
   EXPECT_TRUE(is_occupied(map.at(cell.x(), cell.y())));
-  scenario.navigation.keep_out = false;
+  own_navigation(scenario).keep_out = false;
   const NavigationWorld blind = navigation_world(scenario, scene, diagnostics);
   EXPECT_TRUE(is_free(driving_map(blind.true_map, blind).at(cell.x(), cell.y())));
 }
@@ -93,7 +93,7 @@ TEST(NavigationWorld, RefusesMapsWithoutWallsOrFloor) {
   OccupancyGrid map;
   map.width = map.height = 20;
   Scenario scenario = small_drive();
-  scenario.navigation.map = folder_of_test().with("m.yaml", map_to_yaml(map, "m.pgm"));
+  own_navigation(scenario).map = folder_of_test().with("m.yaml", map_to_yaml(map, "m.pgm"));
   for (const auto& [cell, says] :
        {std::pair{0, "no occupied cell"}, {100, "no free cell"}, {-1, "no free cell"}}) {
     map.cells.assign(400, static_cast<std::int8_t>(cell));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tagfield/laser/simulated_laser.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/simulator/test/small_world.h"
 

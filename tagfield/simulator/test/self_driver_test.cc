@@ -21,7 +21,7 @@ const NavigationWorld& world() {
   return made;
 }
 
-NavigationSpec spec() { return small_drive().navigation; }
+NavigationSpec spec() { return navigation_of(small_drive()); }
 
 PoseEstimate about(const PlanarPose& pose) {
   return {pose, Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal()};

@@ -2,6 +2,8 @@
 /// A small world for tests of what robots do by themselves.
 #pragma once
 
+#include "tagfield/navigation/monte_carlo_localizer.h"
+#include "tagfield/scenario/navigation_spec.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/world/scene.h"
 
@@ -30,10 +32,11 @@ inline Scenario small_drive() {
   scenario.world.path = "small_room";
   scenario.time_step_s = 0.02;
   scenario.pose.source = PoseSource::kSlam;
-  scenario.navigation.laser.beams = 181;
-  scenario.navigation.laser.rate_hz = 15.0;
+  NavigationSpec& navigation = own_navigation(scenario);
+  navigation.laser.beams = 181;
+  navigation.laser.rate_hz = 15.0;
   // Few particles and looks will do for a place as small as this.
-  LocalizerSettings& localizer = scenario.navigation.localizer;
+  LocalizerSettings& localizer = navigation.localizer;
   localizer.first_particles = 3000;
   localizer.least_searching = 1000;
   localizer.update_turn_rad = 0.5;

@@ -15,11 +15,11 @@ struct Made {
 };
 
 Made survey_with(Scenario scenario, const std::atomic<bool>* stop = nullptr) {
-  scenario.navigation.mapper.particles = 3;
+  own_navigation(scenario).mapper.particles = 3;
   Diagnostics diagnostics;
   Made made{navigation_world(scenario, small_room(), diagnostics), {}};
-  made.survey = survey(scenario.navigation, made.world, scenario.robots[0], scenario.time_step_s,
-                       scenario.seed, 1, stop, nullptr);
+  made.survey = survey(navigation_of(scenario), made.world, scenario.robots[0],
+                       scenario.time_step_s, scenario.seed, 1, stop, nullptr);
   return made;
 }
 
@@ -49,7 +49,7 @@ TEST(Survey, MapsARoomAndComesBack) {
 
 TEST(Survey, EndsAtItsLimit) {
   Scenario scenario = small_drive();
-  scenario.navigation.mapping_limit_s = 2.0;
+  own_navigation(scenario).mapping_limit_s = 2.0;
   const Made made = survey_with(scenario);
   EXPECT_FALSE(made.survey.complete);
   EXPECT_NEAR(made.survey.simulated_s, 2.0, 0.021);

@@ -1,4 +1,4 @@
-#include "tagfield/tracking/smoother.h"
+#include "tagfield/tracking/internal/smoother.h"
 
 #include <gtest/gtest.h>
 

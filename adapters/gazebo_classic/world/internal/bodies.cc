@@ -5,6 +5,7 @@
 
 #include "adapters/gazebo_classic/world/internal/radio.h"
 #include "adapters/gazebo_classic/world/scenario_world.h"
+#include "tagfield/reader/radio_model.h"
 
 namespace tagfield::gazebo_world_internal {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/files/files.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"

@@ -1,0 +1,70 @@
+#include "tagfield/channel/internal/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr Complex kJ{0.0, 1.0};
+/// Beyond it a wave has lost 8,600 dB: e^x is 0 anyway, and infinities are kept out.
+constexpr double kMostLoss = 1000.0;
+
+/// √(η − sin²θ), decaying into the material.
+Complex normal_component(Complex eta, double cosine) {
+  const Complex root = std::sqrt(eta - (1.0 - cosine * cosine));
+  return root.imag() > 0.0 ? -root : root;
+}
+
+/// e^{−jq} for the complex phase q along the slab's normal.
+Complex through(Complex root, double thickness_m, double lambda_m) {
+  Complex exponent = -kJ * (kTwoPi * thickness_m / lambda_m) * root;
+  exponent.real(std::max(exponent.real(), -kMostLoss));
+  return std::exp(exponent);
+}
+
+/// The slab's two faces see each other's echoes.
+Complex slab_reflection(Complex face, Complex once) {
+  const Complex twice = once * once;
+  return face * (1.0 - twice) / (1.0 - face * face * twice);
+}
+
+Complex slab_transmission(Complex face, Complex once) {
+  return (1.0 - face * face) * once / (1.0 - face * face * once * once);
+}
+
+}  // namespace
+
+FresnelPair half_space_reflection(Complex eta, double cos_incidence) {
+  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
+  const Complex root = normal_component(eta, cosine);
+  // Where both are 0, air at grazing incidence, nothing is reflected by anything.
+  const Complex te_sum = cosine + root;
+  const Complex tm_sum = eta * cosine + root;
+  return {te_sum == 0.0 ? Complex{} : (cosine - root) / te_sum,
+          tm_sum == 0.0 ? Complex{} : (eta * cosine - root) / tm_sum};
+}
+
+FresnelPair slab_reflection(Complex eta, double cos_incidence, double thickness_m,
+                            double lambda_m) {
+  const FresnelPair face = half_space_reflection(eta, cos_incidence);
+  const Complex root = normal_component(eta, std::clamp(cos_incidence, 0.0, 1.0));
+  const Complex once = through(root, thickness_m, lambda_m);
+  if (once == 1.0) return {};
+  return {slab_reflection(face.te, once), slab_reflection(face.tm, once)};
+}
+
+FresnelPair slab_transmission(Complex eta, double cos_incidence, double thickness_m,
+                              double lambda_m) {
+  const FresnelPair face = half_space_reflection(eta, cos_incidence);
+  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
+  const Complex once = through(normal_component(eta, cosine), thickness_m, lambda_m);
+  if (once == 1.0) return {1.0, 1.0};
+  const Complex in_air = through(cosine, thickness_m, lambda_m);
+  return {slab_transmission(face.te, once) / in_air, slab_transmission(face.tm, once) / in_air};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,90 @@
+#include "tagfield/field/internal/telling.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace tagfield {
+
+void Telling::push(Time stamp, What what) {
+  is_sorted_ = is_sorted_ && (events_.empty() || events_.back().stamp <= stamp);
+  events_.push_back({stamp, std::move(what)});
+}
+
+void Telling::add(const TagRead& read, double distance_m) {
+  push(read.stamp, Read{read, distance_m});
+}
+
+void Telling::add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
+                  const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA) {
+  push(stamp, Update{antenna, X_WA, X_PA});
+}
+
+void Telling::add(Time stamp, const TagPosition& tag, std::optional<std::string> label) {
+  push(stamp, Place{tag, std::move(label)});
+}
+
+void Telling::add_removed(Time stamp, const std::string& tag) { push(stamp, Removed{tag}); }
+void Telling::add_placed(Time stamp) { push(stamp, Placed{}); }
+void Telling::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
+
+void Telling::tell(Time /*stamp*/, const Read& read) const {
+  const TagRead& told = read.read;
+  for (const auto& listener : outlets_.truth) {
+    listener->on_distance({told.stamp, told.antenna, told.tag, read.distance_m});
+  }
+  for (const auto& listener : outlets_.reads) listener->on_read(told);
+}
+
+void Telling::tell(Time stamp, const Update& update) const {
+  const AntennaInfo& antenna = *update.antenna;
+  if (update.X_PA) {
+    for (const auto& listener : outlets_.poses) {
+      listener->on_pose(antenna, {stamp, antenna.name, *update.X_PA});
+    }
+  }
+  for (const auto& listener : outlets_.truth) {
+    listener->on_antenna_pose(antenna, {stamp, antenna.name, update.X_WA});
+  }
+  for (const auto& listener : outlets_.reads) listener->on_update(antenna, stamp);
+}
+
+void Telling::tell(Time /*stamp*/, const Place& place) const {
+  for (const auto& listener : outlets_.truth) {
+    if (place.label) {
+      listener->on_tag_added(place.tag, *place.label);
+    } else {
+      listener->on_tag_moved(place.tag);
+    }
+  }
+}
+
+void Telling::tell(Time /*stamp*/, const Removed& removed) const {
+  for (const auto& listener : outlets_.truth) listener->on_tag_removed(removed.tag);
+}
+
+void Telling::tell(Time stamp, const Placed& /*placed*/) const {
+  for (const auto& listener : outlets_.truth) listener->on_tags_placed(stamp);
+}
+
+void Telling::tell(Time /*stamp*/, const AntennaPose& robot) const {
+  for (const auto& listener : outlets_.truth) listener->on_robot_pose(robot);
+}
+
+void Telling::tell(Time until) {
+  const auto earlier = [](const Event& a, const Event& b) { return a.stamp < b.stamp; };
+  // Stable: what belongs to one stamp is told in the order in which it was added.
+  if (!is_sorted_) std::stable_sort(events_.begin(), events_.end(), earlier);
+  is_sorted_ = true;
+  const auto end =
+      std::upper_bound(events_.begin(), events_.end(), until,
+                       [](Time stamp, const Event& event) { return stamp < event.stamp; });
+  // Taken out before they are told: a listener that throws must not be told twice.
+  std::vector<Event> due(std::make_move_iterator(events_.begin()), std::make_move_iterator(end));
+  events_.erase(events_.begin(), end);
+  for (const Event& event : due) {
+    std::visit([&](const auto& what) { tell(event.stamp, what); }, event.what);
+  }
+}
+
+}  // namespace tagfield

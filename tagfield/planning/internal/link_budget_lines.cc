@@ -1,0 +1,122 @@
+#include "tagfield/planning/internal/link_budget_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+void add(std::vector<BudgetLine>& lines, const std::string& what, double db) {
+  BudgetLine& line = lines.emplace_back();
+  line.what = what;
+  line.db = db;
+}
+
+std::string through(const SurfaceOnPath& met) {
+  if (met.thickness_m > 0.0) {
+    return fmt::format("through {} ({}, {:.2f} m)", met.object, met.material, met.thickness_m);
+  }
+  return fmt::format("through {} ({}, a sheet)", met.object, met.material);
+}
+
+std::string blockers(const std::vector<SurfaceOnPath>& between) {
+  const auto wall = std::find_if(between.begin(), between.end(),
+                                 [](const SurfaceOnPath& met) { return met.opaque; });
+  return wall == between.end() ? "something" : fmt::format("{} ({})", wall->object, wall->material);
+}
+
+/// Of the direct way: what it is made of, as if nothing opaque stood in it.
+void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const RadioPath& direct,
+                OneWay& way) {
+  const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
+  const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  const auto budget_of = [&](const RadioPath& path) {
+    return path_budget(path, antenna, at_tag, view.world, view.carrier, effects);
+  };
+  way.between = crossings_of(direct, budget_of(direct), view.world);
+  way.blocked = direct.blocked;
+  const PathBudget budget = budget_of(direct.blocked ? unhindered(direct) : direct);
+  add(way.lines, "antenna gain towards the tag", budget.antenna_db);
+  add(way.lines, fmt::format("free space over {:.2f} m", direct.length_m), budget.spreading_db);
+  for (const SurfaceOnPath& met : way.between) {
+    if (!direct.blocked) add(way.lines, through(met), met.gain_db);
+  }
+  add(way.lines, "polarization", budget.polarization_db);
+  add(way.lines, "tag gain towards the antenna", budget.tag_db);
+}
+
+std::string others_line(const OneWay& way, std::size_t count) {
+  if (way.blocked && count == 0) return blockers(way.between) + " blocks the only way";
+  const std::string others = count == 1 ? "1 other path" : fmt::format("{} other paths", count);
+  if (way.blocked) {
+    return fmt::format("{} blocks the direct way; {} instead", blockers(way.between), others);
+  }
+  return count == 0 ? "what remains of it" : fmt::format("{} with it", others);
+}
+
+std::size_t count_others(const std::vector<RadioPath>& paths) {
+  return static_cast<std::size_t>(
+      std::count_if(paths.begin(), paths.end(),
+                    [](const RadioPath& path) { return path.bounce_count > 0 && !path.blocked; }));
+}
+
+double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWay& way) {
+  return to_db(
+      std::norm(one_way_gain(way.paths, {view.model.antenna, receiver ? view.X_WR : view.X_WA},
+                             {tag.model.antenna, tag.X_WT}, view.world, view.carrier,
+                             {view.model.effects.patterns, view.model.effects.polarization})));
+}
+
+}  // namespace
+
+OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver) {
+  OneWay way;
+  way.paths = paths_of(view, tag, receiver);
+  if (way.paths.empty()) {
+    add(way.lines, "both ends are in one place", gain_db);
+    return way;
+  }
+  add_direct(view, tag, receiver, way.paths.front(), way);
+  const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db.has_value();
+  const double singles_db = is_diffuse ? paths_db(view, tag, receiver, way) : gain_db;
+  const double others_db = singles_db - sum_of(way.lines);
+  const std::size_t count = count_others(way.paths);
+  // Without others a difference is rounding, or where a pattern's null ends at "nothing".
+  if (count > 0 || way.blocked || std::abs(others_db) > 1e-6) {
+    add(way.lines, others_line(way, count), others_db);
+  }
+  if (is_diffuse) add(way.lines, "waves from everywhere", gain_db - singles_db);
+  return way;
+}
+
+void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_link,
+                PhysicalLink& link) {
+  const RadioModel& model = view.model;
+  OneWay there = one_way(view, tag, to_db(std::norm(of_link.forward)), false);
+  add(link.to_tag, "transmit power", model.transmit_power_dbm);
+  add(link.to_tag, "cable", -model.cable_loss_db);
+  link.to_tag.insert(link.to_tag.end(), there.lines.begin(), there.lines.end());
+  add(link.to_tag, "detuning of the tag", -tag.model.detuning_db);
+  link.paths = explain_paths(view, tag, there.paths);
+  link.between = std::move(there.between);
+
+  add(link.to_reader, "power at the chip", link.tag_dbm);
+  add(link.to_reader, "modulation", tag.model.modulation_db);
+  add(link.to_reader, "detuning of the tag", -tag.model.detuning_db);
+  const double back_db = to_db(std::norm(of_link.backward));
+  if (model.X_AR) {
+    OneWay back = one_way(view, tag, back_db, true);
+    link.to_reader.insert(link.to_reader.end(), back.lines.begin(), back.lines.end());
+    link.between_return = std::move(back.between);
+  } else {
+    add(link.to_reader, "the same way back", back_db);
+  }
+  add(link.to_reader, "cable", -model.cable_loss_db);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,92 @@
+#include "tagfield/report/internal/color_bands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tagfield/report/internal/color_map.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostBands = 12;
+
+std::string label_of(double value) {
+  return value < 0.0 ? fmt::format("−{:g}", -value) : fmt::format("{:g}", value);
+}
+
+void label_edges(ColorBands& bands) {
+  for (const double edge : bands.edges) bands.labels.push_back(label_of(edge));
+}
+
+}  // namespace
+
+std::size_t band_of(const ColorBands& bands, double value) {
+  const auto above = std::upper_bound(bands.edges.begin(), bands.edges.end(), value);
+  return static_cast<std::size_t>(above - bands.edges.begin());
+}
+
+ColorBands power_bands(const std::string& title, std::vector<double> values) {
+  ColorBands bands;
+  bands.title = title;
+  if (values.empty()) values = {0.0};
+  const auto [low, high] = color_range(values);
+  double step = 5.0;
+  while ((high - low) / step > static_cast<double>(kMostBands - 2)) step *= 2.0;
+  const double first = std::floor(low / step) * step;
+  const double last = std::max(std::ceil(high / step) * step, first + step);
+  for (double edge = first; edge < last + 0.5 * step; edge += step) bands.edges.push_back(edge);
+  for (std::size_t i = 0; i <= bands.edges.size(); ++i) {
+    const double strength = static_cast<double>(i) / static_cast<double>(bands.edges.size());
+    bands.colors.push_back(hex_color(strength_color(strength)));
+  }
+  label_edges(bands);
+  return bands;
+}
+
+ColorBands margin_bands() {
+  ColorBands bands;
+  bands.title = "margin [dB]";
+  bands.edges = {-30, -20, -10, -3, 0, 3, 10, 20, 30};
+  bands.colors = {"#7f2f08", "#a8410c", "#cf6418", "#ee9a4d", "#f6c48f",
+                  "#a9d3ea", "#6fb3dc", "#3c8ec9", "#2468a8", "#1c4a86"};
+  label_edges(bands);
+  return bands;
+}
+
+ColorBands probability_bands() {
+  ColorBands bands;
+  bands.title = "read [%]";
+  bands.edges = {0.01, 0.25, 0.5, 0.75, 0.95, 0.9999};
+  bands.colors = {"", "#46327e", "#365c8d", "#277f8e", "#2fb47c", "#8fd744", "#e3dc2c"};
+  bands.labels = {"1", "25", "50", "75", "95", "100"};
+  return bands;
+}
+
+void draw_band_bar(Svg& svg, double y, const ColorBands& bands) {
+  constexpr double kTitleWidth = 118.0;
+  const double width =
+      (kDrawingWidth - kTitleWidth - 14.0) / static_cast<double>(bands.colors.size());
+  add_text(svg, {2.0, y + 12.0}, bands.title, Anchor::kStart);
+  for (std::size_t i = 0; i < bands.colors.size(); ++i) {
+    const double x = kTitleWidth + static_cast<double>(i) * width;
+    if (bands.colors[i].empty()) {
+      add_rectangle(svg, {x, y}, {width, 15.0}, styled("frame"));
+    } else {
+      add_rectangle(svg, {x, y}, {width + 0.3, 15.0}, filled(bands.colors[i], 1.0));
+    }
+    if (i == 0) continue;
+    add_line(svg, {x, y + 15.0}, {x, y + 20.0}, styled("axis"));
+    add_text(svg, {x, y + 36.0}, bands.labels[i - 1], Anchor::kMiddle, "faint");
+  }
+}
+
+const std::string& color_of_kind(std::size_t number) {
+  static const std::array<std::string, 8> kColors = {"#3c8ec9", "#e08a1e", "#2fa36b", "#c8539b",
+                                                     "#8c6bd1", "#b3a125", "#4fb8c4", "#d1564a"};
+  return kColors[number % kColors.size()];
+}
+
+}  // namespace tagfield

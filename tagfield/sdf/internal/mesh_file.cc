@@ -1,0 +1,186 @@
+#include "tagfield/sdf/internal/mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <system_error>
+
+namespace tagfield {
+namespace {
+
+/// What no mesh of a world needs; a file that asks for more is refused instead of filling memory.
+constexpr std::uintmax_t kMaxFileBytes = 1'000'000'000;
+constexpr std::size_t kMaxTriangles = 20'000'000;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& message) {
+  fail({path, 0}, message);
+}
+
+/// Assimp's messages may span lines.
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+void require_readable(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "no such mesh file");
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error) refuse(path, "can't be read: " + error.message());
+  if (bytes > kMaxFileBytes) refuse(path, "mesh file is larger than 1 GB");
+}
+
+const aiScene& import_file(Assimp::Importer& importer, const std::string& path) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(
+      path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+  if (scene == nullptr) {
+    refuse(path, "can't be read as a mesh: " + on_one_line(importer.GetErrorString()));
+  }
+  if (scene->mRootNode == nullptr) refuse(path, "holds no mesh");
+  return *scene;
+}
+
+Eigen::Affine3d to_eigen(const aiMatrix4x4& matrix) {
+  Eigen::Affine3d transform;
+  transform.matrix() << matrix.a1, matrix.a2, matrix.a3, matrix.a4, matrix.b1, matrix.b2, matrix.b3,
+      matrix.b4, matrix.c1, matrix.c2, matrix.c3, matrix.c4, 0.0, 0.0, 0.0, 1.0;
+  return transform;
+}
+
+/// Gathers the triangles of the nodes it walks, with vertices at the same place made one.
+class MeshGatherer {
+ public:
+  MeshGatherer(const aiScene& scene, const std::string& path, const std::string& submesh)
+      : scene_(scene), path_(path), submesh_(submesh) {}
+
+  void walk(const aiNode& node, const Eigen::Affine3d& X_FP) {
+    const Eigen::Affine3d X_FN = X_FP * to_eigen(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const aiMesh& part = *scene_.mMeshes[node.mMeshes[i]];
+      if (is_wanted(node, part)) add_part(part, X_FN);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) walk(*node.mChildren[i], X_FN);
+  }
+
+  [[nodiscard]] MeshFile result() const { return {mesh_, {materials_.begin(), materials_.end()}}; }
+  [[nodiscard]] const std::set<std::string>& parts() const { return parts_; }
+
+ private:
+  /// Gazebo names a part of a Collada file by its node, one of an OBJ file by its group.
+  bool is_wanted(const aiNode& node, const aiMesh& part) {
+    parts_.insert(node.mName.C_Str());
+    return submesh_.empty() || submesh_ == node.mName.C_Str() || submesh_ == part.mName.C_Str();
+  }
+
+  void add_part(const aiMesh& part, const Eigen::Affine3d& X_FN) {
+    if (mesh_.triangles.size() + part.mNumFaces > kMaxTriangles) {
+      refuse(path_, "mesh has more than 20 million triangles");
+    }
+    std::vector<std::uint32_t> indices;
+    indices.reserve(part.mNumVertices);
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      const aiVector3D& p = part.mVertices[i];
+      indices.push_back(index_of(X_FN * Eigen::Vector3d(p.x, p.y, p.z)));
+    }
+    add_faces(part, indices, X_FN.linear().determinant() < 0.0);
+    add_material(part);
+  }
+
+  /// A mirroring transform turns faces inside out, so it takes the other order of corners.
+  void add_faces(const aiMesh& part, const std::vector<std::uint32_t>& indices, bool mirrored) {
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      const aiFace& face = part.mFaces[i];
+      if (face.mNumIndices != 3) continue;
+      const std::array<std::uint32_t, 3> corners = {
+          indices[face.mIndices[0]], indices[face.mIndices[1]], indices[face.mIndices[2]]};
+      mesh_.triangles.push_back(
+          mirrored ? std::array<std::uint32_t, 3>{corners[0], corners[2], corners[1]} : corners);
+    }
+  }
+
+  std::uint32_t index_of(const Eigen::Vector3d& p) {
+    if (!p.allFinite()) refuse(path_, "mesh has a vertex that is not finite");
+    const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto [entry, is_new] = index_of_place_.try_emplace({p.x(), p.y(), p.z()}, next);
+    if (is_new) mesh_.vertices.push_back(p);
+    return entry->second;
+  }
+
+  void add_material(const aiMesh& part) {
+    if (part.mMaterialIndex >= scene_.mNumMaterials) return;
+    aiString name;
+    scene_.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
+    const std::string text = name.C_Str();
+    // Assimp gives a part without a material one of its own, which the file doesn't name.
+    if (!text.empty() && text != AI_DEFAULT_MATERIAL_NAME) materials_.insert(text);
+  }
+
+  const aiScene& scene_;
+  const std::string& path_;
+  const std::string& submesh_;
+  TriangleMesh mesh_;
+  std::set<std::string> materials_;
+  std::set<std::string> parts_;
+  std::map<std::array<double, 3>, std::uint32_t> index_of_place_;
+};
+
+void apply_scale(TriangleMesh& mesh, const Eigen::Vector3d& scale) {
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = vertex.cwiseProduct(scale);
+  if (scale.prod() >= 0.0) return;
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+void move_to_centre(TriangleMesh& mesh) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) bounds.extend(vertex);
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex -= bounds.center();
+}
+
+void require_triangles(const MeshGatherer& gatherer, const MeshFile& file, const std::string& path,
+                       const std::string& submesh) {
+  if (!file.mesh.triangles.empty()) return;
+  if (submesh.empty()) refuse(path, "mesh has no triangles");
+  std::string known;
+  for (const std::string& part : gatherer.parts()) known += (known.empty() ? "" : ", ") + part;
+  refuse(path, "mesh has no part '" + submesh + "' with triangles (parts: " + known + ")");
+}
+
+void require_finite(const TriangleMesh& mesh, const std::string& path) {
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    if (!vertex.allFinite()) refuse(path, "mesh has a vertex that is not finite once scaled");
+  }
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale,
+                   const std::string& submesh, bool center) {
+  require_readable(path);
+  Assimp::Importer importer;
+  const aiScene& scene = import_file(importer, path);
+  MeshGatherer gatherer(scene, path, submesh);
+  gatherer.walk(*scene.mRootNode, Eigen::Affine3d::Identity());
+  MeshFile file = gatherer.result();
+  require_triangles(gatherer, file, path, submesh);
+  apply_scale(file.mesh, scale);
+  if (center) move_to_centre(file.mesh);
+  require_finite(file.mesh, path);
+  return file;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,391 @@
+#include "tagfield/tracking/internal/smoother.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/robust_noise.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostOffsets = 12;  ///< More, and those of an antenna take turns.
+constexpr double kAnyOffset = 100.0;      ///< Variance of an offset that nothing is known of.
+constexpr double kKnownOffset = 1e-6;     ///< Of one that is known.
+constexpr int kPasses = 4;                ///< After the last jump was found.
+constexpr int kPassesBefore = 3;          ///< Any is looked for, so that the track has settled.
+constexpr int kMostJumps = 4;             ///< Times that they are looked for.
+constexpr double kNearest = 1e-3;         ///< [m]
+constexpr double kLeastNoise = 0.02;      ///< [rad]
+constexpr std::size_t kJumpSpan = 6;      ///< Reads before and after that tell a jump.
+constexpr double kLeastJump = 0.8;        ///< [rad]
+
+/// Which entry of the state holds a read's offset, and whether it begins anew there.
+struct Slots {
+  std::vector<Eigen::Index> of_read;
+  std::vector<char> fresh;
+  Eigen::Index size = 6;
+};
+
+struct Step {
+  Eigen::VectorXd predicted;
+  Eigen::MatrixXd predicted_covariance;
+  Eigen::VectorXd filtered;
+  Eigen::MatrixXd filtered_covariance;
+  Eigen::MatrixXd transition;
+};
+
+struct Smoothed {
+  std::vector<Eigen::VectorXd> mean;
+  std::vector<Eigen::MatrixXd> covariance;
+};
+
+/// k |p − a| near a point: `value` + slope (p − point), with what that leaves as variance.
+struct Linear {
+  double value = 0.0;
+  Eigen::RowVector3d slope;
+  double variance = 0.0;
+};
+
+/// What stays the same over the iterations.
+struct Input {
+  const Pass& pass;
+  const TrackingOptions& options;
+  Linearization linearization;
+  SmootherStart start;
+};
+
+Slots slots_of(const Pass& pass) {
+  const bool each = pass.groups <= kMostOffsets;
+  Slots slots;
+  slots.size = 6 + static_cast<Eigen::Index>(each ? pass.groups : pass.antennas.size());
+  std::map<std::size_t, std::size_t> last;  // group, by slot
+  for (const PassRead& read : pass.reads) {
+    const std::size_t slot = each ? read.group : read.antenna;
+    const auto [entry, first] = last.emplace(slot, read.group);
+    slots.of_read.push_back(6 + static_cast<Eigen::Index>(slot));
+    slots.fresh.push_back(first || entry->second != read.group ? 1 : 0);
+    entry->second = read.group;
+  }
+  return slots;
+}
+
+double predicted_phase(const PassRead& read, const Eigen::Vector3d& place) {
+  return read.k * (place - read.p_WA).norm();
+}
+
+Linear by_taylor(const PassRead& read, const Eigen::Vector3d& place) {
+  const Eigen::Vector3d away = place - read.p_WA;
+  const double r = std::max(away.norm(), kNearest);
+  return {read.k * r, read.k / r * away.transpose(), 0.0};
+}
+
+/// Regression over 2n + 1 sigma points of the place, κ = 0 (Julier and Uhlmann 2004, for n = 3).
+Linear by_sigma_points(const PassRead& read, const Eigen::Vector3d& place,
+                       const Eigen::Matrix3d& covariance) {
+  const Eigen::LLT<Eigen::Matrix3d> root(covariance);
+  if (root.info() != Eigen::Success) return by_taylor(read, place);
+  const Eigen::Matrix3d L = root.matrixL();
+  const double spread = std::sqrt(3.0);
+  Eigen::Vector3d differences;
+  double values[6];
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    values[2 * i] = predicted_phase(read, place + spread * L.col(i));
+    values[2 * i + 1] = predicted_phase(read, place - spread * L.col(i));
+    differences(i) = (values[2 * i] - values[2 * i + 1]) / (2.0 * spread);
+  }
+  Linear linear;
+  for (const double value : values) linear.value += value / 6.0;
+  for (const double value : values) {
+    linear.variance += (value - linear.value) * (value - linear.value) / 6.0;
+  }
+  linear.slope = L.transpose().triangularView<Eigen::Upper>().solve(differences).transpose();
+  linear.variance = std::max(0.0, linear.variance - differences.squaredNorm());
+  return linear;
+}
+
+Linear linear_at(const Input& input, const PassRead& read, const Eigen::VectorXd& mean,
+                 const Eigen::MatrixXd& covariance) {
+  const Eigen::Vector3d place = mean.head<3>();
+  if (input.linearization == Linearization::kTaylor) return by_taylor(read, place);
+  return by_sigma_points(read, place, covariance.topLeftCorner<3, 3>());
+}
+
+void predict(const Input& input, double time_s, Step& step, Eigen::VectorXd& mean,
+             Eigen::MatrixXd& covariance) {
+  const Eigen::Index size = mean.size();
+  step.transition = Eigen::MatrixXd::Identity(size, size);
+  step.transition.block<3, 3>(0, 3) = time_s * Eigen::Matrix3d::Identity();
+  mean = step.transition * mean;
+  covariance = step.transition * covariance * step.transition.transpose();
+  covariance.topLeftCorner<6, 6>() += process_noise(input.options, time_s);
+}
+
+/// The offset in `slot` is as unknown as before the first read.
+void begin_anew(const PassRead& read, Eigen::Index slot, double guess, Step& step,
+                Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
+  step.transition.row(slot).setZero();
+  covariance.row(slot).setZero();
+  covariance.col(slot).setZero();
+  covariance(slot, slot) = read.offset_known ? kKnownOffset : kAnyOffset;
+  mean(slot) = read.offset_known ? 0.0 : guess;
+}
+
+struct Innovation {
+  double value = 0.0;
+  double variance = 1.0;
+  Eigen::RowVectorXd slope;
+  double residual = 0.0;  ///< At the point that it was made linear at.
+};
+
+/// About the prediction, or about an earlier iteration's smoothed state.
+Innovation innovation_of(const Input& input, const PassRead& read, Eigen::Index slot,
+                         const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance,
+                         const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
+                         double noise_rad) {
+  const Linear linear = linear_at(input, read, about, spread);
+  Innovation innovation;
+  innovation.slope = Eigen::RowVectorXd::Zero(mean.size());
+  innovation.slope.head<3>() = linear.slope;
+  innovation.slope(slot) = 1.0;
+  innovation.residual = wrap_to_pi(read.phase_rad - linear.value - about(slot));
+  innovation.value = innovation.residual + innovation.slope.dot(about - mean);
+  innovation.variance = innovation.slope * covariance * innovation.slope.transpose() +
+                        noise_rad * noise_rad + linear.variance;
+  return innovation;
+}
+
+void update(const Innovation& innovation, Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd gain = covariance * innovation.slope.transpose() / innovation.variance;
+  mean += gain * innovation.value;
+  covariance -= innovation.variance * gain * gain.transpose();
+  covariance = 0.5 * (covariance + covariance.transpose()).eval();
+}
+
+struct Forward {
+  std::vector<Step> steps;
+  std::vector<char> taken;
+  double log_likelihood = 0.0;
+};
+
+/// `about`: empty in the first iteration.
+Forward filter(const Input& input, const Slots& slots, double noise_rad, const Smoothed& about) {
+  const std::vector<PassRead>& reads = input.pass.reads;
+  Forward forward;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(slots.size);
+  mean.head<6>() = about.mean.empty() ? input.start.guess : input.start.mean;
+  Eigen::MatrixXd covariance = kAnyOffset * Eigen::MatrixXd::Identity(slots.size, slots.size);
+  covariance.topLeftCorner<6, 6>() = input.start.covariance;
+  covariance.topRightCorner(6, slots.size - 6).setZero();
+  covariance.bottomLeftCorner(slots.size - 6, 6).setZero();
+  double time = reads.front().t_s;
+  for (std::size_t i = 0; i < reads.size(); ++i) {
+    const PassRead& read = reads[i];
+    const Eigen::Index slot = slots.of_read[i];
+    Step step;
+    predict(input, read.t_s - time, step, mean, covariance);
+    time = read.t_s;
+    const bool first = about.mean.empty();
+    if (slots.fresh[i] != 0) {
+      const double guess = first
+                               ? wrap_to_pi(read.phase_rad - predicted_phase(read, mean.head<3>()))
+                               : about.mean[i](slot);
+      begin_anew(read, slot, guess, step, mean, covariance);
+    }
+    step.predicted = mean;
+    step.predicted_covariance = covariance;
+    const Innovation innovation =
+        innovation_of(input, read, slot, mean, covariance, first ? mean : about.mean[i],
+                      first ? covariance : about.covariance[i], noise_rad);
+    const double scale = first ? std::sqrt(innovation.variance) : noise_rad;
+    const bool taken = std::abs(innovation.residual) <= input.options.gate_sigmas * scale;
+    if (taken) update(innovation, mean, covariance);
+    const double z = taken ? innovation.value * innovation.value / innovation.variance
+                           : input.options.gate_sigmas * input.options.gate_sigmas;
+    forward.log_likelihood -= 0.5 * (z + std::log(innovation.variance));
+    forward.taken.push_back(taken ? 1 : 0);
+    step.filtered = mean;
+    step.filtered_covariance = covariance;
+    forward.steps.push_back(std::move(step));
+  }
+  return forward;
+}
+
+Smoothed smooth_backward(const std::vector<Step>& steps) {
+  const std::size_t count = steps.size();
+  Smoothed smoothed;
+  smoothed.mean.resize(count);
+  smoothed.covariance.resize(count);
+  smoothed.mean.back() = steps.back().filtered;
+  smoothed.covariance.back() = steps.back().filtered_covariance;
+  for (std::size_t i = count - 1; i-- > 0;) {
+    const Step& now = steps[i];
+    const Step& next = steps[i + 1];
+    const Eigen::MatrixXd gain = next.predicted_covariance.ldlt()
+                                     .solve(next.transition * now.filtered_covariance)
+                                     .transpose();
+    smoothed.mean[i] = now.filtered + gain * (smoothed.mean[i + 1] - next.predicted);
+    smoothed.covariance[i] =
+        now.filtered_covariance +
+        gain * (smoothed.covariance[i + 1] - next.predicted_covariance) * gain.transpose();
+    smoothed.covariance[i] =
+        0.5 * (smoothed.covariance[i] + smoothed.covariance[i].transpose()).eval();
+  }
+  return smoothed;
+}
+
+std::vector<double> residuals_of(const Pass& pass, const Slots& slots, const Smoothed& smoothed) {
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
+    const PassRead& read = pass.reads[i];
+    const double predicted = predicted_phase(read, smoothed.mean[i].head<3>());
+    residuals.push_back(
+        wrap_to_pi(read.phase_rad - predicted - smoothed.mean[i](slots.of_read[i])));
+  }
+  return residuals;
+}
+
+/// Of the residuals of `series` from `begin` to before `end`.
+double mean_residual(const std::vector<double>& residuals, const std::vector<std::size_t>& series,
+                     std::size_t begin, std::size_t end) {
+  CircularMean mean;
+  for (std::size_t i = begin; i < end; ++i) mean.add(residuals[series[i]]);
+  return mean.value();
+}
+
+/// Where residuals of one slot jump most, beyond what noise does, its offset begins anew. Whether
+/// there was such a place.
+bool split_at_jumps(const Pass& pass, const std::vector<double>& residuals, double noise_rad,
+                    Slots& slots) {
+  std::map<Eigen::Index, std::vector<std::size_t>> series;
+  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
+    if (!pass.reads[i].offset_known) series[slots.of_read[i]].push_back(i);
+  }
+  const double least =
+      std::max(kLeastJump, 6.0 * noise_rad * std::sqrt(2.0 / static_cast<double>(kJumpSpan)));
+  bool split = false;
+  for (const auto& [slot, of_slot] : series) {
+    double largest = least;
+    std::size_t where = 0;
+    for (std::size_t i = kJumpSpan; i + kJumpSpan <= of_slot.size(); ++i) {
+      const double jump = std::abs(wrap_to_pi(mean_residual(residuals, of_slot, i, i + kJumpSpan) -
+                                              mean_residual(residuals, of_slot, i - kJumpSpan, i)));
+      if (jump <= largest || slots.fresh[of_slot[i]] != 0) continue;
+      largest = jump;
+      where = i;
+    }
+    if (where == 0) continue;
+    slots.fresh[of_slot[where]] = 1;
+    split = true;
+  }
+  return split;
+}
+
+std::size_t count_fresh(const Slots& slots) {
+  return static_cast<std::size_t>(std::count(slots.fresh.begin(), slots.fresh.end(), 1));
+}
+
+Track track_of(const Pass& pass, const Forward& forward, const Smoothed& smoothed,
+               const std::vector<double>& residuals) {
+  Track track;
+  track.log_likelihood = forward.log_likelihood;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < pass.reads.size(); ++i) {
+    track.coherence += std::cos(residuals[i]) / static_cast<double>(pass.reads.size());
+    squares += residuals[i] * residuals[i];
+    if (forward.taken[i] == 0) ++track.left_out;
+    if (i + 1 < pass.reads.size() && pass.reads[i + 1].stamp == pass.reads[i].stamp) continue;
+    TrackPoint point;
+    point.stamp = pass.reads[i].stamp;
+    point.p_WT = smoothed.mean[i].head<3>();
+    point.v_WT = smoothed.mean[i].segment<3>(3);
+    point.covariance = smoothed.covariance[i].topLeftCorner<6, 6>();
+    track.points.push_back(point);
+  }
+  track.rms_rad = std::sqrt(squares / static_cast<double>(pass.reads.size()));
+  track.expected_error_m = expected_error(pass, track);
+  return track;
+}
+
+}  // namespace
+
+Matrix6d process_noise(const TrackingOptions& options, double time_s) {
+  const double q = options.acceleration_noise * options.acceleration_noise;
+  Matrix6d noise = Matrix6d::Zero();
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    noise(i, i) = q * time_s * time_s * time_s / 3.0;
+    noise(i, i + 3) = noise(i + 3, i) = q * time_s * time_s / 2.0;
+    noise(i + 3, i + 3) = q * time_s;
+  }
+  return noise;
+}
+
+SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
+                         const LineHypothesis& hypothesis, double wider) {
+  const MotionPrior prior = motion_prior(pass, options);
+  const Matrix6d known = prior.rows.transpose() * prior.rows;
+  const Vector6d known_right = prior.rows.transpose() * prior.values;
+  const Matrix6d fitted = hypothesis.fit.covariance.ldlt().solve(Matrix6d(Matrix6d::Identity()));
+  Vector6d motion;
+  motion << hypothesis.fit.motion.p_WT, hypothesis.fit.motion.v_WT;
+  const auto information = (known + (fitted - known) / (wider * wider)).eval().ldlt();
+  const Matrix6d covariance = information.solve(Matrix6d(Matrix6d::Identity()));
+  const Vector6d mean =
+      information.solve(Vector6d(known_right + (fitted * motion - known_right) / (wider * wider)));
+  const double time = pass.reads.front().t_s;
+  Matrix6d back = Matrix6d::Identity();
+  back.topRightCorner<3, 3>() = time * Eigen::Matrix3d::Identity();
+  SmootherStart start;
+  start.mean = back * mean;
+  start.guess = back * motion;
+  start.covariance =
+      back * covariance * back.transpose() + process_noise(options, duration_of(pass));
+  start.noise_rad = hypothesis.fit.noise_rad;
+  return start;
+}
+
+double expected_error(const Pass& pass, const Track& track) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double error = 0.0;
+  std::size_t read = 0;
+  for (const TrackPoint& point : track.points) {
+    while (read < pass.reads.size() && pass.reads[read].stamp <= point.stamp) {
+      const double r = (pass.reads[read].p_WA - point.p_WT).norm();
+      if (r < nearest) {
+        nearest = r;
+        error = std::sqrt(std::max(0.0, point.covariance.topLeftCorner<2, 2>().trace()));
+      }
+      ++read;
+    }
+  }
+  return error;
+}
+
+Track smooth(const Pass& pass, const TrackingOptions& options, Linearization linearization,
+             const SmootherStart& start, bool keep_noise) {
+  const Input input{pass, options, linearization, start};
+  Slots slots = slots_of(pass);
+  double noise = start.noise_rad;
+  Forward forward;
+  Smoothed smoothed;
+  std::vector<double> residuals;
+  int splits = 0;
+  for (int iteration = 0; iteration < kPassesBefore + kPasses + splits; ++iteration) {
+    forward = filter(input, slots, noise, smoothed);
+    smoothed = smooth_backward(forward.steps);
+    residuals = residuals_of(pass, slots, smoothed);
+    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kLeastNoise);
+    if (iteration >= kPassesBefore && splits < kMostJumps &&
+        split_at_jumps(pass, residuals, noise, slots)) {
+      ++splits;
+      smoothed = {};  // Its offsets know nothing of the jump.
+    }
+  }
+  return track_of(pass, forward, smoothed, residuals);
+}
+
+}  // namespace tagfield
