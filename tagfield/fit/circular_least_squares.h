@@ -4,6 +4,7 @@
 /// log-likelihood but for its concentration.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
@@ -87,7 +88,7 @@ CircularFit<N> fit_angles(const Eigen::Matrix<double, N, 1>& start, const Levenb
   using Next = std::optional<CircularFit<N>>;
   return descend(at(start), how, [&](const CircularFit<N>& here, double damping) -> Next {
     const Eigen::Matrix<double, N, 1> next =
-        here.unknowns + damped_step(here.normal.matrix, here.normal.right, damping);
+        here.unknowns + damped(here.normal.matrix, damping).ldlt().solve(here.normal.right);
     return allowed(next) ? Next(at(next)) : std::nullopt;
   });
 }

@@ -3,7 +3,6 @@
 /// where a step leads uphill. What the steps are and what they cost is up to the user.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
@@ -48,24 +47,23 @@ Point descend(Point here, const LevenbergMarquardt& how, Step&& step) {
   return here;
 }
 
-/// Where the normal matrix leads with its diagonal multiplied by 1 + λ, as Marquardt does, and
-/// `ridge` added, which keeps a singular matrix (nothing to learn) solvable.
+/// The normal matrix with its diagonal multiplied by 1 + λ, as Marquardt does, and `ridge` added,
+/// which keeps a singular matrix (nothing to learn) solvable.
 template <int N>
-Eigen::Matrix<double, N, 1> damped_step(Eigen::Matrix<double, N, N> normal,
-                                        const Eigen::Matrix<double, N, 1>& gradient, double damping,
-                                        double ridge = 0.0) {
-  normal.diagonal().array() += damping * normal.diagonal().array() + ridge;
-  return normal.ldlt().solve(gradient);
+Eigen::Matrix<double, N, N> damped(Eigen::Matrix<double, N, N> normal, double damping,
+                                   double ridge = 0.0) {
+  normal.diagonal() *= 1.0 + damping;
+  normal.diagonal().array() += ridge;
+  return normal;
 }
 
 /// Likewise with λ times the matrix' trace added, as Levenberg does with all unknowns alike: for
 /// unknowns of one unit.
 template <int N>
-Eigen::Matrix<double, N, 1> evenly_damped_step(Eigen::Matrix<double, N, N> normal,
-                                               const Eigen::Matrix<double, N, 1>& gradient,
-                                               double damping, double ridge = 0.0) {
+Eigen::Matrix<double, N, N> evenly_damped(Eigen::Matrix<double, N, N> normal, double damping,
+                                          double ridge = 0.0) {
   normal.diagonal().array() += damping * normal.trace() + ridge;
-  return normal.ldlt().solve(gradient);
+  return normal;
 }
 
 /// Whether a step is worth taking: finite, and not shorter than `least`.

@@ -1,5 +1,6 @@
 #include "tagfield/localization/tag_fit.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "tagfield/base/units.h"
@@ -11,22 +12,26 @@ namespace {
 
 using Span = TagPhases::Span;
 
+/// Value less range of one read.
+double error_of(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
+                Eigen::Index i) {
+  return phases.value[i] - range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
+}
+
 double span_offset(const TagPhases& phases, const HeightModel& height, const PlaceVector& unknowns,
                    const Span& span) {
   if (span.offset_known) return 0.0;
-  double sum = 0.0;
-  CircularMean mean;
-  for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
-    const double r = range_to(height, unknowns, phases.x[i], phases.y[i], phases.z[i]).r;
-    const double error = phases.value[i] - r;
-    if (phases.unwrapped) {
-      sum += error;
-    } else {
-      mean.add(error * phases.wavenumber[i]);
-    }
+  const Eigen::Index end = span.begin + span.count;
+  if (phases.unwrapped) {
+    double sum = 0.0;
+    for (Eigen::Index i = span.begin; i < end; ++i) sum += error_of(phases, height, unknowns, i);
+    return sum / static_cast<double>(span.count);
   }
-  return phases.unwrapped ? sum / static_cast<double>(span.count)
-                          : mean.value() / phases.wavenumber[span.begin];
+  CircularMean mean;
+  for (Eigen::Index i = span.begin; i < end; ++i) {
+    mean.add(error_of(phases, height, unknowns, i) * phases.wavenumber[i]);
+  }
+  return mean.value() / phases.wavenumber[span.begin];
 }
 
 /// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
@@ -135,7 +140,8 @@ TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVe
   point.fit.offsets = offsets_at(phases, height, start);
   linearize(phases, height, point);
   point = descend(point, kHow, [&](const Point& here, double damping) -> std::optional<Point> {
-    const PlaceVector move = damped_step(here.step.normal, here.step.gradient, damping, kRidge);
+    const PlaceVector move =
+        damped(here.step.normal, damping, kRidge).ldlt().solve(here.step.gradient);
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;
     Point there;
     there.fit = moved(here.fit, here.step, move);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -321,7 +322,7 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
                                     .raise = 8.0,
                                     .least_raised = 1e-3};
   const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
-    PlaceVector move = damped_step(here.information, here.gradient, damping, kRidge);
+    PlaceVector move = damped(here.information, damping, kRidge).ldlt().solve(here.gradient);
     if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;
     if (move.head<2>().norm() > kLongestStep) move *= kLongestStep / move.head<2>().norm();
     return summit_at(phases, parts, height, here.place + move);

@@ -1,5 +1,6 @@
 #include "tagfield/localization/phase_curves/plane_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -119,7 +120,8 @@ Eigen::Vector2d refine(const TagPhases& phases, double height, const Eigen::Vect
   constexpr LevenbergMarquardt kHow{
       .most_steps = 40, .damping = 1e-4, .least_damping = 1e-12, .raise = 8.0};
   const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
-    const Eigen::Vector2d move = evenly_damped_step(here.normal, here.gradient, damping, kRidge);
+    const Eigen::Vector2d move =
+        evenly_damped(here.normal, damping, kRidge).ldlt().solve(here.gradient);
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;
     return point_at(phases, height, here.p + move);
   };

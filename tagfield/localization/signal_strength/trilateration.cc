@@ -160,7 +160,7 @@ Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
   constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-3, .raise = 8.0};
   const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
     const Step at = step_at(bins, law, here.p_WT, here.residuals);
-    Eigen::Vector2d move = evenly_damped_step(at.normal, at.gradient, damping, kRidge);
+    Eigen::Vector2d move = evenly_damped(at.normal, damping, kRidge).inverse() * at.gradient;
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;
     if (move.norm() > kLongestStep) move.normalize();
     return point_at(bins, law, here.p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0));
