@@ -58,11 +58,11 @@ void count_links(benchmark::State& state, std::size_t links) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(links));
 }
 
-void paper(benchmark::State& state) {
+void paper_model(benchmark::State& state) {
   const TagPopulation tags = tags_around(state.range(0), Eigen::Vector3d::Zero());
   AntennaParameters parameters;
   parameters.name = "a";
-  parameters.range_m = 50.0;
+  paper(parameters).range_m = 50.0;
   std::vector<TagReply> replies;
   std::int64_t update = 0;
   for (auto _ : state) {
@@ -162,7 +162,7 @@ void gen2(benchmark::State& state) {
   state.counters["reads_per_s"] = static_cast<double>(reads) / seconds;
 }
 
-BENCHMARK(paper)->Arg(1000)->Arg(100000);
+BENCHMARK(paper_model)->Arg(1000)->Arg(100000);
 BENCHMARK_CAPTURE(link_budget, all_effects_but_occlusion, in_free_space());
 BENCHMARK_CAPTURE(link_budget, no_effect, without_any_effect());
 BENCHMARK_CAPTURE(link_budget, all_effects, strong_model());

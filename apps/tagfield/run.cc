@@ -117,9 +117,9 @@ void print_result(const Summary& summary, const std::string& out, bool page) {
 /// What of another run in the same folder does not belong to this one.
 const std::vector<std::filesystem::path>& stale_files() {
   static const std::vector<std::filesystem::path> all = {
-      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json",
-      "map.pgm",         "map.yaml",           "mapping_path.csv",       "truth/mapping_path.csv",
-      "report.html",     "figures",            "INCOMPLETE"};
+      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json", "map.pgm",
+      "map.yaml",        "mapping_path.csv",   "truth/mapping_path.csv", "report.html",   "figures",
+      "INCOMPLETE"};
   return all;
 }
 
@@ -160,7 +160,8 @@ int run(const RunArguments& arguments) {
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::vector<SeedRun> runs = run_with_progress(arguments, scenario, ways, folder, diagnostics);
+  const std::vector<SeedRun> runs =
+      run_with_progress(arguments, scenario, ways, folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   if (arguments.record_only) return finish_recording(runs.front(), diagnostics, out, folder);
 
@@ -205,9 +206,10 @@ void add_run_command(CLI::App& app, Action& chosen) {
                  "Write reads, poses and the truth as they come, and locate nothing: memory does "
                  "not grow with the run")
       ->excludes("--seeds");
-  command->add_flag("--breakdown", arguments->breakdown,
-                    "Run again with each effect of the physical models alone and with all but it, "
-                    "and say what each costs")
+  command
+      ->add_flag("--breakdown", arguments->breakdown,
+                 "Run again with each effect of the physical models alone and with all but it, "
+                 "and say what each costs")
       ->excludes("--record-only");
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"

@@ -15,10 +15,10 @@
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/truth_csv.h"
+#include "tagfield/report/tracks_csv.h"
 #include "tagfield/report/tracks_figure.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/scenario_yaml.h"
-#include "tagfield/report/tracks_csv.h"
 
 namespace tagfield {
 namespace {

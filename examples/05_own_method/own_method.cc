@@ -1,8 +1,7 @@
 // A localization method of one's own: a tag is where its reads are strongest. It is compared with
 // the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
-#include <cstdio>
-
 #include <cmath>
+#include <cstdio>
 
 #include "tagfield/experiment/bench/bench_text.h"
 #include "tagfield/experiment/bench/run_bench.h"

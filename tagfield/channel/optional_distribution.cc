@@ -8,8 +8,8 @@
 #include <random>
 
 #include "tagfield/base/error.h"
-#include "tagfield/base/range_check.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
 
 namespace tagfield {

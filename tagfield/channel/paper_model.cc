@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tagfield/base/range_check.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {

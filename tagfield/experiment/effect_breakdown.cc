@@ -73,11 +73,11 @@ Scenario with_effects(const Scenario& scenario, const RadioEffects& effects) {
 std::vector<EffectSwitch> effects_in(const Scenario& scenario) {
   std::vector<EffectSwitch> present;
   for (const EffectSwitch& effect : kEffectSwitches) {
-    const bool any = std::any_of(
-        scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& antenna) {
-          const RadioModel* const model = physical(antenna.parameters);
-          return model != nullptr && acts(*model, effect);
-        });
+    const bool any = std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
+                                 [&](const AntennaSpec& antenna) {
+                                   const RadioModel* const model = physical(antenna.parameters);
+                                   return model != nullptr && acts(*model, effect);
+                                 });
     if (any) present.push_back(effect);
   }
   return present;

@@ -18,10 +18,10 @@ namespace tagfield {
 std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const Truth& truth,
                                        const std::vector<std::string>& order);
 
-/// An outcome for each estimate: located, ambiguous or not located as the estimate says; moved where
-/// the truth has the tag in places over 5 mm apart, so that it has no one true place; of others the
-/// last counts, as physics lets them settle. `references` are those whose places were told. `seed`
-/// is the run's.
+/// An outcome for each estimate: located, ambiguous or not located as the estimate says; moved
+/// where the truth has the tag in places over 5 mm apart, so that it has no one true place; of
+/// others the last counts, as physics lets them settle. `references` are those whose places were
+/// told. `seed` is the run's.
 std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
                                const std::vector<TagRead>& reads, const Truth& truth,
                                const std::map<std::string, Eigen::Vector3d>& references,

@@ -58,7 +58,7 @@ struct AirAntenna {
   std::optional<Time> updated;  ///< Last,
   RigidTransform X_WA;          ///< when it was here.
   std::vector<Pending> pending;
-  bool is_over = false;  ///< It never updates again.
+  bool is_over = false;                    ///< It never updates again.
   std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
   std::shared_ptr<const ImageSet> receiver_images;
 

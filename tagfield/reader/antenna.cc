@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "tagfield/base/range_check.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 namespace {

@@ -190,9 +190,9 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
-/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that is
-/// null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one line,
-/// on text that is not such a summary.
+/// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that
+/// is null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one
+/// line, on text that is not such a summary.
 Summary summary_from_json(const std::string& text, const std::string& file);
 
 }  // namespace tagfield

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/localization/locate.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/world/scene.h"
 

@@ -13,9 +13,9 @@
 namespace tagfield {
 
 /// What an antenna's `model` (paper where it is not given) and its settings describe; null for the
-/// paper's model, beside which a setting is an error. `frequency` is the carrier and `phase_offset` φ0 where
-/// no setting says else. Later elements go before earlier ones. Throws Error that names the element
-/// as it stands in SDF, with its place where that is known.
+/// paper's model, beside which a setting is an error. `frequency` is the carrier and `phase_offset`
+/// φ0 where no setting says else. Later elements go before earlier ones. Throws Error that names
+/// the element as it stands in SDF, with its place where that is known.
 std::shared_ptr<const RadioModel> sensor_radio(const std::vector<RawParameter>& parameters,
                                                const Location& location, Diagnostics& diagnostics);
 

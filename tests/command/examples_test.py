@@ -199,7 +199,7 @@ def the_installed_package(context):
                   f"{name} names the source or the build tree")
 
 
-OTHER_PACKAGES = ("Boost", "CLI11", "PkgConfig", "assimp", "embree", "mrpt-slam", "nlohmann_json",
+OTHER_PACKAGES = ("Boost", "CLI11", "PkgConfig", "assimp", "embree", "nlohmann_json",
                   "sdformat12", "yaml-cpp")
 
 

@@ -1,6 +1,5 @@
 #include "adapters/ros1/test/bag_writer.h"
 
-#include <limits>
 #include <nav_msgs/Odometry.h>
 #include <rfid_sensor/TagArray.h>
 #include <rosbag/bag.h>
@@ -10,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace tagfield {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "tagfield/field/antenna_facts.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/field/antenna_facts.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/scenario/scenario_yaml.h"
 

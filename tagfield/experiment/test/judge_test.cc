@@ -23,9 +23,9 @@ TEST(Judge, ATagThatSettledHasItsLastPlaceAndOneThatMovedHasNone) {
   Truth truth;
   truth.tag_positions = {seen(0, "settled", 1.0), seen(1, "settled", 1.004), seen(0, "moved", 1.0),
                          seen(1, "moved", 1.006)};
-  const auto outcomes =
-      judged({located("settled", {1, 0, 0}), located("moved", {1, 0, 0}), located("odd", {1, 0, 0})},
-             {}, truth, {}, 7);
+  const auto outcomes = judged(
+      {located("settled", {1, 0, 0}), located("moved", {1, 0, 0}), located("odd", {1, 0, 0})}, {},
+      truth, {}, 7);
   ASSERT_EQ(outcomes.size(), 3U);
   EXPECT_EQ(outcomes[0].seed, 7U);
   EXPECT_FALSE(outcomes[0].moved);

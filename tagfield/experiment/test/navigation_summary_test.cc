@@ -70,7 +70,7 @@ TEST(NavigationSummary, SumsFindingsUpBySort) {
 /// Random starts and goals: each seed has its own, and threads change nothing.
 TEST(RunSeeds, OfRobotsThatDriveByThemselves) {
   Scenario scenario = small_drive();
-  scenario.navigation.start = StartBelief::kRandom;
+  own_navigation(scenario).start = StartBelief::kRandom;
   scenario.robots[0].waypoints.clear();
   scenario.robots[0].random_goals = 1;
   NavigationWorld known = world();

@@ -125,7 +125,8 @@ TEST(RfidField, LeavesOutWhatIsNowhere) {
   step.moved = {{0, at(std::nan(""), 0.0, 0.0)}};
   step.due = {antenna_at({std::nan(""), 0.0, 0.0}, "lost"), antenna_at({0.0, 0.0, 0.0})};
   field.step(step);
-  EXPECT_EQ(log.events, (std::vector<std::string>{"added lost", "added gate", "came A", "updated gate"}));
+  EXPECT_EQ(log.events,
+            (std::vector<std::string>{"added lost", "added gate", "came A", "updated gate"}));
   EXPECT_EQ(log.reads.at("gate").size(), 1U);
 }
 

@@ -34,7 +34,8 @@ std::vector<double> phase_residuals(const AntennaParameters& antenna, const std:
                                     double distance_m, std::uint64_t seed = 1,
                                     std::int64_t first = 0) {
   std::vector<double> residuals;
-  const double expected = 4.0 * kPi * distance_m * paper(antenna).model.frequency_hz / kSpeedOfLight;
+  const double expected =
+      4.0 * kPi * distance_m * paper(antenna).model.frequency_hz / kSpeedOfLight;
   for (std::int64_t i = first; i < first + kUpdates; ++i) {
     const TagRead read = read_tag(antenna, tag, {distance_m}, update_stamp(antenna, i), seed);
     residuals.push_back(std::remainder(read.phase_rad - expected, kTwoPi));
@@ -246,8 +247,10 @@ TEST(CheckAntenna, NamesTheParameterThatIsBad) {
   for (const double bad : {kNan, kInfinite, -kInfinite, -1.0}) {
     EXPECT_TRUE(contains(complaint([&](auto& a) { a.rate_hz = bad; }), "rate_hz must"));
     EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).range_m = bad; }), "range_m must"));
-    EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).range_sigma = bad; }), "range_sigma must"));
-    EXPECT_TRUE(contains(complaint([&](auto& a) { paper(a).model.rssi_noise = bad; }), "rssi_noise must"));
+    EXPECT_TRUE(
+        contains(complaint([&](auto& a) { paper(a).range_sigma = bad; }), "range_sigma must"));
+    EXPECT_TRUE(
+        contains(complaint([&](auto& a) { paper(a).model.rssi_noise = bad; }), "rssi_noise must"));
   }
   EXPECT_TRUE(contains(complaint([](auto& a) { a.rate_hz = 0.0; }), "rate_hz must"));
   EXPECT_TRUE(contains(complaint([](auto& a) { a.rate_hz = 1.1e6; }), "rate_hz must"));

@@ -11,10 +11,13 @@ constexpr NumberRange kPositive = NumberRange::kPositive;
 constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
 
 /// Keys of the paper's model that no physical one has.
-constexpr std::array<const char*, 7> kPaperKeys = {
-    "range_m",    "range_sigma",           "phase_noise_rad",
-    "rssi_noise", "communication_gain",    "optional_distribution",
-    "optional_distribution_params"};
+constexpr std::array<const char*, 7> kPaperKeys = {"range_m",
+                                                   "range_sigma",
+                                                   "phase_noise_rad",
+                                                   "rssi_noise",
+                                                   "communication_gain",
+                                                   "optional_distribution",
+                                                   "optional_distribution_params"};
 
 constexpr const char* kPhysicalModels = "model: link_budget or model: multipath";
 
@@ -88,8 +91,8 @@ AntennaModel antenna_model_of(YamlMap& antenna, const RadioDefaults& defaults,
     return radio_model_of(antenna, model, defaults, diagnostics);
   }
   if (const auto key = physical_key_in(antenna, antenna_settings(), "profiles")) {
-    antenna.at(*key).fail(fmt::format(
-        "belongs to {}, but the antenna is simulated by model: paper", kPhysicalModels));
+    antenna.at(*key).fail(fmt::format("belongs to {}, but the antenna is simulated by model: paper",
+                                      kPhysicalModels));
   }
   return paper_antenna_of(antenna);
 }

@@ -7,6 +7,7 @@
 
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"
+#include "tagfield/scenario/navigation_spec.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -51,7 +52,7 @@ TEST(NavigationYaml, TakesAModeAlone) {
 }
 
 TEST(NavigationYaml, TakesEveryKey) {
-  const NavigationSpec spec =
+  const Scenario scenario =
       load("",
            "{mode: slam, start: random, map: m.yaml, keep_out: false,"
            " laser: {beams: 361, first_angle_deg: -45, last_angle_deg: 90, least_range_m: 0.1,"
@@ -60,8 +61,8 @@ TEST(NavigationYaml, TakesEveryKey) {
            " mapping: {resolution_m: 0.1, particles: 5, speed_m_s: 0.6, limit_s: 99},"
            " driving: {max_speed_m_s: 1.1, max_turn_rad_s: 1.2, acceleration_m_s2: 1.3,"
            " turn_acceleration_rad_s2: 1.4, radius_m: 0.5, margin_m: 0.06, clearance_m: 0.2,"
-           " goal_tolerance_m: 0.07, goal_tolerance_rad: 0.08, patience_s: 9}}")
-          .navigation;
+           " goal_tolerance_m: 0.07, goal_tolerance_rad: 0.08, patience_s: 9}}");
+  const NavigationSpec& spec = navigation_of(scenario);
   EXPECT_EQ(spec.start, StartBelief::kRandom);
   EXPECT_TRUE(holds(spec.map, "/m.yaml"));
   EXPECT_FALSE(spec.keep_out);

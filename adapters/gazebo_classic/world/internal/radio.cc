@@ -1,9 +1,9 @@
 #include "adapters/gazebo_classic/world/internal/radio.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "tagfield/field/antenna_facts.h"
-#include <cstring>
 
 namespace tagfield::gazebo_world_internal {
 namespace {
