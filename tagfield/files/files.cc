@@ -91,6 +91,7 @@ void GrowingFile::flush() {
       text_.clear();
       fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
     }
+    has_written_ = true;
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   text_.clear();
@@ -105,7 +106,9 @@ StagedFolder::StagedFolder(const fs::path& folder)
 }
 
 StagedFolder::~StagedFolder() {
-  if (!growing_.empty()) return;  // Interrupted; its name says that it is incomplete.
+  const bool has_grown = std::any_of(growing_.begin(), growing_.end(),
+                                     [](const auto& file) { return file->has_written(); });
+  if (has_grown) return;  // Interrupted; its name says that it is incomplete.
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
 }

@@ -34,17 +34,19 @@ class GrowingFile {
   }
   /// Writes all that was appended.
   void flush();
+  [[nodiscard]] bool has_written() const { return has_written_; }
 
  private:
   static constexpr std::size_t kWorthWriting = 1U << 16U;
   std::filesystem::path named_;
   int file_ = -1;
+  bool has_written_ = false;
   std::string text_;
 };
 
 /// Several files that appear in a folder together. They gather in a folder `incomplete-PID` inside
-/// it and are moved to their places by commit(). Without that they vanish, but for files that grew,
-/// which hold what was told until then.
+/// it and are moved to their places by commit(). Without that they vanish, unless a file has grown
+/// so much that it was written to: then what was told until then stays there.
 class StagedFolder {
  public:
   /// Makes `folder` and its parents if need be. Throws Error if it can't be made or written to.

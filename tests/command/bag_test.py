@@ -191,7 +191,7 @@ def bad_bags_get_one_line(context):
     write_bag(context.folder / "nothing.bag", [])
     nan = types["tagfield_msgs/TagReads"](bags.Header(0, bags.genpy.Time(1, 0), "a"), "a", [
         types["tagfield_msgs/TagRead"](bags.Header(0, bags.genpy.Time(1, 0), "a"), "t", "", "a",
-                                       865.7e6, float("nan"), -50.0)])
+                                       865.7e6, float("nan"), -50.0, 0.0)])
     write_bag(context.folder / "nan.bag", [("/rfid/reads", bags.genpy.Time(1, 0), nan)])
     poseless = RunBag(context.source, folder).messages(truth=False, belief=False)
     write_bag(context.folder / "poseless.bag", poseless)

@@ -221,7 +221,7 @@ def a_run_that_only_records_writes_the_same_tables(context):
                               "--record-only")
     check_in("folder: tables", result.out, "what is printed")
     tables = files_in(context.folder / "tables")
-    check_equal(sorted(tables), ["antenna_poses.csv", "reads.csv", "truth/antenna_poses.csv",
+    check_equal(sorted(tables), ["antenna_poses.csv", "reads.csv", "truth/", "truth/antenna_poses.csv",
                                  "truth/distances.csv", "truth/robot_poses.csv", "truth/tags.csv"],
                 "files")
     whole = files_in(context.folder / "whole")

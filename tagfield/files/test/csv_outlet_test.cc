@@ -110,6 +110,15 @@ TEST(CsvOutlet, RefusesDopplerThatComesTooLateForItsColumn) {
                        "'late' tells Doppler"));
 }
 
+TEST(CsvOutlet, LeavesNothingWhereARunDidNotBegin) {
+  const TemporaryFolder run;
+  {
+    StagedFolder folder(run.path());
+    CsvOutlet outlet(folder);
+  }
+  EXPECT_TRUE(run.names().empty());
+}
+
 /// A program that is killed while it writes.
 void write_and_die(const std::filesystem::path& path) {
   StagedFolder folder(path);

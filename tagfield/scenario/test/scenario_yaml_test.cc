@@ -157,7 +157,7 @@ TEST(LoadScenario, RefusesPhysicalKeysBesideThePapersModel) {
   EXPECT_EQ(complaint("frequency_hz: 915e6", "profiles: [reader.yaml]"),
             "11: antennas[0].profiles" + belongs + "the antenna is simulated by model: paper");
   EXPECT_EQ(complaint("{id: t1,", "{id: t1, sensitivity_dbm: -20,"),
-            "14: tags[0].sensitivity_dbm" + belongs + "all antennas are simulated by model: paper");
+            "15: tags[0].sensitivity_dbm" + belongs + "all antennas are simulated by model: paper");
   EXPECT_EQ(complaint("seed: 7", "without: [noise]"),
             "2: without" + belongs + "all antennas are simulated by model: paper");
 }
