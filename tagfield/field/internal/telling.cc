@@ -1,7 +1,6 @@
 #include "tagfield/field/internal/telling.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace tagfield {
@@ -76,12 +75,14 @@ void Telling::tell(Time until) {
   // Stable: what belongs to one stamp is told in the order in which it was added.
   if (!is_sorted_) std::stable_sort(events_.begin(), events_.end(), earlier);
   is_sorted_ = true;
-  const auto end =
-      std::upper_bound(events_.begin(), events_.end(), until,
-                       [](Time stamp, const Event& event) { return stamp < event.stamp; });
+  std::vector<Event> due;
+  std::vector<Event> kept;
+  for (Event& event : events_) {
+    const bool is_kept = std::holds_alternative<Read>(event.what) && event.stamp > until;
+    (is_kept ? kept : due).push_back(std::move(event));
+  }
   // Taken out before they are told: a listener that throws must not be told twice.
-  std::vector<Event> due(std::make_move_iterator(events_.begin()), std::make_move_iterator(end));
-  events_.erase(events_.begin(), end);
+  events_ = std::move(kept);
   for (const Event& event : due) {
     std::visit([&](const auto& what) { tell(event.stamp, what); }, event.what);
   }

@@ -16,7 +16,8 @@
 namespace tagfield {
 
 /// Slots of an inventory go on between updates, so an antenna's update yields reads from before
-/// other antennas' updates. They are kept here until nothing earlier can come.
+/// other antennas' updates. Reads are kept here until none earlier can come; all else is told at
+/// once.
 class Telling {
  public:
   explicit Telling(Outlets outlets) : outlets_(std::move(outlets)) {}
@@ -33,7 +34,7 @@ class Telling {
   void add_placed(Time stamp);
   void add_robot(const AntennaPose& robot);
 
-  /// Tells all up to `until`, which nothing earlier will be added to.
+  /// Tells all but the reads after `until`, up to which no read will be added any more.
   void tell(Time until);
 
  private:

@@ -57,18 +57,19 @@ std::shared_ptr<const AntennaInfo> antenna(const std::string& name) {
   return std::make_shared<const AntennaInfo>(info);
 }
 
-TEST(Telling, KeepsBackWhatIsLaterAndPutsItInOrder) {
+TEST(Telling, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
   Told told;
   told.telling.add(read_at(20, "late"), 1.0);
   told.telling.add(antenna("a"), at(30), {}, std::nullopt);
   told.telling.add(read_at(10, "early"), 2.0);
   told.telling.tell(at(15));
-  EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance early", "read early"}));
+  EXPECT_EQ(told.heard->words,
+            (std::vector<std::string>{"distance early", "read early", "truth a", "update a"}));
   told.telling.add(antenna("b"), at(30), {}, RigidTransform{});
   told.telling.tell(Time::max());
-  EXPECT_EQ(told.heard->words,
-            (std::vector<std::string>{"distance early", "read early", "distance late", "read late",
-                                      "truth a", "update a", "pose b", "truth b", "update b"}));
+  EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance early", "read early", "truth a",
+                                                         "update a", "distance late", "read late",
+                                                         "pose b", "truth b", "update b"}));
 }
 
 TEST(Telling, TellsNothingTwiceThoughAListenerFails) {
