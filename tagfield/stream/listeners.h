@@ -37,9 +37,7 @@ class ReadListener {
 
   /// One read. Over all antennas, stamps never fall until on_restart().
   virtual void on_read(const TagRead& read) = 0;
-  /// The antenna's update at `stamp`. What it has read up to then has been told, but for reads that
-  /// an earlier one may still come before: of a slot that is open, or of an antenna that lags
-  /// behind.
+  /// The antenna's update at `stamp`, after its reads but for those that earlier ones may precede.
   virtual void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) {}
   virtual void on_antenna_added(const AntennaInfo& /*antenna*/) {}
   virtual void on_antenna_removed(const std::string& /*name*/) {}
