@@ -97,13 +97,14 @@ Time FieldDriver::first_due(const Antenna& antenna, Time from) {
 
 void FieldDriver::start(const std::shared_ptr<const FieldAntenna>& antenna, Time from,
                         std::vector<Time> at) {
-  for (Antenna& entry : antennas_) {
-    if (entry.antenna->parameters.name != antenna->parameters.name) continue;
-    entry.antenna = antenna;
-    entry.at = std::move(at);
-    entry.due = first_due(entry, from);
-    entry.has_started = true;
-  }
+  const auto entry = std::find_if(antennas_.begin(), antennas_.end(), [&](const Antenna& known) {
+    return known.antenna->parameters.name == antenna->parameters.name;
+  });
+  if (entry == antennas_.end()) return;
+  entry->antenna = antenna;
+  entry->at = std::move(at);
+  entry->due = first_due(*entry, from);
+  entry->has_started = true;
 }
 
 void FieldDriver::go_on(Time from) {

@@ -180,6 +180,7 @@ Method automatic_method(const std::vector<Method>& methods) {
   }
   automatic.with = [chosen](const MethodSettings& settings) {
     std::vector<Method> set;
+    set.reserve(chosen.size());
     for (const Method& method : chosen) set.push_back(configured(method, settings));
     return among(set);
   };

@@ -65,7 +65,7 @@ class HitGrid {
  private:
   static constexpr int kPatchBits = 5;
   static constexpr int kPatchCells = 1 << kPatchBits;
-  using Patch = std::array<HitCell, kPatchCells * kPatchCells>;
+  using Patch = std::array<HitCell, std::size_t{kPatchCells} * kPatchCells>;
 
   Patch& patch_to_change(int patch_x, int patch_y);
   void make_room(int patch_x, int patch_y);

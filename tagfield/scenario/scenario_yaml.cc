@@ -154,6 +154,7 @@ TagSpec tag_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostics
 /// A method that there is.
 Method method_of(const YamlValue& value, const std::vector<Method>& methods) {
   std::vector<std::string> names;
+  names.reserve(methods.size());
   for (const Method& method : methods) names.push_back(method.name);
   return methods[static_cast<std::size_t>(choice(value, names))];
 }
