@@ -70,7 +70,7 @@ void write_text_file(const std::string& path, const std::string& text) {
 
 GrowingFile::GrowingFile(const fs::path& path, fs::path named)
     : named_(std::move(named)),
-      file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+      file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0) fail({named_.string(), 0}, "can't be written (no permission?)");
 }
 
@@ -79,13 +79,13 @@ GrowingFile::~GrowingFile() {
     flush();
   } catch (const Error&) {  // Told where it mattered: by sync() or commit().
   }
-  close(file_);
+  ::close(file_);
 }
 
 void GrowingFile::flush() {
   std::string_view rest = text_;
   while (!rest.empty()) {
-    const ssize_t written = write(file_, rest.data(), rest.size());
+    const ssize_t written = ::write(file_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       text_.clear();
