@@ -25,9 +25,10 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
                                const SamplesOfTag& samples, const SarOptions& options) {
   CoherentJudgement judgement;
   judgement.min_share = options.min_share;
+  const SearchOptions& search = options;
   return locate_by_waves(problem, tag, samples, judgement,
                          [&](const TagPhases& phases, const HeightModel& height) {
-                           return brightest_places(phases, height, options);
+                           return brightest_places(phases, height, search);
                          });
 }
 
