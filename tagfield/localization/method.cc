@@ -13,6 +13,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<Method>& methods) {
   std::vector<std::string> names;
+  names.reserve(methods.size());
   for (const Method& method : methods) names.push_back(method.name);
   return names;
 }
