@@ -75,12 +75,16 @@ std::string find_resource(const std::string& uri, const std::string& naming_file
   return "";
 }
 
-std::string not_found(const std::string& uri, const ResourcePaths& paths) {
+std::string looked_in(const ResourcePaths& paths) {
   std::string folders;
   for (const std::string& folder : paths.folders) {
     folders += (folders.empty() ? "" : ", ") + folder;
   }
-  return "can't find '" + uri + "' (looked in " + (folders.empty() ? "no folder" : folders) + ")";
+  return "looked in " + (folders.empty() ? "no folder" : folders);
+}
+
+std::string not_found(const std::string& uri, const ResourcePaths& paths) {
+  return "can't find '" + uri + "' (" + looked_in(paths) + ")";
 }
 
 }  // namespace tagfield

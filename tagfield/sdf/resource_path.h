@@ -26,7 +26,10 @@ ResourcePaths resource_paths(const std::string& world_path,
 std::string find_resource(const std::string& uri, const std::string& naming_file,
                           const ResourcePaths& paths);
 
-/// "can't find 'URI' (looked in A, B)", for an error message.
+/// "looked in A, B", for an error message.
+std::string looked_in(const ResourcePaths& paths);
+
+/// "can't find 'URI' (looked in A, B)".
 std::string not_found(const std::string& uri, const ResourcePaths& paths);
 
 }  // namespace tagfield

@@ -96,12 +96,14 @@ std::string reworded(const sdf::Error& error) {
 
 }  // namespace
 
-std::string plain_words(const sdf::Error& error) {
-  std::string message = error.Message();
-  std::replace(message.begin(), message.end(), '\n', ' ');
+std::string plain_words(std::string message) {
+  static const std::regex blanks(R"(\s+)");
+  message = std::regex_replace(message, blanks, " ");
   while (!message.empty() && (message.back() == ' ' || message.back() == '.')) message.pop_back();
   return message;
 }
+
+std::string plain_words(const sdf::Error& error) { return plain_words(error.Message()); }
 
 Location location_of_error(const Context& context, const sdf::Error& error) {
   return {shown(context, error.FilePath().value_or("")), error.LineNumber().value_or(0)};

@@ -11,6 +11,7 @@
 namespace tagfield::sdf_internal {
 
 /// sdformat's message on one line, without a full stop.
+std::string plain_words(std::string message);
 std::string plain_words(const sdf::Error& error);
 
 /// Where `error` says it is: at least the world file.

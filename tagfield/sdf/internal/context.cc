@@ -46,4 +46,11 @@ const XmlOutline& outline_of(Context& context, const std::string& path) {
   return entry->second;
 }
 
+void require_well_formed(Context& context, const std::string& path) {
+  const XmlOutline& outline = outline_of(context, path);
+  if (!outline.error.empty()) {
+    fail({shown(context, path), outline.error_line}, "malformed XML: " + outline.error);
+  }
+}
+
 }  // namespace tagfield::sdf_internal

@@ -46,4 +46,7 @@ std::string file_text(const std::string& path);
 /// outline_xml of a file, read once; empty if it can't be read.
 const XmlOutline& outline_of(Context& context, const std::string& path);
 
+/// Throws Error if a file is not there or its XML is malformed.
+void require_well_formed(Context& context, const std::string& path);
+
 }  // namespace tagfield::sdf_internal

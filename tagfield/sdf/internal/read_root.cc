@@ -1,24 +1,22 @@
 #include "tagfield/sdf/internal/read_root.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <mutex>
-#include <regex>
 #include <sdf/Console.hh>
+#include <sdf/Exception.hh>
 #include <sdf/ParserConfig.hh>
 #include <set>
 #include <streambuf>
 #include <vector>
 
 #include "tagfield/sdf/internal/complaints.h"
+#include "tagfield/sdf/internal/include_tree.h"
 
 namespace tagfield::sdf_internal {
 namespace {
 
-namespace fs = std::filesystem;
-
-sdf::ParserConfig parser_config(const Context& context, std::vector<std::string>& missing) {
+sdf::ParserConfig parser_config(const Context& context, const IncludeTree& tree) {
   sdf::ParserConfig config;
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
@@ -28,13 +26,30 @@ sdf::ParserConfig parser_config(const Context& context, std::vector<std::string>
     config.AddURIPath("model://", folder);
     config.AddURIPath("package://", folder);
   }
-  config.SetFindCallback([&context, &missing](const std::string& uri) {
-    std::string path = find_resource(uri, context.absolute_path, context.resources);
-    if (path.empty()) missing.push_back(uri);
-    return path;
+  config.SetFindCallback([&context, &tree](const std::string& uri) {
+    const auto known = tree.file_of.find(uri);
+    return known != tree.file_of.end()
+               ? known->second
+               : find_resource(uri, context.absolute_path, context.resources);
   });
   return config;
 }
+
+/// Makes `config` the process's own while it lives: what an included file includes, sdformat reads
+/// by that one, whatever it was given.
+class AsGlobalConfig {
+ public:
+  explicit AsGlobalConfig(const sdf::ParserConfig& config)
+      : before_(sdf::ParserConfig::GlobalConfig()) {
+    sdf::ParserConfig::GlobalConfig() = config;
+  }
+  ~AsGlobalConfig() { sdf::ParserConfig::GlobalConfig() = before_; }
+  AsGlobalConfig(const AsGlobalConfig&) = delete;
+  AsGlobalConfig& operator=(const AsGlobalConfig&) = delete;
+
+ private:
+  sdf::ParserConfig before_;
+};
 
 /// Takes std::cerr away while it lives.
 class Silence {
@@ -49,14 +64,20 @@ class Silence {
 };
 
 /// What sdformat can't read it hands to a parser of URDF, which prints to std::cerr whatever
-/// sdformat's own console is set to. Both are the process's, so only one load may silence them.
-sdf::Errors load_silently(sdf::Root& root, const Context& context,
-                          std::vector<std::string>& missing) {
+/// sdformat's own console is set to. All of these are the process's, so only one load may use them.
+sdf::Errors load_silently(sdf::Root& root, const Context& context, const IncludeTree& tree) {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   sdf::Console::Instance()->SetQuiet(true);
   const Silence silence;
-  return root.Load(context.absolute_path, parser_config(context, missing));
+  const sdf::ParserConfig config = parser_config(context, tree);
+  const AsGlobalConfig global(config);
+  try {
+    return root.Load(context.absolute_path, config);
+  } catch (const sdf::Exception& exception) {  // A failed assertion of sdformat's own.
+    fail({context.given_path, 0},
+         "sdformat gives up on it: " + plain_words(exception.GetErrorStr()));
+  }
 }
 
 void require_sdf(Context& context) {
@@ -72,60 +93,14 @@ void require_sdf(Context& context) {
   }
 }
 
-void require_well_formed(Context& context, const std::string& path) {
-  const XmlOutline& outline = outline_of(context, path);
-  if (!outline.error.empty()) {
-    fail({shown(context, path), outline.error_line}, "malformed XML: " + outline.error);
-  }
-}
-
-/// sdformat leaves out an include that it can't find, and complains with the URI in brackets.
-void require_found(const Context& context, const sdf::Errors& errors,
-                   const std::vector<std::string>& missing) {
-  if (missing.empty()) return;
-  const std::string& uri = missing.front();
-  const auto complaint = std::find_if(errors.begin(), errors.end(), [&uri](const auto& error) {
-    return error.LineNumber() && error.Message().find("[" + uri + "]") != std::string::npos;
-  });
-  fail(complaint != errors.end() ? location_of_error(context, *complaint)
-                                 : Location{context.given_path, 0},
-       not_found(uri, context.resources));
-}
-
-/// The files and folders that complaints name in brackets: "Unable to read file[crate/model.sdf]".
-std::vector<std::string> paths_in(const sdf::Errors& errors) {
-  static const std::regex bracketed(R"(\[([^\]]+)\])");
-  std::vector<std::string> paths;
-  for (const sdf::Error& error : errors) {
-    const std::string message = error.Message();
-    for (std::sregex_iterator at(message.begin(), message.end(), bracketed), end; at != end; ++at) {
-      if (fs::exists((*at)[1].str())) paths.push_back((*at)[1].str());
-    }
-  }
-  return paths;
-}
-
-/// The world file and each model file that sdformat stumbled over.
-void require_all_well_formed(Context& context, const sdf::Errors& errors) {
-  require_well_formed(context, context.absolute_path);
-  for (const std::string& path : paths_in(errors)) {
-    const fs::path folder = fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path();
-    for (const char* name : {"model.config", "manifest.xml"}) {
-      if (fs::exists(folder / name)) require_well_formed(context, (folder / name).string());
-    }
-    if (!fs::is_directory(path)) require_well_formed(context, path);
-  }
-}
-
 /// sdformat leaves out an include that it can't make out, and goes on.
-void require_all_included(Context& context, const sdf::Errors& errors) {
+void require_resolved(Context& context, const sdf::Errors& errors) {
   for (const sdf::Error& error : errors) {
     const sdf::ErrorCode code = error.Code();
     if (code == sdf::ErrorCode::URI_LOOKUP || code == sdf::ErrorCode::URI_INVALID ||
         code == sdf::ErrorCode::DIRECTORY_NONEXISTANT ||
         code == sdf::ErrorCode::MERGE_INCLUDE_UNSUPPORTED ||
         code == sdf::ErrorCode::NESTED_MODELS_UNSUPPORTED) {
-      require_all_well_formed(context, errors);
       fail(location_of_error(context, error), plain_words(error));
     }
   }
@@ -141,8 +116,7 @@ std::string what_failed(const sdf::Error& error) {
 }
 
 /// sdformat could not read the file at all: say where and why as well as it can be told.
-[[noreturn]] void fail_unread(Context& context, const sdf::Errors& errors) {
-  require_all_well_formed(context, errors);
+[[noreturn]] void fail_unread(const Context& context, const sdf::Errors& errors) {
   const auto first = std::find_if(errors.begin(), errors.end(),
                                   [](const sdf::Error& error) { return error.LineNumber(); });
   const Location location =
@@ -159,12 +133,12 @@ std::string name_of(const sdf::ElementPtr& element) {
 
 sdf::Root read_root(Context& context) {
   require_sdf(context);
-  std::vector<std::string> missing;  // URIs that named nothing.
+  const IncludeTree tree = include_tree(context);
   sdf::Root root;
-  const sdf::Errors errors = load_silently(root, context, missing);
-  require_found(context, errors, missing);
+  const sdf::Errors errors = load_silently(root, context, tree);
   if (!root.Element()) fail_unread(context, errors);
-  require_all_included(context, errors);
+  require_resolved(context, errors);
+  require_all_included(context, tree, root.Element());
   require_known_frames(context, root, errors);
   warn_of(context, errors);
   return root;

@@ -66,13 +66,69 @@ TEST_F(LoadWorldErrors, IncludedFolderWithoutAModel) {
   write("models/empty/readme", "");
   expect_error("<include>\n<uri>model://crate</uri></include>",
                "models/crate/model.config:2: malformed XML");
-  expect_error("<include>\n<uri>model://empty</uri></include>", "world.sdf:4: Unable to resolve");
+  expect_error("<include>\n<uri>model://empty</uri></include>", "world.sdf:4: no model file in '",
+               "models/empty' (expected model.config");
 }
 
 TEST_F(LoadWorldErrors, IncludeThatCantBeFound) {
   expect_error("<include>\n<uri>model://nosuch</uri></include>",
                "world.sdf:4: can't find 'model://nosuch' (looked in ");
   expect_error("<include>\n<uri>nosuch</uri></include>", "world.sdf:4: can't find 'nosuch'");
+}
+
+TEST_F(LoadWorldErrors, AllIncludesThatCantBeFoundAtOnce) {
+  write_model("shelf", "<link name='l'/>\n<include><uri>model://far</uri></include>");
+  expect_error(
+      "<include>\n<uri>model://near</uri></include><include><uri>model://near</uri>"
+      "</include><include><uri>model://shelf</uri></include>",
+      "world.sdf:4: can't find 'model://near', 'model://far' (",
+      "models/shelf/model.sdf:3) (looked in ");
+}
+
+TEST_F(LoadWorldErrors, IncludesThatNeverEnd) {
+  write_model("snake", "<link name='l'/>\n<include><uri>model://tail</uri></include>");
+  write_model("tail", "<link name='l'/>\n<include><uri>model://snake</uri></include>");
+  expect_error("<include><uri>model://snake</uri></include>", "",
+               "models/tail/model.sdf:3: 'model://snake' includes itself");
+  expect_error("<include><uri>world.sdf</uri></include>",
+               "world.sdf:3: 'world.sdf' includes itself");
+}
+
+TEST_F(LoadWorldErrors, IncludesBeyondAllMeasure) {
+  write_model("level0", "<link name='l'/>");
+  for (int level = 1; level < 12; ++level) {
+    const std::string below = "model://level" + std::to_string(level - 1) + "</uri></include>\n";
+    std::string includes;
+    for (int i = 0; i < 10; ++i) {
+      includes += "<include><name>m" + std::to_string(i) + "</name><uri>" + below;
+    }
+    write_model("level" + std::to_string(level), includes);
+  }
+  expect_error("<include><uri>model://level11</uri></include>", "",
+               "over 20000 included models: more than fit into memory");
+}
+
+TEST_F(LoadWorldErrors, WhatSdformatAbortsOver) {
+  const std::string saved =
+      "<model name='m'><link name='a::body'><collision name='c'><pose frame=''>0 0 0 0 0 0</pose>"
+      "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>";
+  const std::string error = error_of(saved, "1.6");
+  EXPECT_EQ(error.rfind("world.sdf: sdformat gives up on it: ", 0), 0U) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+TEST_F(LoadWorldErrors, IncludeWithoutAUri) {
+  expect_error("\n<include><name>x</name></include>", "world.sdf:4: <include> without <uri>");
+}
+
+TEST_F(LoadWorldErrors, RelativeUriOfTwoMeanings) {
+  for (const char* name : {"one", "two"}) {
+    write_model(name, "<link name='l'/>\n<include><uri>part.sdf</uri></include>");
+    write("models/" + std::string(name) + "/part.sdf",
+          "<sdf version='1.6'><model name='part'><link name='l'/></model></sdf>");
+  }
+  expect_error("<include><uri>model://one</uri></include><include><uri>model://two</uri></include>",
+               "", "models/two/model.sdf:3: 'part.sdf' names ");
 }
 
 TEST_F(LoadWorldErrors, PoseRelativeToAnUnknownFrame) {

@@ -99,6 +99,51 @@ TEST_F(LoadWorld, SearchPathsComeBeforeTheCurrentFolder) {
   EXPECT_EQ(scene.models, std::vector<std::string>{"from_library"});
 }
 
+constexpr const char* kBoxAndTag =
+    "<static>1</static><link name='l'><collision name='c'><geometry><box><size>1 1 1</size></box>"
+    "</geometry></collision><sensor name='t' type='rfidtag'/></link>";
+
+TEST_F(LoadWorld, IncludesWithinIncludedModels) {
+  write_model("crate", kBoxAndTag);
+  write_model("pallet", std::string(kBoxAndTag) +
+                            "<include><uri>model://crate</uri><pose>1 0 0 0 0 0</pose></include>");
+  write_model("rack",
+              "<include><uri>model://pallet</uri><pose>0 10 0 0 0 1.5707963267948966</pose>"
+              "</include><include><name>top</name><uri>model://pallet</uri></include>");
+  const Scene scene =
+      load("<include><uri>model://rack</uri><pose>100 0 0 0 0 0</pose></include>", "1.6");
+  std::map<std::string, Eigen::Vector3d> places;
+  for (const Collision& collision : scene.collisions) {
+    places[collision.name] = collision.X_WC.translation;
+  }
+  ASSERT_EQ(places.size(), 4U);
+  EXPECT_EQ(scene.tags.size(), 4U);
+  EXPECT_TRUE(places.at("rack::pallet::l::c").isApprox(Eigen::Vector3d(100, 10, 0)));
+  EXPECT_TRUE(places.at("rack::pallet::crate::l::c").isApprox(Eigen::Vector3d(100, 11, 0)));
+  EXPECT_TRUE(places.at("rack::top::l::c").isApprox(Eigen::Vector3d(100, 0, 0)));
+  EXPECT_TRUE(places.at("rack::top::crate::l::c").isApprox(Eigen::Vector3d(101, 0, 0)));
+}
+
+TEST_F(LoadWorld, RelativeIncludeIsBesideTheFileThatAsks) {
+  write_model("shelf", "<include><uri>part.sdf</uri></include>");
+  write("models/shelf/part.sdf",
+        "<sdf version='1.6'><model name='part'>" + std::string(kBoxAndTag) + "</model></sdf>");
+  EXPECT_EQ(load("<include><uri>\n model://shelf </uri></include>").collisions.size(), 1U);
+}
+
+TEST_F(LoadWorld, MergedIncludesAndThoseOfWhatIsMerged) {
+  write_model("crate", kBoxAndTag);
+  write_model("pallet", std::string(kBoxAndTag) + "<include><uri>model://crate</uri></include>");
+  const Scene scene = load(
+      "<model name='m'><include merge='true'><uri>model://pallet</uri></include></model>", "1.9");
+  EXPECT_EQ(scene.collisions.size(), 2U);
+}
+
+TEST_F(LoadWorld, IncludesOfLightsAreNoModels) {
+  write("lamp.sdf", "<sdf version='1.6'><light type='point' name='lamp'/></sdf>");
+  EXPECT_TRUE(load("<include><uri>lamp.sdf</uri></include>").models.empty());
+}
+
 TEST_F(LoadWorld, RelativeMeshOfAnIncludedModelIsBesideThatModel) {
   write("models/crate/model.config",
         "<model><name>crate</name><sdf version='1.6'>model.sdf</sdf></model>");

@@ -20,6 +20,14 @@ class WorldTest : public testing::Test {
     return folder_.with(name, text);
   }
 
+  /// models/NAME/ with a model of that name, whose `inside` starts on line 2 of model.sdf.
+  void write_model(const std::string& name, const std::string& inside) {
+    write("models/" + name + "/model.config",
+          "<model><name>" + name + "</name><sdf version='1.6'>model.sdf</sdf></model>");
+    write("models/" + name + "/model.sdf",
+          "<sdf version='1.6'><model name='" + name + "'>\n" + inside + "\n</model></sdf>\n");
+  }
+
   /// Loads a world whose first two lines are <sdf> and <world>, so that `inside` starts on line 3.
   Scene load(const std::string& inside, const std::string& version = "1.9") {
     return load_file(write("world.sdf", world(inside, version)));
