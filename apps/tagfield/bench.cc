@@ -14,7 +14,7 @@
 #include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
-#include "tagfield/files/files.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/localization/locate.h"
 
 namespace tagfield {

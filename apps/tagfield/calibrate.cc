@@ -10,6 +10,7 @@
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_places_csv.h"
 #include "tagfield/scenario/calibration_profile.h"
 
@@ -59,6 +60,7 @@ std::string table_of(const Calibration& calibration) {
 
 int calibrate_command(const CalibrateArguments& arguments) {
   Diagnostics diagnostics;
+  finish_commit(std::filesystem::path(arguments.reads).parent_path());
   const std::vector<TagRead> reads = read_reads_csv(arguments.reads);
   const std::vector<AntennaPose> poses = read_poses_csv(arguments.poses);
   const auto tags = read_tag_places_csv(arguments.tags);

@@ -7,7 +7,7 @@
 #include "apps/tagfield/coverage_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
-#include "tagfield/files/files.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/planning/moment.h"
 #include "tagfield/report/coverage_figure.h"
 #include "tagfield/report/coverage_page.h"

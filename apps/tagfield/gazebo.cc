@@ -42,10 +42,11 @@ void write_keep_out(const std::string& path, const Scenario& scenario, const Sce
   OccupancyGrid nothing = world.true_map;
   std::fill(nothing.cells.begin(), nothing.cells.end(), std::int8_t{-1});
   const fs::path image = fs::path(path).filename().replace_extension(".pgm");
-  StagedFolder folder(fs::absolute(path).parent_path());
-  folder.add(image, map_to_pgm(driving_map(nothing, world)));
-  folder.add(fs::path(path).filename(), map_to_yaml(nothing, image.string()));
-  folder.commit();
+  std::error_code ignored;  // What can't be made can't be written to either.
+  fs::create_directories(fs::path(path).parent_path(), ignored);
+  write_text_files(
+      {{(fs::path(path).parent_path() / image).string(), map_to_pgm(driving_map(nothing, world))},
+       {path, map_to_yaml(nothing, image.string())}});
 }
 
 int write_gazebo_world(const GazeboArguments& arguments) {

@@ -16,8 +16,10 @@
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/judge.h"
+#include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_places_csv.h"
 #include "tagfield/files/truth_csv.h"
@@ -169,16 +171,20 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
   stage_top_view(*loaded, folder);
 }
 
-/// What an earlier run may have left in the folder: its truth and world are not those of other
-/// reads.
-std::vector<fs::path> stale_files(const LocalizeArguments& arguments, const std::string& out) {
-  std::vector<fs::path> stale = {"report.html", "figures", "compared_poses.csv",
-                                 "corrected_poses.csv", "reference_tags.csv"};
+/// Whether the reads are those of the folder's own run, so that its truth and world are theirs.
+bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) {
   const fs::path of_reads = fs::weakly_canonical(arguments.recording).parent_path();
-  if (of_reads != fs::weakly_canonical(out) || is_bag(arguments.recording)) {
-    stale.insert(stale.end(), {"truth", "top_view.json", "tag_heights.csv"});
+  return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
+}
+
+/// What the run knew and no scenario tells anew.
+void keep_of_this_run(const std::string& out, const std::optional<ScenarioWithWorld>& loaded,
+                      StagedFolder& folder) {
+  if (loaded) return;
+  for (const char* name : {"top_view.json", "tag_heights.csv"}) {
+    const fs::path file = fs::path(out) / name;
+    if (fs::exists(file)) folder.add(name, read_text_file(file.string()));
   }
-  return stale;
 }
 
 std::string folder_of(const LocalizeArguments& arguments) {
@@ -244,8 +250,10 @@ int localize(const LocalizeArguments& arguments) {
   print_warnings(diagnostics);
   stage(recording, loaded, options, result, folder);
   folder.add("summary.json", to_json(summary));
-  folder.commit(stale_files(arguments, out));
-  write_report(out);
+  if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
+  stage_report(folder.staging().string(), folder);
+  folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
+                 "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
   fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),
              out);
   return kExitOk;

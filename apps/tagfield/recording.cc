@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "apps/tagfield/progress_bar.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/scenario/dataset_format.h"
 
 namespace tagfield {
@@ -129,6 +131,7 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments) {
     throw Error("localize: reads as CSV need --poses FILE, the poses of their antennas");
   }
   RecordingToLocalize recording;
+  finish_commit(std::filesystem::path(arguments.recording).parent_path());
   recording.reads = read_reads_csv(arguments.recording);
   recording.poses = {"given", read_poses_csv(arguments.poses)};
   recording.path_length_m = longest_path(recording.poses.poses);

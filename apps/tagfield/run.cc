@@ -13,8 +13,8 @@
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/csv_outlet.h"
-#include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_places_csv.h"
 #include "tagfield/map/map_file.h"
@@ -174,8 +174,8 @@ int run(const RunArguments& arguments) {
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
   if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
+  if (!arguments.no_page) stage_report(folder.staging().string(), folder);
   folder.commit(stale_files());
-  if (!arguments.no_page) write_report(out);
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
 }

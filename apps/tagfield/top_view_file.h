@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tagfield/files/files.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/map/top_view.h"
 #include "tagfield/scenario/scenario_yaml.h"
 

@@ -10,9 +10,9 @@
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/tracking_run.h"
-#include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/report/tracks_csv.h"
@@ -157,6 +157,7 @@ Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
   }
   std::vector<TrackingRun> runs(1);
   runs[0].seed = arguments.seed.value_or(1);
+  finish_commit(std::filesystem::path(arguments.input).parent_path());
   runs[0].reads = read_reads_csv(arguments.input);
   runs[0].believed_poses = read_poses_csv(arguments.poses);
   runs[0].truth = truth_beside(arguments.input);

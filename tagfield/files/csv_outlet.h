@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "tagfield/files/files.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/stream/recording.h"
 
 namespace tagfield {

@@ -2,162 +2,121 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
-#include <string_view>
+#include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/internal/file_steps.h"
+#include "tagfield/files/staged_folder.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-void write_through(const fs::path& path, const std::string& text, const fs::path& named) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) fail({named.string(), 0}, "can't be written (no permission, or the disk is full?)");
-}
-
-void rename_over(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) fail({to.string(), 0}, fmt::format("can't be replaced: {}", error.message()));
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    fail({folder.string(), 0},
-         fmt::format("can't be made a folder{}", error ? ": " + error.message() : ""));
+/// An open file, closed at the end.
+class Opened {
+ public:
+  explicit Opened(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~Opened() {
+    if (file_ >= 0) ::close(file_);
   }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  [[nodiscard]] int get() const { return file_; }
+
+ private:
+  int file_;
+};
+
+[[noreturn]] void fail_to_read(const std::string& path) {
+  fail({path, 0}, fmt::format("can't be read: {}", std::strerror(errno)));
+}
+
+/// Gives the size that it says it has; that of a pipe is 0.
+std::size_t require_file(int file, const std::string& path) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0) fail_to_read(path);
+  if (S_ISDIR(status.st_mode)) fail({path, 0}, "is a folder, expected a file");
+  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) {
+    fail({path, 0}, "is a device, expected a file");
+  }
+  return static_cast<std::size_t>(status.st_size);
+}
+
+/// The next bytes; none at the end.
+std::size_t read_some(int file, const std::string& path, std::array<char, 1U << 16U>& bytes) {
+  for (;;) {
+    const ssize_t count = ::read(file, bytes.data(), bytes.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) fail_to_read(path);
+  }
+}
+
+/// Whether `path` is there and neither a file nor a folder, such as /dev/stdout.
+bool is_special(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// Where a file is to be replaced: what a symbolic link points to.
+fs::path target_of(const std::string& path) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : fs::path(path);
+  return error ? fs::path(path) : target;
+}
+
+fs::path beside(const fs::path& target) {
+  return fmt::format("{}.{}.partial", target.string(), getpid());
 }
 
 }  // namespace
 
-std::string read_text_file(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail({path, 0}, "no such file");
-  if (fs::is_directory(status)) fail({path, 0}, "is a folder, expected a file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  // An empty file sets failbit on `text`, not badbit on `file`.
-  if (!file.is_open() || file.bad()) fail({path, 0}, "can't be read");
-  return text.str();
+std::string read_text_file(const std::string& path, std::size_t most_bytes) {
+  const Opened file(path);
+  if (file.get() < 0 && (errno == ENOENT || errno == ENOTDIR)) fail({path, 0}, "no such file");
+  if (file.get() < 0) fail_to_read(path);
+  std::string text;
+  text.reserve(std::min(require_file(file.get(), path), most_bytes));
+  std::array<char, 1U << 16U> bytes;
+  while (const std::size_t count = read_some(file.get(), path, bytes)) {
+    text.append(bytes.data(), count);
+    if (text.size() > most_bytes) {
+      fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
+    }
+  }
+  return text;
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-  const fs::path beside = fmt::format("{}.{}.partial", path, getpid());
+  write_text_files({{path, text}});
+}
+
+void write_text_files(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::vector<std::pair<fs::path, fs::path>> renames;
   try {
-    write_through(beside, text, path);
-    rename_over(beside, path);
+    for (const auto& [path, text] : files) {
+      if (is_special(path)) {
+        files_internal::write_through(path, text, path);
+        continue;
+      }
+      const fs::path target = target_of(path);
+      renames.emplace_back(beside(target), target);
+      files_internal::write_through(renames.back().first, text, path);
+    }
+    for (const auto& [from, to] : renames) files_internal::rename_over(from, to);
   } catch (const Error&) {
     std::error_code ignored;
-    fs::remove(beside, ignored);
+    for (const auto& [from, to] : renames) fs::remove(from, ignored);
     throw;
   }
-}
-
-GrowingFile::GrowingFile(const fs::path& path, fs::path named)
-    : named_(std::move(named)),
-      file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-  if (file_ < 0) fail({named_.string(), 0}, "can't be written (no permission?)");
-}
-
-GrowingFile::~GrowingFile() {
-  try {
-    flush();
-  } catch (const Error&) {  // Told where it mattered: by sync() or commit().
-  }
-  ::close(file_);
-}
-
-void GrowingFile::flush() {
-  std::string_view rest = text_;
-  while (!rest.empty()) {
-    const ssize_t written = ::write(file_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      text_.clear();
-      fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
-    }
-    has_written_ = true;
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
-  text_.clear();
-}
-
-StagedFolder::StagedFolder(const fs::path& folder)
-    : folder_(folder), staging_(folder / fmt::format("incomplete-{}", getpid())) {
-  make_folder(folder_);
-  std::error_code error;
-  fs::create_directory(staging_, error);
-  if (error) fail({folder_.string(), 0}, fmt::format("can't be written to: {}", error.message()));
-}
-
-StagedFolder::~StagedFolder() {
-  const bool has_grown = std::any_of(growing_.begin(), growing_.end(),
-                                     [](const auto& file) { return file->has_written(); });
-  if (has_grown) return;  // Interrupted; its name says that it is incomplete.
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
-}
-
-std::shared_ptr<GrowingFile> StagedFolder::grow(const fs::path& name) {
-  const fs::path place = staging_ / name;
-  make_folder(place.parent_path());
-  growing_.push_back(std::make_shared<GrowingFile>(place, folder_ / name));
-  names_.push_back(name);
-  return growing_.back();
-}
-
-void StagedFolder::add(const fs::path& name, const std::string& text) {
-  const fs::path place = staging_ / name;
-  make_folder(place.parent_path());
-  write_through(place, text, folder_ / name);
-  names_.push_back(name);
-}
-
-void StagedFolder::commit(const std::vector<fs::path>& stale) {
-  for (const auto& file : growing_) file->flush();
-  growing_.clear();
-  for (const fs::path& name : names_) {
-    make_folder((folder_ / name).parent_path());
-    rename_over(staging_ / name, folder_ / name);
-  }
-  for (const fs::path& name : stale) remove_stale(name);
-  names_.clear();
-}
-
-/// Removes what stands under `name`, except what was added there.
-void StagedFolder::remove_stale(const fs::path& name) {
-  const auto is_new = [&](const fs::path& file) {
-    return std::find(names_.begin(), names_.end(), file.lexically_relative(folder_)) !=
-           names_.end();
-  };
-  std::error_code ignored;
-  const fs::path place = folder_ / name;
-  if (!fs::is_directory(place, ignored)) {
-    if (!is_new(place)) fs::remove(place, ignored);
-    return;
-  }
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::recursive_directory_iterator(place, ignored)) {
-    if (!entry.is_directory() && !is_new(entry.path())) old.push_back(entry.path());
-  }
-  for (const fs::path& file : old) fs::remove(file, ignored);
-  // Removes only an empty folder.
-  fs::remove(place, ignored);
 }
 
 }  // namespace tagfield

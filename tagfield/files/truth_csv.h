@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tagfield/files/files.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/stream/truth.h"
 
 namespace tagfield {

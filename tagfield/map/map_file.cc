@@ -7,12 +7,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
+#include "tagfield/files/files.h"
 #include "tagfield/map/internal/pgm.h"
 
 namespace tagfield {
@@ -42,18 +41,6 @@ struct MapFrame {
   double free_threshold = 0.0;
   Mode mode = Mode::kTrinary;
 };
-
-std::string read_bytes(const std::string& path, std::uintmax_t most) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) fail({path, 0}, "no such file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) fail({path, 0}, "can't be read: " + error.message());
-  if (size > most) fail({path, 0}, fmt::format("is longer than {} bytes", most));
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  if (!stream.is_open() || stream.bad()) fail({path, 0}, "can't be read");
-  return bytes;
-}
 
 /// The keys of the YAML file, each once.
 class MapYaml {
@@ -234,7 +221,7 @@ std::string map_to_yaml(const OccupancyGrid& grid, const std::string& image) {
 }
 
 OccupancyGrid read_map(const std::string& yaml_path, Diagnostics& diagnostics) {
-  const std::string text = read_bytes(yaml_path, kMostYamlBytes);
+  const std::string text = read_text_file(yaml_path, kMostYamlBytes);
   if (text.empty()) fail({yaml_path, 0}, "the file is empty");
   const MapYaml yaml(text, yaml_path);
   yaml.warn_of_strangers(
@@ -242,7 +229,7 @@ OccupancyGrid read_map(const std::string& yaml_path, Diagnostics& diagnostics) {
       diagnostics);
   const MapFrame frame = frame_from(yaml);
   const auto image_path = (std::filesystem::path(yaml_path).parent_path() / frame.image).string();
-  return grid_from(read_pgm(read_bytes(image_path, kMostImageBytes), image_path), frame);
+  return grid_from(read_pgm(read_text_file(image_path, kMostImageBytes), image_path), frame);
 }
 
 }  // namespace tagfield

@@ -1,6 +1,9 @@
 #include "tagfield/report/page.h"
 
-#include "tagfield/files/files.h"
+#include <filesystem>
+
+#include "tagfield/base/error.h"
+#include "tagfield/files/staged_folder.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/tables.h"
 #include "tagfield/report/page_text.h"
@@ -32,6 +35,11 @@ std::string page_of(const Summary& summary, const std::vector<Figure>& figures) 
          page_footer() + "</body>\n</html>\n";
 }
 
+/// Nothing is made where there is no run.
+void require_run_folder(const std::string& folder) {
+  if (!std::filesystem::is_directory(folder)) fail({folder, 0}, "no such folder");
+}
+
 }  // namespace
 
 std::string page_head(const std::string& title) {
@@ -42,16 +50,21 @@ std::string page_head(const std::string& title) {
          escaped(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n";
 }
 
-void write_report(const std::string& run_folder) {
+void stage_report(const std::string& run_folder, StagedFolder& folder) {
   const RunFiles run = read_run_files(run_folder);
   const std::vector<Figure> figures = all_figures(run);
-  StagedFolder folder(run_folder);
   for (const Figure& figure : figures) {
     if (!figure.missing.empty()) continue;
     folder.add("figures/" + figure.name + ".svg",
                standalone_svg(figure.svg, figure.title, figure.caption));
   }
   folder.add("report.html", page_of(run.summary, figures));
+}
+
+void write_report(const std::string& run_folder) {
+  require_run_folder(run_folder);
+  StagedFolder folder(run_folder);
+  stage_report(run_folder, folder);
   folder.commit({"figures"});
 }
 

@@ -161,9 +161,12 @@ def read_json(path):
 
 
 def files_in(folder):
-    """Every file under a folder with its bytes, by relative path; folders end in '/'."""
+    """Every file under a folder with its bytes, by relative path; folders end in '/'. Without the
+    list of what Tagfield wrote there."""
     found = {}
     for path in sorted(pathlib.Path(folder).rglob("*")):
+        if path.name == ".tagfield":
+            continue
         name = str(path.relative_to(folder))
         found[name + "/" if path.is_dir() else name] = None if path.is_dir() else path.read_bytes()
     return found

@@ -66,10 +66,10 @@ OccupancyGrid with_occupied(OccupancyGrid map, const OccupancyGrid& keep_out) {
 void write_map(const OccupancyGrid& grid, const std::string& yaml_path) {
   const std::filesystem::path path(yaml_path);
   const std::string image = path.stem().string() + ".pgm";
-  StagedFolder folder(path.has_parent_path() ? path.parent_path() : ".");
-  folder.add(image, map_to_pgm(grid));
-  folder.add(path.filename(), map_to_yaml(grid, image));
-  folder.commit();
+  std::error_code ignored;  // What can't be made can't be written to either.
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  write_text_files({{(path.parent_path() / image).string(), map_to_pgm(grid)},
+                    {yaml_path, map_to_yaml(grid, image)}});
 }
 
 }  // namespace tagfield

@@ -1,7 +1,11 @@
 #include "tagfield/files/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <fstream>
+#include <thread>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/test/error_text.h"
@@ -69,90 +73,60 @@ TEST(WriteTextFile, SaysThatTheDiskIsFull) {
   EXPECT_EQ(folder.names(), Names{});
 }
 
-TEST(StagedFolder, ShowsNothingBeforeCommit) {
-  const TemporaryFolder folder;
-  (void)folder.with("out/a", "old");
-  StagedFolder staged(folder.path() / "out");
-  staged.add("a", "new");
-  staged.add("deep/b", "b");
-  EXPECT_EQ(folder.text_of("out/a"), "old");
-  EXPECT_FALSE(fs::exists(folder.path() / "out/deep"));
-  EXPECT_EQ(read_text_file((staged.staging() / "deep/b").string()), "b");
+TEST(ReadTextFile, RefusesDevices) {
+  EXPECT_TRUE(contains(error_of([] { read_text_file("/dev/zero"); }), "/dev/zero: is a device"));
 }
 
-TEST(StagedFolder, MovesAllIntoPlace) {
+TEST(ReadTextFile, RefusesWhatIsTooLong) {
   const TemporaryFolder folder;
-  (void)folder.with("out/a", "old");
-  (void)folder.with("out/other", "kept");
-  {
-    StagedFolder staged(folder.path() / "out");
-    staged.add("a", "new");
-    staged.add("deep/er/b", "b");
-    staged.commit();
-  }
-  EXPECT_EQ(folder.names(),
-            (Names{"out", "out/a", "out/deep", "out/deep/er", "out/deep/er/b", "out/other"}));
-  EXPECT_EQ(folder.text_of("out/a"), "new");
-  EXPECT_EQ(folder.text_of("out/deep/er/b"), "b");
-  EXPECT_EQ(folder.text_of("out/other"), "kept");
+  const std::string path = folder.with("f", std::string(2'000'001, 'x'));
+  EXPECT_TRUE(contains(error_of([&] { read_text_file(path, 2'000'000); }), "is longer than 2000000 bytes"));
+  EXPECT_EQ(read_text_file(path, 2'000'001).size(), 2'000'001U);
 }
 
-TEST(StagedFolder, LeavesNoFileWithoutCommit) {
-  const TemporaryFolder folder;
-  (void)folder.with("out/a", "old");
-  {
-    StagedFolder staged(folder.path() / "out");
-    staged.add("a", "new");
-    staged.add("deep/b", "b");
-  }
-  EXPECT_EQ(folder.names(), (Names{"out", "out/a"}));
-  EXPECT_EQ(folder.text_of("out/a"), "old");
+TEST(ReadTextFile, AnErrorIsNoEnd) {
+  // Reading at address 0 of a process is an input/output error, whoever asks.
+  EXPECT_TRUE(contains(error_of([] { read_text_file("/proc/self/mem"); }), "can't be read: "));
 }
 
-TEST(StagedFolder, DeletesStaleFilesAndFoldersAtCommit) {
+TEST(ReadTextFile, ReadsPipes) {
   const TemporaryFolder folder;
-  (void)folder.with("out/stale", "");
-  (void)folder.with("out/figures/old.svg", "");
-  (void)folder.with("out/kept", "");
-  {
-    StagedFolder staged(folder.path() / "out");
-    staged.add("figures/new.svg", "new");
-    staged.add("again", "new");
-    EXPECT_TRUE(fs::exists(folder.path() / "out/stale"));
-    staged.commit({"stale", "figures", "again", "was never there"});
-  }
-  EXPECT_EQ(folder.names(),
-            (Names{"out", "out/again", "out/figures", "out/figures/new.svg", "out/kept"}));
-  EXPECT_EQ(folder.text_of("out/again"), "new");
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string text(300'000, 'x');
+  std::thread writer([&] { std::ofstream(pipe) << text; });
+  EXPECT_EQ(read_text_file(pipe), text);
+  writer.join();
 }
 
-TEST(StagedFolder, MakesTheFolderAndItsParents) {
+TEST(WriteTextFile, WritesThroughLinksAndPipes) {
   const TemporaryFolder folder;
-  {
-    StagedFolder staged(folder.path() / "a/b/");
-    staged.add("c", "c");
-    staged.commit();
-  }
-  EXPECT_EQ(folder.names(), (Names{"a", "a/b", "a/b/c"}));
+  (void)folder.with("target", "old");
+  fs::create_symlink("target", folder.path() / "link");
+  write_text_file(folder.file("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(folder.text_of("target"), "new");
+
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] { read = read_text_file(pipe); });
+  write_text_file(pipe, "text");
+  reader.join();
+  EXPECT_EQ(read, "text");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  write_text_file("/dev/null", "text");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(StagedFolder, RefusesAPathThatIsAFile) {
+TEST(WriteTextFiles, ReplacesNoneBeforeAllAreWritten) {
   const TemporaryFolder folder;
-  const std::string path = folder.with("f", "kept");
-  EXPECT_TRUE(contains(error_of([&] { const StagedFolder staged(path); }), path + ": can't"));
-  EXPECT_THROW(StagedFolder(path + "/below"), Error);
-  EXPECT_EQ(folder.text_of("f"), "kept");
-}
-
-TEST(StagedFolder, SaysWhenAFolderStandsWhereAFileGoes) {
-  const TemporaryFolder folder;
-  (void)folder.with("out/a/inner", "kept");
-  {
-    StagedFolder staged(folder.path() / "out");
-    staged.add("a", "new");
-    EXPECT_TRUE(contains(error_of([&] { staged.commit(); }), "out/a: can't be replaced"));
-  }
-  EXPECT_EQ(folder.names(), (Names{"out", "out/a", "out/a/inner"}));
+  (void)folder.with("a", "old");
+  EXPECT_THROW(write_text_files({{folder.file("a"), "new"}, {folder.file("no/b"), "new"}}), Error);
+  EXPECT_EQ(folder.text_of("a"), "old");
+  write_text_files({{folder.file("a"), "new"}, {folder.file("b"), "too"}});
+  EXPECT_EQ(folder.text_of("a") + folder.text_of("b"), "newtoo");
+  EXPECT_EQ(folder.names(), (Names{"a", "b"}));
 }
 
 }  // namespace

@@ -208,7 +208,8 @@ TEST(MapFile, RefusesMissingFilesAndTornImages) {
     return error_of([&] { read_map(path, diagnostics); });
   };
   EXPECT_EQ(message(folder.file("none.yaml")), folder.file("none.yaml") + ": no such file");
-  EXPECT_EQ(message(folder.path().string()), folder.path().string() + ": no such file");
+  EXPECT_EQ(message(folder.path().string()),
+            folder.path().string() + ": is a folder, expected a file");
   const std::string yaml = folder.with("map.yaml", yaml_with(""));
   EXPECT_EQ(message(yaml), folder.file("map.pgm") + ": no such file");
   (void)folder.with("map.pgm", "");
@@ -216,7 +217,7 @@ TEST(MapFile, RefusesMissingFilesAndTornImages) {
   (void)folder.with("map.pgm", kSavedPgm.substr(0, kSavedPgm.size() - 1));
   EXPECT_EQ(message(yaml),
             folder.file("map.pgm") + ": byte 48: 4 × 2 cells need 8 bytes, and 7 are there");
-  EXPECT_EQ(message("/dev/zero"), "/dev/zero: no such file");
+  EXPECT_EQ(message("/dev/zero"), "/dev/zero: is a device, expected a file");
   const std::string long_yaml = folder.with("long.yaml", std::string(1'000'001, '#'));
   EXPECT_EQ(message(long_yaml), long_yaml + ": is longer than 1000000 bytes");
 }

@@ -58,13 +58,17 @@ TEST(WriteReport, MakesHostileNamesHarmless) {
 TEST(WriteReport, RemovesFiguresOfAnOlderReport) {
   const RunFolder folder(FolderPlan{});
   folder.put("figures/fig99_old.svg", "<svg/>");
+  folder.put("figures/somebodys.svg", "<svg/>");
+  folder.put(".tagfield", "figures/fig99_old.svg\n");
   write_report(folder.path());
   EXPECT_EQ(folder.text("figures/fig99_old.svg"), "");
+  EXPECT_EQ(folder.text("figures/somebodys.svg"), "<svg/>");
 }
 
 TEST(WriteReport, ReplacesNothingIfAFileIsBad) {
   const RunFolder folder(FolderPlan{});
   folder.put("report.html", "old");
+  folder.put(".tagfield", "report.html\n");
   folder.put("reads.csv", "nonsense");
   EXPECT_THROW(write_report(folder.path()), Error);
   EXPECT_EQ(folder.text("report.html"), "old");

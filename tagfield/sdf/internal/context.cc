@@ -1,9 +1,6 @@
 #include "tagfield/sdf/internal/context.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
+#include "tagfield/files/files.h"
 
 namespace tagfield::sdf_internal {
 
@@ -25,12 +22,8 @@ sdf::ElementPtr written_child(const sdf::ElementPtr& element, const std::string&
 }
 
 std::string file_text(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) fail({path, 0}, "no such file");
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) fail({path, 0}, "can't be read");
-  return text;
+  constexpr std::size_t kMostBytes = 200'000'000;
+  return read_text_file(path, kMostBytes);
 }
 
 const XmlOutline& outline_of(Context& context, const std::string& path) {

@@ -73,7 +73,8 @@ class Walk {
   void read(const std::string& file) {
     require_well_formed(context_, file);
     tinyxml2::XMLDocument document;
-    document.LoadFile(file.c_str());
+    const std::string text = file_text(file);
+    document.Parse(text.data(), text.size());
     const XMLElement* root = document.RootElement();
     if (root == nullptr) return;
     for (const XMLElement* child = root->FirstChildElement(); child != nullptr;
