@@ -6,10 +6,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "tagfield/base/range_check.h"
+
 namespace tagfield {
 namespace {
 
-constexpr double kFarthest = 1e7;            ///< [m] Further off than the Earth's centre.
 constexpr double kGreatestFrequency = 1e12;  ///< [Hz]
 constexpr double kGreatestLevel = 1e6;       ///< [dBm]
 constexpr std::size_t kLongestName = 1000;   ///< Bytes.
@@ -50,8 +51,9 @@ std::string frame_of(const std::string& frame) {
 
 template <typename Point>  // geometry_msgs' Point or Vector3
 Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessagePlace& place) {
-  return {checked(p.x, kFarthest, what + ".x", place), checked(p.y, kFarthest, what + ".y", place),
-          checked(p.z, kFarthest, what + ".z", place)};
+  return {checked(p.x, kMostCoordinate_m, what + ".x", place),
+          checked(p.y, kMostCoordinate_m, what + ".y", place),
+          checked(p.z, kMostCoordinate_m, what + ".z", place)};
 }
 
 Eigen::Quaterniond rotation_of(const geometry_msgs::Quaternion& q, const std::string& what,
@@ -184,7 +186,7 @@ void take(const tagfield_msgs::AntennaTruth& message, const MessagePlace& place,
   for (std::size_t i = 0; i < message.epcs.size(); ++i) {
     content.truth.distances.push_back(
         {stamp, antenna, checked_name(message.epcs[i], fmt::format("epcs[{}]", i), place),
-         checked(message.distances[i], kFarthest, fmt::format("distances[{}]", i), place)});
+         checked(message.distances[i], kMostCoordinate_m, fmt::format("distances[{}]", i), place)});
   }
 }
 
@@ -255,7 +257,7 @@ void take(const rfid_sensor::TagArray& message, const MessagePlace& place, doubl
                     checked(tag.phi, kGreatestLevel, at + "phi", place),
                     checked(tag.rssi, kGreatestLevel, at + "rssi", place)};
     content.truth.distances.push_back(
-        {stamp, antenna, read.tag, checked(tag.dist, kFarthest, at + "dist", place)});
+        {stamp, antenna, read.tag, checked(tag.dist, kMostCoordinate_m, at + "dist", place)});
     content.reads.push_back(std::move(read));
   }
 }

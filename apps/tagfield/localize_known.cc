@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tagfield/base/number.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -69,7 +70,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       command
           .add_option("--tag-height", arguments.tag_height_m,
                       "Height of the tags [m, world]; without it, that of the antenna in the mean")
-          ->check(CLI::Number);
+          ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; goes before --tag-height");
   command
@@ -92,7 +93,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
               "--pose-sigma", arguments.pose_sigma_m,
               "Error of the poses, standard deviation in x and y [m]; 0 for exact. Without, "
               "the covariances in the table of poses, or unknown")
-          ->check(CLI::NonNegativeNumber);
+          ->check(CLI::Range(0.0, kMostLength_m));
   command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
       ->check(CLI::NonNegativeNumber)
       ->needs(sigma);

@@ -7,6 +7,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/tracking_run.h"
@@ -267,7 +268,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
   command
       .add_option("--tag-height", arguments.tag_height_m,
                   "Height of the tags [m, world]; without it, it is estimated about the antennas'")
-      ->check(CLI::Number);
+      ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; goes before --tag-height");
   command.add_option("--calibration", arguments.calibration,

@@ -6,6 +6,13 @@
 
 namespace tagfield {
 
+/// The most that a length or a coordinate may be set to [m]: no hall is longer, and what is told in
+/// other units or by mistake mostly is.
+inline constexpr double kMostLength_m = 1e5;
+
+/// The same of places in tables and bags, which may be sums of several of those.
+inline constexpr double kMostCoordinate_m = 1e6;
+
 /// Throws Error unless `holds`.
 void require(bool holds, std::string_view name, std::string_view expected, double value);
 

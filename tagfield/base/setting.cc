@@ -10,6 +10,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/number.h"
+#include "tagfield/base/range_check.h"
 
 namespace tagfield {
 
@@ -58,6 +59,11 @@ std::size_t choice_in(const std::string& text, const std::vector<std::string>& c
 
 std::string one_of(const std::vector<std::string>& choices) {
   return fmt::format("{}", fmt::join(choices, " | "));
+}
+
+ValueRange limited(ValueRange range, const std::string& unit) {
+  if (unit == "m") range.most = std::min(range.most, kMostLength_m);
+  return range;
 }
 
 std::string to_string(const ValueRange& range) {

@@ -54,6 +54,9 @@ inline constexpr ValueRange kOverZero{0.0, true};
 inline constexpr ValueRange kAtLeastZero{};
 inline constexpr ValueRange kAtLeastOne{1.0};
 
+/// The same, but no length over kMostLength_m; goes without saying in helps.
+ValueRange limited(ValueRange range, const std::string& unit);
+
 /// "over 0 and at most 1".
 std::string to_string(const ValueRange& range);
 double number_in(const std::string& text, const ValueRange& range);
@@ -65,9 +68,10 @@ template <class T, class Owner, class Number>
 Setting<T> setting(const char* key, const char* unit, const char* meaning, Number Owner::*member,
                    const ValueRange& range) {
   return {{key, unit, meaning, to_string(range)},
-          [member, range](T& model, const std::string& text) {
-            model.*member = static_cast<Number>(
-                std::is_integral_v<Number> ? whole_number_in(text, range) : number_in(text, range));
+          [member, limits = limited(range, unit)](T& model, const std::string& text) {
+            model.*member =
+                static_cast<Number>(std::is_integral_v<Number> ? whole_number_in(text, limits)
+                                                               : number_in(text, limits));
           },
           [member](const T& model) { return text_of(static_cast<double>(model.*member)); }};
 }

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "tagfield/base/number.h"
+#include "tagfield/base/range_check.h"
 #include "tagfield/files/files.h"
 
 namespace tagfield {
@@ -109,7 +111,16 @@ std::array<std::size_t, 3> CsvTable::position_columns() const {
 
 Eigen::Vector3d CsvTable::position(const CsvRow& row,
                                    const std::array<std::size_t, 3>& columns) const {
-  return {number(row, columns[0]), number(row, columns[1]), number(row, columns[2])};
+  return {length(row, columns[0]), length(row, columns[1]), length(row, columns[2])};
+}
+
+double CsvTable::length(const CsvRow& row, std::size_t column, double metres) const {
+  const double value = metres * number(row, column);
+  if (std::abs(value) > kMostCoordinate_m) {
+    fail({file, row.line}, fmt::format("{} is {:g} m, expected a place within ±{:g} m",
+                                       header[column], value, kMostCoordinate_m));
+  }
+  return value;
 }
 
 Time CsvTable::stamp(const CsvRow& row, std::size_t column) const {

@@ -31,9 +31,11 @@ struct CsvTable {
   [[nodiscard]] bool has_column(std::string_view name) const;
   /// Finite number in a field; throws Error "FILE:LINE: …" on anything else.
   [[nodiscard]] double number(const CsvRow& row, std::size_t column) const;
+  /// The same of a length or a coordinate, in units of so many metres: [m], within ±1000 km.
+  [[nodiscard]] double length(const CsvRow& row, std::size_t column, double metres = 1.0) const;
   /// Places of the columns x_m, y_m, z_m.
   [[nodiscard]] std::array<std::size_t, 3> position_columns() const;
-  /// The three numbers of a place [m]; throws as number().
+  /// The three numbers of a place [m]; throws as length().
   [[nodiscard]] Eigen::Vector3d position(const CsvRow& row,
                                          const std::array<std::size_t, 3>& columns) const;
   /// Stamp in a field, in seconds (see parse_stamp).

@@ -131,7 +131,7 @@ struct PositionReader {
     Eigen::Vector3d place(0.0, 0.0, form.z_m);
     for (std::size_t i = 0; i < 3; ++i) {
       if (columns[i]) {
-        place[static_cast<Eigen::Index>(i)] = form.metres * table.number(row, *columns[i]);
+        place[static_cast<Eigen::Index>(i)] = table.length(row, *columns[i], form.metres);
       }
     }
     return place;

@@ -18,7 +18,7 @@ std::map<std::string, double> read_tag_heights_csv(const std::string& path) {
   const std::size_t height = table.column("height_m");
   std::map<std::string, double> heights;
   for (const CsvRow& row : table.rows) {
-    if (!heights.emplace(table.text(row, tag), table.number(row, height)).second) {
+    if (!heights.emplace(table.text(row, tag), table.length(row, height)).second) {
       fail({path, row.line}, fmt::format("tag '{}' stands here twice", row.fields[tag]));
     }
   }

@@ -46,7 +46,7 @@ WorldSpec world_of(YamlMap map) {
 }
 
 Eigen::Vector2d waypoint_of(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(2, 2);
+  const std::vector<double> n = value.lengths(2, 2);
   return {n[0], n[1]};
 }
 
@@ -54,7 +54,7 @@ RobotSpec robot_of(YamlMap map) {
   RobotSpec robot;
   robot.location = map.self().location();
   robot.name = map.at("name").text();
-  const std::vector<double> start = map.at("start").numbers(3, 3);
+  const std::vector<double> start = map.at("start").lengths(3, 3);
   robot.start = {start[0], start[1], start[2]};
   robot.drive.wheel_radius_m = map.number("wheel_radius_m", robot.drive.wheel_radius_m, kPositive);
   robot.drive.track_m = map.number("track_m", robot.drive.track_m, kPositive);
@@ -228,7 +228,7 @@ LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods
 }
 
 Eigen::Vector2d level_point(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(2, 2);
+  const std::vector<double> n = value.lengths(2, 2);
   return {n[0], n[1]};
 }
 

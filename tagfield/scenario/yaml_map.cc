@@ -6,21 +6,32 @@
 #include <charconv>
 #include <cmath>
 
+#include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/files/files.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kMost = 1e15;  // Of any number; the report takes no greater ones either.
+constexpr double kMost = 1e15;  // Of any other number.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
 constexpr const char* kFromCommandLine = "!set";
 
+bool ends_in(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+/// By the unit in its key: metres, but not siemens per metre.
+double most_of(const YamlValue& value) {
+  const bool is_length = ends_in(value.path(), "_m") && !ends_in(value.path(), "_s_m");
+  return is_length ? kMostLength_m : kMost;
+}
+
 void require_in_range(const YamlValue& value, double number, NumberRange range) {
   if (!std::isfinite(number)) value.fail(fmt::format("must be finite, is {}", number));
-  if (std::abs(number) > kMost) {
-    value.fail(fmt::format("must be within ±{:g}, is {:g}", kMost, number));
+  if (std::abs(number) > most_of(value)) {
+    value.fail(fmt::format("must be within ±{:g}, is {:g}", most_of(value), number));
   }
   if (range == NumberRange::kPositive && !(number > 0.0)) {
     value.fail(fmt::format("must be greater than 0, is {}", number));
@@ -138,6 +149,7 @@ bool YamlValue::boolean() const {
 
 std::string YamlValue::text() const {
   if (!node_.IsScalar() || node_.Scalar().empty()) fail("must be a text that is not empty");
+  if (node_.Scalar().find('\0') != std::string::npos) fail("holds a NUL byte");
   return node_.Scalar();
 }
 
@@ -160,6 +172,17 @@ std::vector<double> YamlValue::numbers(std::size_t least, std::size_t most) cons
     fail(fmt::format("must have {} numbers, has {}", expected, numbers.size()));
   }
   return numbers;
+}
+
+std::vector<double> YamlValue::lengths(std::size_t least, std::size_t most) const {
+  std::vector<double> lengths = numbers(least, most);
+  for (const double length_m : lengths) require_length(length_m);
+  return lengths;
+}
+
+void YamlValue::require_length(double length_m) const {
+  if (std::abs(length_m) <= kMostLength_m) return;
+  fail(fmt::format("must be within ±{:g} m, is {:g}", kMostLength_m, length_m));
 }
 
 YamlMap::YamlMap(YamlValue value) : self_(std::move(value)) {

@@ -31,15 +31,19 @@ class YamlValue {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// Finite number within `range` and ±1e15.
+  /// Finite number within `range` and ±1e15, or ±1e5 where the key ends in `_m`.
   [[nodiscard]] double number(NumberRange range = NumberRange::kAny) const;
   [[nodiscard]] std::uint64_t whole_number() const;
   [[nodiscard]] bool boolean() const;
-  /// Text that is not empty.
+  /// Text that is not empty, without NUL.
   [[nodiscard]] std::string text() const;
   /// List of at least `least` and at most `most` finite numbers.
   [[nodiscard]] std::vector<double> numbers(
       std::size_t least, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  /// The same of places, sizes and angles: each within ±1e5.
+  [[nodiscard]] std::vector<double> lengths(std::size_t least, std::size_t most) const;
+  /// Throws Error unless it is within ±1e5.
+  void require_length(double length_m) const;
   [[nodiscard]] std::vector<YamlValue> list() const;
 
  private:

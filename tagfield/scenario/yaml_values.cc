@@ -37,12 +37,12 @@ double seconds_of(const YamlValue& value, NumberRange range) {
 }
 
 Eigen::Vector3d position_of(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(3, 3);
+  const std::vector<double> n = value.lengths(3, 3);
   return {n[0], n[1], n[2]};
 }
 
 RigidTransform pose_of(const YamlValue& value) {
-  const std::vector<double> n = value.numbers(3, 6);
+  const std::vector<double> n = value.lengths(3, 6);
   if (n.size() == 3) return from_translation({n[0], n[1], n[2]});
   if (n.size() != 6) value.fail("must be [x, y, z] or [x, y, z, roll, pitch, yaw]");
   return from_xyz_rpy({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
@@ -53,6 +53,7 @@ Trajectory trajectory_of(const YamlValue& value, std::size_t columns) {
   for (const YamlValue& row : value.list()) {
     const std::vector<double> n = row.numbers(columns, columns);
     const double seconds = seconds_of(row.list().front(), NumberRange::kAny);
+    for (std::size_t i = 1; i < columns; ++i) row.require_length(n[i]);
     trajectory.push_back(
         {time_from_seconds(seconds), from_translation({n[1], n[2], columns > 3 ? n[3] : 0.0})});
   }

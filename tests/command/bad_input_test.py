@@ -210,6 +210,7 @@ def stranger(context):
         context.write("out/reads.csv", "old reads")
         context.write("out/truth/tags.csv", "old truth")
         context.write("out/notes.txt", "somebody's notes")
+        context.write("out/.tagfield", "report.html\nreads.csv\ntruth/tags.csv\n")
     return out
 
 
@@ -358,7 +359,7 @@ def numbers_out_of_their_range(context):
     for line, allowed in NUMBERS:
         key = line.split(":")[0]
         wrong = {".nan": "finite", ".inf": "finite", "seven": "expected a number",
-                 "1e300": "within ±1e+15"}
+                 "1e300": "within ±100000" if key.endswith("_m") else "within ±1e+15"}
         if "range_m" in key:  # All are read by the same hand, so the rest is tried on one.
             wrong.update({"-.inf": "finite", "[1]": "must be a number", "1e999": "", '""': "number",
                           "1_000": "number", "0x": "number", "-0.0": POSITIVE, "7 m": "number"})
@@ -375,7 +376,7 @@ def settings_of_methods(context):
     """Out of their range, or of methods that are not used: refused with file and line."""
     line = "stride_m: 0.3"
     for value, says in ((".nan", "finite"), ("seven", "finite number"), ("0", "must be over 0"),
-                        ("-1", "must be over 0"), ("1e300", "at most 1e+15")):
+                        ("-1", "must be over 0"), ("1e300", "at most 100000")):
         expect_bad_change(context, line, f"stride_m: {value}", ["stride_m", says])
     expect_bad_change(context, "method: hyperbola", "method: sar",
                       ["stride_m is not used by sar", "a setting of hyperbola"], line)
@@ -399,6 +400,18 @@ def numbers_beyond_reason(context):
         key = line.split(":")[0]
         # Found where the antenna as a whole is judged.
         expect_bad_change(context, line, f"{key}: {value}", says, "- name: mast")
+
+
+@case
+def places_beyond_any_hall(context):
+    """Within what a number may be, yet nothing that a page could draw: nothing of it is committed."""
+    for old, new in (("position: [1, 2, 1]", "position: [1, 1e15, 1]"),
+                     ("start: [0, 0, 0]", "start: [-2e5, 0, 0]"),
+                     ("waypoints: [[1, 0], [1, 1]]", "waypoints: [[1, 0], [1, 1e15]]"),
+                     ("pose: [2, 2, 1]", "pose: [2, 2, 1e15, 0, 0, 0]"),
+                     ("[1, 3, 0, 1]]", "[1, 3, 1e15, 1]]")):
+        expect_bad_change(context, old, new, [new.split(":")[0].strip("[]1, 3e5"), "within ±100000"])
+    expect_bad_change(context, "id: near", 'id: "ne\\0ar"', ["tags[0].id", "NUL"])
 
 
 @case
@@ -582,7 +595,7 @@ def arguments(context):
             ([*localize, "--tag-height", "nan"], "height"),
             ([*localize, "--tag-height", "inf"], "height"),
             ([*localize, "--set", "stride_m=0.5"], ["stride_m is not used by auto", "hyperbola"]),
-            ([*localize, "--method", "hyperbola", "--set", "stride_m=0"], "must be over 0, is 0"),
+            ([*localize, "--method", "hyperbola", "--set", "stride_m=0"], "must be over 0"),
             ([*localize, "--method", "hyperbola", "--set", "stride_m=nan"], "finite"),
             ([*localize, "--method", "hyperbola", "--set", "strid_m=1"], "did you mean 'stride_m'"),
             ([*localize, "--method", "sar", "--set", "maxima=1.5"], "whole number"),
@@ -973,6 +986,9 @@ def malformed_reads_poses_and_heights(context):
         ("poses.csv", "x_m", "x", "x_m", 1),
         ("poses.csv", "0.1,a,0.1", "0.1,a,far", "x_m", 3),
         ("poses.csv", "0.1,a,0.1", "0.1,a,nan", "x_m", 3),
+        ("poses.csv", "0.1,a,0.1", "0.1,a,1e15", "x_m is 1e+15 m, expected a place within", 3),
+        ("poses.csv", "0.1,a,0.1", "0.1,a,-1000001", "x_m", 3),
+        ("heights.csv", "1.0", "1e15", "height_m", 2),
         ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0,0", "length", 3),
         ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0,5", "length", 3),
         ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0", "fields", 3),

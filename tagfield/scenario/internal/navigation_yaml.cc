@@ -52,6 +52,7 @@ Carrying carrying_of(const YamlValue& row) {
   Carrying carrying;
   carrying.location = row.location();
   carrying.when = time_from_seconds(seconds_of(row.list().front(), kNotNegative));
+  for (std::size_t i = 1; i < n.size(); ++i) row.require_length(n[i]);
   if (n.size() == 4) carrying.to_W = PlanarPose{n[1], n[2], n[3]};
   return carrying;
 }
@@ -135,7 +136,7 @@ PoseSource read_navigation(const YamlValue& value, NavigationSpec& navigation) {
 
 void read_self_driving(YamlMap& map, RobotSpec& robot) {
   for (const YamlValue& goal : map.list("goals")) {
-    const std::vector<double> n = goal.numbers(3, 3);
+    const std::vector<double> n = goal.lengths(3, 3);
     robot.goals_W.push_back({n[0], n[1], n[2]});
   }
   robot.random_goals = count_of(map, "random_goals", 0, 1, 100'000);
@@ -169,7 +170,7 @@ ObstacleSpec obstacle_of(YamlMap map) {
     obstacle.radius_m = map.at("radius_m").number(kPositive);
   } else {
     const YamlValue value = map.at("size");
-    const std::vector<double> size = value.numbers(2, 2);
+    const std::vector<double> size = value.lengths(2, 2);
     if (!(size[0] > 0.0 && size[1] > 0.0)) value.fail("must be two numbers greater than 0");
     obstacle.size_m = {size[0], size[1]};
   }
@@ -180,7 +181,7 @@ ObstacleSpec obstacle_of(YamlMap map) {
   if (map.has("trajectory")) {
     obstacle.motion = trajectory_of(map.at("trajectory"), 3);
   } else {
-    const std::vector<double> n = map.at("position").numbers(2, 2);
+    const std::vector<double> n = map.at("position").lengths(2, 2);
     obstacle.motion = {{Time{}, from_translation({n[0], n[1], 0.0})}};
   }
   if (map.has("appears_s")) {

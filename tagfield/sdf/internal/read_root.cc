@@ -68,7 +68,6 @@ class Silence {
 sdf::Errors load_silently(sdf::Root& root, const Context& context, const IncludeTree& tree) {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
-  sdf::Console::Instance()->SetQuiet(true);
   const Silence silence;
   const sdf::ParserConfig config = parser_config(context, tree);
   const AsGlobalConfig global(config);
@@ -132,6 +131,7 @@ std::string name_of(const sdf::ElementPtr& element) {
 }  // namespace
 
 sdf::Root read_root(Context& context) {
+  sdf::Console::Instance()->SetQuiet(true);
   require_sdf(context);
   const IncludeTree tree = include_tree(context);
   sdf::Root root;

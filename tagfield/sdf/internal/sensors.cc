@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "tagfield/base/range_check.h"
 #include "tagfield/sdf/internal/poses.h"
 
 namespace tagfield::sdf_internal {
@@ -61,6 +62,10 @@ NamedPlacement read_sensor(Context& context, const sdf::Sensor& sensor, const Ri
                            const std::string& model, const std::string& link) {
   const sdf::ElementPtr element = sensor.Element();
   const RigidTransform X_WS = X_WL * pose_in_parent(context, sensor.SemanticPose(), element);
+  if (X_WS.translation.cwiseAbs().maxCoeff() > kMostLength_m) {
+    fail(location_of(context, element),
+         "sensor '" + sensor.Name() + "' stands over 100 km from the origin");
+  }
   return {{sensor.Name(), X_WS, parameters_of(context, element), location_of(context, element)},
           model,
           link};
