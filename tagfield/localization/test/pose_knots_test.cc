@@ -79,6 +79,7 @@ Eigen::VectorXd of_axis(const Eigen::VectorXd& u, int axis) {
 
 TEST(PoseKnots, AreEvenOverReadsWithoutPauses) {
   std::vector<double> times;
+  times.reserve(21);
   for (int i = 0; i <= 20; ++i) times.push_back(100.0 + 0.5 * i);
   const PoseKnots knots = knots_of(read_at(times), 0.25);
   ASSERT_EQ(knots.chains.size(), 1U);
@@ -91,6 +92,7 @@ TEST(PoseKnots, AreEvenOverReadsWithoutPauses) {
 TEST(PoseKnots, AreAsManyAfterAPauseOfAYearAsOfADay) {
   for (const double pause_s : {60.0, kDay, 365.0 * kDay, 4e9}) {
     std::vector<double> times;
+    times.reserve(22);
     for (int i = 0; i <= 10; ++i) times.push_back(0.2 * i);
     for (int i = 0; i <= 10; ++i) times.push_back(pause_s + 0.2 * i);
     EXPECT_EQ(knots_of(read_at(times), 0.5).count(), 10) << pause_s;
@@ -100,6 +102,7 @@ TEST(PoseKnots, AreAsManyAfterAPauseOfAYearAsOfADay) {
 TEST(PoseKnots, OfReadsFarApartAreAtMostAsManyAsGoIntoATimeConstant) {
   for (const double apart_s : {0.9 * kTau, 1.1 * kTau, 100.0 * kTau}) {
     std::vector<double> times;
+    times.reserve(50);
     for (int i = 0; i < 50; ++i) times.push_back(apart_s * i);
     EXPECT_LE(knots_of(read_at(times), kTau / 40.0).count(), 50 * 41) << apart_s;
   }
