@@ -12,6 +12,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kMostSeconds = 9.2e9;  // 2^63 ns
+constexpr double kMostStamp = 4.6e9;    // Any two stamps' difference is a duration.
 constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
 /// "123.25" read digit by digit, because a double holds today's Unix time only to 0.2 µs.
@@ -23,7 +24,7 @@ bool parse_plain_decimal(const std::string& text, std::int64_t& nanos) {
   const char* begin = text.data() + i;
   const char* end = text.data() + text.size();
   const auto [after, error] = std::from_chars(begin, end, whole);
-  if (error != std::errc{} || *begin == '-' || whole >= static_cast<std::int64_t>(kMostSeconds)) {
+  if (error != std::errc{} || *begin == '-' || whole >= static_cast<std::int64_t>(kMostStamp)) {
     return false;
   }
   std::int64_t fraction = 0;
@@ -55,7 +56,13 @@ Duration duration_from_seconds(double seconds) {
   return Duration(std::llround(seconds * 1e9));
 }
 
-Time time_from_seconds(double seconds) { return Time(duration_from_seconds(seconds)); }
+Time time_from_seconds(double seconds) {
+  if (!(std::abs(seconds) < kMostStamp)) {
+    throw Error(fmt::format("stamp {} s is no time: expected less than {:g} s (146 years) from 0",
+                            seconds, kMostStamp));
+  }
+  return Time(duration_from_seconds(seconds));
+}
 
 std::string format_stamp(Time time) {
   const std::int64_t count = time.time_since_epoch().count();

@@ -22,6 +22,8 @@ using Time = std::chrono::time_point<StampClock, Duration>;
 
 /// Nearest nanosecond to `seconds`. Throws Error if not finite or beyond ±292 years.
 Duration duration_from_seconds(double seconds);
+/// Likewise, but throws Error beyond ±4.6e9 s (146 years: Unix time until 2115), so that the time
+/// between any two stamps is a Duration.
 Time time_from_seconds(double seconds);
 
 inline double to_seconds(Duration duration) { return static_cast<double>(duration.count()) * 1e-9; }
@@ -32,7 +34,8 @@ inline double to_seconds(Time time) { return to_seconds(time.time_since_epoch())
 std::string format_stamp(Time time);
 
 /// Inverse of format_stamp; takes any plain decimal number of seconds ("1700000000.25", "3e-3").
-/// Digits beyond the nanosecond are rounded. Throws Error on anything else.
+/// Digits beyond the nanosecond are rounded. Throws Error on anything else and where
+/// time_from_seconds() does.
 Time parse_stamp(const std::string& text);
 
 }  // namespace tagfield

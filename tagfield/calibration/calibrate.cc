@@ -139,18 +139,21 @@ Fit fitted(Model model, const Fit& start) {
   return fit;
 }
 
+double duration_of(const AntennaData& data) {
+  return to_seconds(data.samples.back().stamp - data.samples.front().stamp);
+}
+
 /// Of one channel, and of one tag unless `shared`, over up to `length_s`.
 std::vector<ReadStretch> stretches_of(const AntennaData& data, double length_s, bool shared) {
+  // More than all that was read may be more than a Duration holds.
+  const Duration length =
+      length_s < duration_of(data) ? duration_from_seconds(length_s) : Duration::max();
   return tagfield::stretches_of(
       data.samples.size(),
       [&](std::size_t i) {
         return std::pair(shared ? 0 : data.samples[i].tag, data.samples[i].frequency_hz);
       },
-      [&](std::size_t i) { return data.samples[i].stamp; }, duration_from_seconds(length_s));
-}
-
-double duration_of(const AntennaData& data) {
-  return to_seconds(data.samples.back().stamp - data.samples.front().stamp);
+      [&](std::size_t i) { return data.samples[i].stamp; }, length);
 }
 
 bool moves(const AntennaData& data) {

@@ -59,7 +59,7 @@ std::optional<Time> parse_iso(const std::string& text) {
   if (!year || !month || !day || !hour || !minute || !second) return std::nullopt;
   const bool marked = text[4] == '-' && text[7] == '-' && (text[10] == 'T' || text[10] == ' ') &&
                       text[13] == ':' && text[16] == ':';
-  const bool in_range = *year >= 1970 && *year <= 2200 && *month >= 1 && *month <= 12 &&
+  const bool in_range = *year >= 1970 && *year <= 2114 && *month >= 1 && *month <= 12 &&
                         *day >= 1 && *day <= 31 && *hour < 24 && *minute < 60 && *second <= 60;
   const auto fraction = nanoseconds_of(text.substr(19));
   if (!marked || !in_range || !fraction) return std::nullopt;
@@ -97,9 +97,12 @@ struct StampReader {
   [[nodiscard]] Time in_units(const CsvRow& row) const {
     if (form.seconds == 1.0) return table.stamp(row, *column);
     const double seconds = table.number(row, *column) * form.seconds;
-    if (std::abs(seconds) < 9e9) return time_from_seconds(seconds);
-    fail({table.file, row.line}, fmt::format("{} is '{}', which is no time in this unit",
-                                             form.column, row.fields[*column]));
+    try {
+      return time_from_seconds(seconds);
+    } catch (const Error&) {
+      fail({table.file, row.line}, fmt::format("{} is '{}', which is no time in this unit",
+                                               form.column, row.fields[*column]));
+    }
   }
 };
 

@@ -65,7 +65,7 @@ LaserScan simulate_scan(const RayScene& world, const LaserParameters& laser, std
                         const std::function<Obstacles(Time)>& obstacles_at, std::uint64_t seed,
                         std::uint64_t key);
 
-/// Stamp of scan `number`. Throws Error beyond ±292 years.
+/// Stamp of scan `number`. Throws Error beyond ±146 years.
 Time scan_stamp(const LaserParameters& laser, std::int64_t number);
 
 }  // namespace tagfield

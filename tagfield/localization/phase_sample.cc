@@ -9,6 +9,7 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/problem.h"
+#include "tagfield/localization/strays.h"
 
 namespace tagfield {
 namespace {
@@ -30,6 +31,10 @@ bool is_usable(const TagRead& read) {
          read.frequency_hz >= kLowestCarrier;
 }
 
+std::string range_words(Time first, Time last) {
+  return fmt::format("from {:.3f} to {:.3f} s", to_seconds(first), to_seconds(last));
+}
+
 /// In order of time, the first of those with equal stamps kept; how many were dropped.
 std::size_t sort_and_drop_repeats(std::vector<const AntennaPose*>& poses) {
   const std::size_t before = poses.size();
@@ -38,6 +43,44 @@ std::size_t sort_and_drop_repeats(std::vector<const AntennaPose*>& poses) {
   const auto same = [](const auto* a, const auto* b) { return a->stamp == b->stamp; };
   poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
   return before - poses.size();
+}
+
+using StampRanges = std::map<std::string, StampRange>;
+
+/// When each antenna had rows, but for those of a wrong clock.
+template <typename Row>
+StampRanges ranges_of(const std::vector<Row>& rows) {
+  std::map<std::string, std::vector<Time>> stamps;
+  for (const Row& row : rows) stamps[row.antenna].push_back(row.stamp);
+  StampRanges ranges;
+  for (auto& [antenna, of_antenna] : stamps) {
+    ranges[antenna] = range_without_strays(std::move(of_antenna));
+  }
+  return ranges;
+}
+
+template <typename Row>
+bool is_stray(const Row& row, const StampRanges& ranges) {
+  const StampRange& range = ranges.at(row.antenna);
+  return row.stamp < range.begin || row.stamp > range.end;
+}
+
+/// Warns of an antenna's rows that is_stray() finds. `what`: "reads" or "poses".
+template <typename Row>
+void warn_of_strays(const std::vector<Row>& rows, const StampRanges& ranges, const char* what,
+                    Diagnostics& diagnostics) {
+  std::map<std::string, std::vector<Time>> strays;
+  for (const Row& row : rows) {
+    if (is_stray(row, ranges)) strays[row.antenna].push_back(row.stamp);
+  }
+  for (const auto& [antenna, stamps] : strays) {
+    const StampRange& range = ranges.at(antenna);
+    diagnostics.warn(fmt::format(
+        "antenna '{}': {} {} left out, at {} s{}, far from all others, which are {}: was the clock "
+        "wrong? Correct or delete stamps like that",
+        antenna, stamps.size(), what, format_stamp(stamps.front()),
+        stamps.size() > 1 ? " and so on" : "", range_words(range.begin, range.end)));
+  }
 }
 
 /// Covariances count only where every pose has one.
@@ -61,10 +104,6 @@ struct ReadCount {
 };
 
 using Tracks = std::map<std::string, BelievedTrack>;
-
-std::string range_words(Time first, Time last) {
-  return fmt::format("from {:.3f} to {:.3f} s", to_seconds(first), to_seconds(last));
-}
 
 /// That an antenna of reads has no poses at all, and whose there are.
 std::string no_poses(const std::string& antenna, const Tracks& tracks) {
@@ -129,7 +168,10 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
                                                Diagnostics& diagnostics) {
   std::map<std::string, std::vector<const AntennaPose*>> by_antenna;
   std::map<std::string, std::size_t> broken;
+  const StampRanges ranges = ranges_of(poses);
+  warn_of_strays(poses, ranges, "poses", diagnostics);
   for (const AntennaPose& pose : poses) {
+    if (is_stray(pose, ranges)) continue;
     if (is_finite(pose)) {
       by_antenna[pose.antenna].push_back(&pose);
     } else {
@@ -158,10 +200,13 @@ SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
   const Duration max_gap = duration_from_seconds(max_pose_gap_s);
   SamplesByTag joined;
   std::map<std::string, ReadCount> counts;
+  const StampRanges ranges = ranges_of(reads);
+  warn_of_strays(reads, ranges, "reads", diagnostics);
   for (const TagRead& read : reads) {
     SamplesOfTag& of_tag = joined[read.tag];
     ReadCount& count = counts[read.antenna];
     ++count.all;
+    if (is_stray(read, ranges)) continue;
     count.first = std::min(count.first, read.stamp);
     count.last = std::max(count.last, read.stamp);
     if (!is_usable(read)) {

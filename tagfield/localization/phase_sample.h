@@ -34,8 +34,9 @@ using SamplesByTag = std::map<std::string, SamplesOfTag>;
 
 struct BelievedTrack;
 
-/// The antennas' believed poses by antenna, in rising order of time. Poses that are not finite, or
-/// repeat a stamp, are left out, which is counted in one warning for each antenna.
+/// The antennas' believed poses by antenna, in rising order of time. Poses that are not finite,
+/// repeat a stamp, or whose clock must have been wrong (strays.h) are left out, which is counted in
+/// one warning for each antenna.
 std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
                                                Diagnostics& diagnostics);
 
@@ -43,7 +44,8 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
 /// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
 /// the stamp before the first or after the last) is left out and counted in one warning for each
 /// antenna, which says why. An antenna with one pose stands still. Two reads of a tag by an antenna
-/// at the same stamp: the first counts, and a warning counts the others.
+/// at the same stamp: the first counts, and a warning counts the others. Reads whose clock must
+/// have been wrong (strays.h) are left out, which is told, too.
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics);

@@ -29,7 +29,7 @@ std::string resolve_path(const YamlValue& value) {
 double seconds_of(const YamlValue& value, NumberRange range) {
   const double seconds = value.number(range);
   try {
-    duration_from_seconds(seconds);
+    time_from_seconds(seconds);
   } catch (const Error& error) {
     value.fail(error.what());
   }

@@ -7,6 +7,7 @@ The reads are made here, by eq. 3 of the paper along an S, so that the places ar
 
 import math
 import random
+import resource
 
 from common import (SPEED_OF_LIGHT, case, check, check_equal, check_in, check_near, main, position,
                     read_csv, read_json)
@@ -280,6 +281,83 @@ def rows_out_of_order_and_twice(context):
                  f"{method}: the warnings")
     result, _, _ = localize(context, reads, poses + poses[:7])
     check_in("antenna 'a': 7 poses repeat the stamp of another", result.err, "the warnings")
+
+
+def stamped(rows, stamp_of):
+    """The rows with other stamps [s], by a function of those they have."""
+    return [f"{stamp_of(float(stamp)):.6f},{rest}"
+            for stamp, rest in (row.split(",", 1) for row in rows)]
+
+
+def check_memory(what):
+    """Of any program so far; 25 MB do for these tables."""
+    most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    check(most < 500, f"{what}: {most:.0f} MB of memory")
+
+
+@case
+def one_row_with_a_wrong_clock(context):
+    """Since 1970 where the others are of today, or the reverse: at most that row is lost."""
+    for clock, wrong in ((1.7e9, 0.0), (0.0, 1.7e9)):
+        reads, poses = read_rows(TAGS, shift=clock), pose_rows(shift=clock)
+        bad_reads = reads[:500] + stamped(reads[500:501], lambda _: wrong) + reads[501:]
+        bad_poses = poses[:160] + stamped(poses[160:161], lambda _: wrong) + poses[161:]
+        for method in METHODS:
+            _, expected, _ = localize(context, reads, poses, "--method", method)
+            for names, rows in ((("reads.csv",), (bad_reads, poses)),
+                                (("poses.csv",), (reads, bad_poses)),
+                                (("reads.csv", "poses.csv"), (bad_reads, bad_poses))):
+                what = f"{method} with clock {clock:g} but {wrong:g} in {names}"
+                result, estimates, _ = localize(context, *rows, "--method", method)
+                check_memory(what)
+                check_located(estimates, TAGS, what, 0.05)
+                for tag, row in estimates.items():
+                    check_near(math.dist(position(row), position(expected[tag])), 0.0,
+                               float(expected[tag]["expected_error_m"]), f"{what}: shift of {tag}")
+                for name in names:
+                    check_in(f"antenna 'a': 1 {name[:5]} left out, at {wrong:.9f} s, far from all "
+                             "others", result.err, what)
+
+
+@case
+def pauses(context):
+    """Of a day or a year in the middle, and of an hour forty times."""
+    def pauses_of(count, seconds):
+        return lambda stamp: stamp + seconds * math.floor(stamp / 24.1 * (count + 1))
+    reads, poses = read_rows(TAGS), pose_rows(error=lambda t: (0.01 * math.sin(t / 3), 0.0))
+    for sigma in ((), ("--pose-sigma", "0.01")):
+        for method in METHODS:
+            _, expected, _ = localize(context, reads, poses, "--method", method, *sigma)
+            for count, seconds in ((1, 86400), (1, 365 * 86400), (40, 3600)):
+                what = f"{method} with {count} pauses of {seconds} s"
+                shift = pauses_of(count, seconds)
+                _, estimates, summary = localize(context, stamped(reads, shift),
+                                                 stamped(poses, shift), "--method", method, *sigma)
+                check_memory(what)
+                check_located(estimates, TAGS, what, 0.05)
+                check_equal(summary["warnings"], [], f"{what}: warnings")
+                for tag, row in estimates.items():
+                    check_near(math.dist(position(row), position(expected[tag])), 0.0,
+                               2 * float(expected[tag]["expected_error_m"]),
+                               f"{what}: shift of {tag}")
+
+
+@case
+def stamps_that_are_no_time(context):
+    """Beyond 146 years from 0 the time between two stamps might not be one."""
+    for shift in (9.1e9, -9.1e9):
+        for name in ("reads.csv", "poses.csv"):
+            reads, poses = read_rows(TAGS), pose_rows()
+            rows = reads if name == "reads.csv" else poses
+            rows[3] = stamped(rows[3:4], lambda stamp: stamp + shift)[0]
+            context.write("reads.csv", "\n".join(
+                ["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *reads]) + "\n")
+            context.write("poses.csv", "\n".join(
+                ["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw", *poses]) + "\n")
+            result = context.run("localize", "reads.csv", "--poses", "poses.csv")
+            check_equal(result.code, 2, f"exit code for {shift:g} in {name}")
+            check_in(f"{name}:5: stamp_s: stamp ", result.err, "the complaint")
+            check_in("expected less than 4.6e+09 s (146 years) from 0", result.err, "the complaint")
 
 
 @case

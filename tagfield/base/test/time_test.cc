@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::int64_t kMost = 9'200'000'000'000'000'000;
+constexpr std::int64_t kMost = 4'600'000'000'000'000'000;
 
 Time at(std::int64_t nanos) { return Time(Duration(nanos)); }
 
@@ -63,10 +63,21 @@ TEST(ParseStamp, RefusesAllElse) {
 }
 
 TEST(ParseStamp, RefusesWhatNoStampHolds) {
-  for (const char* text : {"9200000000", "99999999999999999999", "-9300000000", "1e30"}) {
+  for (const char* text :
+       {"4600000000", "-4600000000", "9199999999", "99999999999999999999", "-4.7e9", "1e30"}) {
     EXPECT_THROW(parse_stamp(text), Error) << text;
   }
-  EXPECT_EQ(parse_stamp("9199999999.999999999"), at(kMost - 1));
+  EXPECT_EQ(parse_stamp("4599999999.999999999"), at(kMost - 1));
+  EXPECT_EQ(error_of([] { parse_stamp("-9199999999.5"); }),
+            "stamp -9199999999.5 s is no time: expected less than 4.6e+09 s (146 years) from 0");
+}
+
+TEST(ParseStamp, TakesOnlyStampsWhoseDifferencesAreDurations) {
+  const Duration apart = parse_stamp("4599999999.999999999") - parse_stamp("-4599999999.999999999");
+  EXPECT_EQ(apart.count(), 2 * (kMost - 1));
+  EXPECT_EQ(duration_from_seconds(9.19e9).count(), 9'190'000'000'000'000'000);
+  EXPECT_THROW(time_from_seconds(4.6e9), Error);
+  EXPECT_THROW(time_from_seconds(std::numeric_limits<double>::quiet_NaN()), Error);
 }
 
 TEST(DurationFromSeconds, IsTheNearestNanosecond) {

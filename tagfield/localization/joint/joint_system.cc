@@ -70,9 +70,9 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
     const PoseKnots::Chain& chain = knots.chains[found->second];
     const Trajectory& reference = problem.tracks.at(chain.reference).X_WA;
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
-      const KnotPlace place = place_in(chain, tag.phases.time_s[i]);
+      const KnotPlace place = place_in(knots, chain, tag.phases.time_s[i]);
       tag.knot[i] = static_cast<int>(place.at);
-      tag.knot_weight[i] = place.weight;
+      tag.knot_weight[i] = place.after;
       first = last < 0 ? tag.knot[i] : std::min(first, tag.knot[i]);
       last = std::max(last, tag.knot[i] + 1);
       if (span.antenna == chain.reference) continue;
@@ -141,10 +141,15 @@ JointCovariance covariance_of(const JointSystem& system, int threads) {
 
 double evidence(const JointSystem& system, double cost, double log_determinant) {
   // ln |Λ| of the prior: each step of a chain has the precision 1/(1 − ρ²) in each unknown.
+  const Eigen::ArrayXd rho = system.knots.correlations();
+  const auto of_steps = [&](Index steps, double correlation) {
+    return static_cast<double>(steps * system.knots.size) * std::log1p(-correlation * correlation);
+  };
   double prior = 0.0;
   for (const PoseKnots::Chain& chain : system.knots.chains) {
-    const double rho = system.knots.correlation(chain);
-    prior -= static_cast<double>((chain.count - 1) * system.knots.size) * std::log1p(-rho * rho);
+    for (const PoseKnots::Piece& piece : chain.pieces) {
+      prior -= of_steps(1, rho[piece.first]) + of_steps(piece.count - 1, rho[piece.first + 1]);
+    }
   }
   return cost + log_determinant - prior;
 }

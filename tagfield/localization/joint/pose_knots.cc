@@ -4,7 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
@@ -39,27 +42,17 @@ bool is_rigid(const Trajectory& a, const Trajectory& b) {
   return looks >= 2;
 }
 
-/// First and last time that any antenna of the body read anything [s].
-struct Period {
-  double begin = 0.0;
-  double end = 0.0;
-  bool any = false;
-};
-
-Period period_of(const LocalizationProblem& problem, const Body& body) {
-  Period period;
+/// Periods in which antennas of the body read anything.
+std::vector<Period> reading_periods(const LocalizationProblem& problem, const Body& body,
+                                    double longest_pause_s) {
+  std::vector<double> times_s;
   for (const auto& [tag, of_tag] : problem.samples) {
     for (const std::string& antenna : body.antennas) {
       const auto series = of_tag.find(antenna);
-      if (series == of_tag.end() || series->second.empty()) continue;
-      const double begin = to_seconds(series->second.front().stamp);
-      const double end = to_seconds(series->second.back().stamp);
-      period.begin = period.any ? std::min(period.begin, begin) : begin;
-      period.end = period.any ? std::max(period.end, end) : end;
-      period.any = true;
+      if (series != of_tag.end()) append_times(series->second, times_s);
     }
   }
-  return period;
+  return periods_of(std::move(times_s), longest_pause_s);
 }
 
 Eigen::Matrix3d model_scale(const PoseErrorModel& model) {
@@ -87,25 +80,44 @@ Eigen::Matrix3d told_scale(const BelievedTrack& track, double time_s) {
   return root(track.covariance[static_cast<std::size_t>(i)]);
 }
 
+PoseKnots::Piece piece_over(const Period& period, double spacing_s, Eigen::Index first) {
+  const double length = period.end_s - period.begin_s;
+  const auto steps = std::max(1.0, std::ceil(length / spacing_s));
+  PoseKnots::Piece piece;
+  piece.first = first;
+  piece.count = static_cast<Eigen::Index>(steps) + 1;
+  piece.begin_s = period.begin_s;
+  piece.spacing_s = std::max(length / steps, 1e-6);
+  return piece;
+}
+
 void add_chain(const LocalizationProblem& problem, const Body& body, const PoseErrorModel* model,
                double spacing_s, PoseKnots& knots) {
-  const Period period = period_of(problem, body);
-  if (!period.any) return;
-  const double length = period.end - period.begin;
+  const double longest_pause_s = std::max(knots.time_constant_s, spacing_s);
   PoseKnots::Chain chain;
   chain.reference = body.reference;
-  chain.first = knots.count();
-  const auto steps = std::max(1.0, std::ceil(length / spacing_s));
-  chain.count = static_cast<Eigen::Index>(steps) + 1;
-  chain.begin_s = period.begin;
-  chain.spacing_s = std::max(length / steps, 1e-6);
   const BelievedTrack& track = problem.tracks.at(body.reference);
-  for (Eigen::Index k = 0; k < chain.count; ++k) {
-    const double time_s = chain.begin_s + static_cast<double>(k) * chain.spacing_s;
-    knots.scale.push_back(model != nullptr ? model_scale(*model) : told_scale(track, time_s));
+  for (const Period& period : reading_periods(problem, body, longest_pause_s)) {
+    const PoseKnots::Piece piece = piece_over(period, spacing_s, knots.count());
+    for (Eigen::Index k = 0; k < piece.count; ++k) {
+      const double time_s = piece.begin_s + static_cast<double>(k) * piece.spacing_s;
+      knots.scale.push_back(model != nullptr ? model_scale(*model) : told_scale(track, time_s));
+    }
+    chain.pieces.push_back(piece);
   }
+  if (chain.pieces.empty()) return;
   for (const std::string& antenna : body.antennas) knots.chain_of[antenna] = knots.chains.size();
-  knots.chains.push_back(chain);
+  knots.chains.push_back(std::move(chain));
+}
+
+/// In a pause: what the errors at its ends tell of the error between them, which is forgotten with
+/// time from both: sinh((T − t)/τ)/sinh(T/τ) of the first and sinh(t/τ)/sinh(T/τ) of the second,
+/// with exponents that do not overflow.
+KnotPlace place_in_pause(Eigen::Index before, double since_s, double pause_s, double tau_s) {
+  const double until_s = pause_s - since_s;
+  const double whole = -std::expm1(-2.0 * pause_s / tau_s);
+  return {before, std::exp(-since_s / tau_s) * -std::expm1(-2.0 * until_s / tau_s) / whole,
+          std::exp(-until_s / tau_s) * -std::expm1(-2.0 * since_s / tau_s) / whole};
 }
 
 /// The believed place less the error there.
@@ -137,8 +149,22 @@ std::vector<Body> bodies_of(const LocalizationProblem& problem) {
   return bodies;
 }
 
-double PoseKnots::correlation(const Chain& chain) const {
-  return std::exp(-chain.spacing_s / time_constant_s);
+double PoseKnots::Piece::end_s() const {
+  return begin_s + static_cast<double>(count - 1) * spacing_s;
+}
+
+Eigen::ArrayXd PoseKnots::correlations() const {
+  Eigen::ArrayXd rho = Eigen::ArrayXd::Zero(count() + 1);
+  for (const Chain& chain : chains) {
+    double end_s = -std::numeric_limits<double>::infinity();
+    for (const Piece& piece : chain.pieces) {
+      rho[piece.first] = std::exp(-(piece.begin_s - end_s) / time_constant_s);
+      rho.segment(piece.first + 1, piece.count - 1)
+          .setConstant(std::exp(-piece.spacing_s / time_constant_s));
+      end_s = piece.end_s();
+    }
+  }
+  return rho;
 }
 
 PoseKnots make_knots(const LocalizationProblem& problem, const PoseErrorModel* model,
@@ -158,22 +184,32 @@ PoseKnots scaled(PoseKnots knots, double factor) {
   return knots;
 }
 
-KnotPlace place_in(const PoseKnots::Chain& chain, double time_s) {
-  const double steps = (time_s - chain.begin_s) / chain.spacing_s;
-  const auto last = static_cast<double>(chain.count - 2);
+KnotPlace place_in(const PoseKnots& knots, const PoseKnots::Chain& chain, double time_s) {
+  const auto next = std::upper_bound(
+      chain.pieces.begin() + 1, chain.pieces.end(), time_s,
+      [](double time, const PoseKnots::Piece& piece) { return time < piece.begin_s; });
+  const PoseKnots::Piece& piece = *(next - 1);
+  const double end_s = piece.end_s();
+  if (next != chain.pieces.end() && time_s > end_s) {
+    return place_in_pause(piece.first + piece.count - 1, time_s - end_s, next->begin_s - end_s,
+                          knots.time_constant_s);
+  }
+  const double steps = (time_s - piece.begin_s) / piece.spacing_s;
+  const auto last = static_cast<double>(piece.count - 2);
   const double at = std::clamp(std::floor(steps), 0.0, last);
-  return {chain.first + static_cast<Eigen::Index>(at), std::clamp(steps - at, 0.0, 1.0)};
+  const double weight = std::clamp(steps - at, 0.0, 1.0);
+  return {piece.first + static_cast<Eigen::Index>(at), 1.0 - weight, weight};
 }
 
 Eigen::Vector3d error_at(const PoseKnots& knots, const Eigen::VectorXd& u,
                          const PoseKnots::Chain& chain, double time_s) {
-  const KnotPlace place = place_in(chain, time_s);
+  const KnotPlace place = place_in(knots, chain, time_s);
   const auto error = [&](Eigen::Index knot) {
     Eigen::Vector3d padded = Eigen::Vector3d::Zero();
     padded.head(knots.size) = u.segment(knot * knots.size, knots.size);
     return Eigen::Vector3d(knots.scale[static_cast<std::size_t>(knot)] * padded);
   };
-  Eigen::Vector3d sum = (1.0 - place.weight) * error(place.at) + place.weight * error(place.at + 1);
+  Eigen::Vector3d sum = place.before * error(place.at) + place.after * error(place.at + 1);
   if (knots.size == 2) sum.z() = 0.0;
   return sum;
 }

@@ -81,8 +81,7 @@ TEST(Bound, OfTruePoseIsTheInverseOfTheInformation) {
   EXPECT_LT((found - expected.topLeftCorner<2, 2>()).norm(), 1e-3 * found.norm());
 }
 
-TEST(Bound, WithPoseErrorIsThatOfTheMarginalCovariance) {
-  const BoundInput input = input_of(hall_on_true_poses(3, 0.01, 2));
+void expect_the_marginal_covariance(const BoundInput& input) {
   const Eigen::MatrixXd expected = brute_force_covariance(input);
   const Bounds joint = joint_bounds(input);
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -93,6 +92,19 @@ TEST(Bound, WithPoseErrorIsThatOfTheMarginalCovariance) {
       const double scale = Eigen::Matrix2d(expected.block<2, 2>(3 * i, 3 * i)).norm();
       EXPECT_LT((found - brute).norm(), 0.03 * scale);
     }
+  }
+}
+
+TEST(Bound, WithPoseErrorIsThatOfTheMarginalCovariance) {
+  expect_the_marginal_covariance(input_of(hall_on_true_poses(3, 0.01, 2)));
+}
+
+TEST(Bound, WithPausesIsThatOfTheMarginalCovariance) {
+  made::Hall hall = hall_on_true_poses(3, 0.01, 2);
+  for (const double pause_s : {7.0, 30.0, 86400.0}) {
+    made::Hall paused = hall;
+    made::pause(paused, 6.0, pause_s);
+    expect_the_marginal_covariance(input_of(paused));
   }
 }
 

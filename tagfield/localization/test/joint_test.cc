@@ -103,6 +103,49 @@ TEST(Joint, IsTheSingleEstimateWhereThePoseIsTrue) {
   EXPECT_NEAR(outcome.joint.mean(), outcome.single.mean(), 0.05 * outcome.bound);
 }
 
+TEST(Joint, APauseOfADayChangesEstimatesByLessThanTheirDeviation) {
+  made::Noise noise;
+  noise.pose_m = 0.02;
+  for (const bool told : {true, false}) {
+    made::Rng rng(7);
+    made::Hall hall = made::hall(made::aisles(0.02), 8, noise, rng);
+    if (!told) hall.problem.pose_error.reset();
+    made::Hall paused = hall;
+    made::pause(paused, 36.0, 86400.0);
+    const LocalizationResult without = run(joint_method(), hall.problem);
+    const LocalizationResult with = run(joint_method(), paused.problem);
+    for (std::size_t i = 0; i < with.estimates.size(); ++i) {
+      const Candidate& a = without.estimates[i].candidates.front();
+      const Candidate& b = with.estimates[i].candidates.front();
+      ASSERT_TRUE(b.p_WT.allFinite() && b.covariance->allFinite());
+      EXPECT_LT((a.p_WT - b.p_WT).head<2>().norm(), a.expected_error_m);
+      EXPECT_NEAR(b.expected_error_m, a.expected_error_m, 0.3 * a.expected_error_m);
+    }
+  }
+}
+
+TEST(Joint, HasHonestCovariancesWithPausesInWhichThePoseErrorIsForgotten) {
+  made::Noise noise;
+  noise.pose_m = 0.02;
+  Errors errors;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    made::Rng rng(seed);
+    // Errors of two halves are drawn apart, as those of two days.
+    const made::Path path = made::aisles(0.02);
+    made::Path beliefs = made::believed(path, noise, made::kPathRate, rng);
+    const made::Path later = made::believed(path, noise, made::kPathRate, rng);
+    std::copy(later.begin() + 541, later.end(), beliefs.begin() + 541);
+    made::Hall hall = made::hall(path, beliefs, 8, noise, rng);
+    made::pause(hall, 36.0, 86400.0);
+    add(hall, run(joint_method(), hall.problem), errors);
+  }
+  EXPECT_EQ(errors.not_located, 0U);
+  // Expected 2; errors of a run are correlated, so that the mean of 12 runs strays by a fifth.
+  const double nees = errors.nees / static_cast<double>(errors.all.size());
+  EXPECT_GT(nees, 1.2);
+  EXPECT_LT(nees, 2.8);
+}
+
 TEST(Joint, LearnsTheStrengthOfThePoseError) {
   made::Noise noise;
   noise.pose_m = 0.02;

@@ -47,4 +47,16 @@ inline Hall hall(const Path& path, int tags, const Noise& noise, Rng& rng, doubl
   return hall(path, believed(path, noise, kPathRate, rng), tags, noise, rng, z);
 }
 
+/// The clock goes on by `pause_s` after so long, while nothing moves or is read.
+inline void pause(Hall& hall, double after_s, double pause_s) {
+  const Time begin = time_from_seconds(ReaderSetup{}.start_s + after_s);
+  const auto shift = [&](auto& rows) {
+    for (auto& row : rows) row.stamp += duration_from_seconds(row.stamp > begin ? pause_s : 0.0);
+  };
+  for (auto& [antenna, track] : hall.problem.tracks) shift(track.X_WA);
+  for (auto& [tag, of_tag] : hall.problem.samples) {
+    for (auto& [antenna, series] : of_tag) shift(series);
+  }
+}
+
 }  // namespace tagfield::made

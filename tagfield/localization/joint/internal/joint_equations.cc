@@ -102,20 +102,18 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
 template <int D>
 void add_prior(const JointSystem& system, ChainPart<D>& chain) {
   constexpr int size = D;
-  for (const PoseKnots::Chain& of : system.knots.chains) {
-    const double rho = system.knots.correlation(of);
-    const double fresh = 1.0 / (1.0 - rho * rho);
-    for (Index k = 0; k < of.count; ++k) {
-      const Index at = (of.first + k) * size;
-      const bool has_next = k + 1 < of.count;
-      const double own = (k == 0 ? 1.0 : fresh) + (has_next ? rho * rho * fresh : 0.0);
-      chain.diagonal.middleCols(at, size).diagonal().array() += own;
-      chain.gradient.segment(at, size) -= own * system.u.segment(at, size);
-      if (!has_next) continue;
-      chain.next.middleCols(at, size).diagonal().array() -= rho * fresh;
-      chain.gradient.segment(at, size) += rho * fresh * system.u.segment(at + size, size);
-      chain.gradient.segment(at + size, size) += rho * fresh * system.u.segment(at, size);
-    }
+  const Eigen::ArrayXd rho = system.knots.correlations();
+  const Eigen::ArrayXd fresh = 1.0 / (1.0 - rho * rho);
+  for (Index k = 0; k < system.knots.count(); ++k) {
+    const Index at = k * size;
+    const double next = rho[k + 1] * fresh[k + 1];
+    const double own = fresh[k] + rho[k + 1] * rho[k + 1] * fresh[k + 1];
+    chain.diagonal.middleCols(at, size).diagonal().array() += own;
+    chain.gradient.segment(at, size) -= own * system.u.segment(at, size);
+    if (rho[k + 1] <= 0.0) continue;
+    chain.next.middleCols(at, size).diagonal().array() -= next;
+    chain.gradient.segment(at, size) += next * system.u.segment(at + size, size);
+    chain.gradient.segment(at + size, size) += next * system.u.segment(at, size);
   }
 }
 
@@ -146,16 +144,16 @@ ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t spa
 
 double prior_cost(const JointSystem& system) {
   const int size = system.knots.size;
+  const Eigen::ArrayXd rho = system.knots.correlations();
   double cost = 0.0;
-  for (const PoseKnots::Chain& of : system.knots.chains) {
-    const double rho = system.knots.correlation(of);
-    const double fresh = 1.0 / (1.0 - rho * rho);
-    cost += system.u.segment(of.first * size, size).squaredNorm();
-    for (Index k = 1; k < of.count; ++k) {
-      const Index at = (of.first + k) * size;
-      cost += fresh *
-              (system.u.segment(at, size) - rho * system.u.segment(at - size, size)).squaredNorm();
+  for (Index k = 0; k < system.knots.count(); ++k) {
+    const auto u = system.u.segment(k * size, size);
+    if (rho[k] <= 0.0) {
+      cost += u.squaredNorm();
+      continue;
     }
+    const double fresh = 1.0 / (1.0 - rho[k] * rho[k]);
+    cost += fresh * (u - rho[k] * system.u.segment((k - 1) * size, size)).squaredNorm();
   }
   return cost;
 }

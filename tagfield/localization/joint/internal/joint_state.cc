@@ -7,6 +7,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_noise.h"
@@ -34,25 +35,24 @@ bool has_told_covariances(const LocalizationProblem& problem) {
                      [](const auto& named) { return !named.second.covariance.empty(); });
 }
 
-double duration_of(const LocalizationProblem& problem) {
-  double begin = 1e300;
-  double end = -1e300;
+/// Periods in which anything is read, parted by pauses longer than that.
+std::vector<Period> reading_periods(const LocalizationProblem& problem, double longest_pause_s) {
+  std::vector<double> times_s;
   for (const auto& [tag, of_tag] : problem.samples) {
-    for (const auto& [antenna, series] : of_tag) {
-      if (series.empty()) continue;
-      begin = std::min(begin, to_seconds(series.front().stamp));
-      end = std::max(end, to_seconds(series.back().stamp));
-    }
+    for (const auto& [antenna, series] : of_tag) append_times(series, times_s);
   }
-  return std::max(end - begin, 0.0);
+  return periods_of(std::move(times_s), longest_pause_s);
 }
 
 /// Time between knots, finer where few tags make that cheap.
 double knot_spacing(const LocalizationProblem& problem, std::size_t tags, double time_constant_s) {
   constexpr Index kUnknownsOfTag = 4;
   const double fine = time_constant_s / kKnotsPerTimeConstant;
-  const double duration = duration_of(problem);
-  const auto unknowns = static_cast<Index>(2.0 * duration / fine) + 2;
+  const std::vector<Period> periods = reading_periods(problem, time_constant_s);
+  double duration = 0.0;
+  for (const Period& period : periods) duration += period.end_s - period.begin_s;
+  const auto unknowns =
+      static_cast<Index>(2.0 * duration / fine) + 2 * static_cast<Index>(periods.size());
   if (eliminates_knots_first(unknowns, std::vector<Index>(tags, kUnknownsOfTag))) return fine;
   return std::max(time_constant_s / kCoarseKnots, 2.0 * duration / kMostUnknowns);
 }
