@@ -6,6 +6,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/ros2_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
@@ -35,6 +36,7 @@ struct RunArguments {
   bool no_page = false;
   bool breakdown = false;
   bool record_only = false;
+  Ros2Arguments ros2;
 };
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
@@ -73,8 +75,9 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,
                                        const NavigationWorld* world, StagedFolder& folder,
                                        Diagnostics& diagnostics) {
-  ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   RunControl control;
+  const std::shared_ptr<ros2::DdsSink> listened = attach_ros2(arguments.ros2, control.outlets);
+  ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   control.keeps_recording = !arguments.record_only;
   attach(std::make_shared<CsvOutlet>(folder), control.outlets);
   control.threads = arguments.threads;
@@ -82,8 +85,12 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scen
   control.on_progress = [&bar](double share) { bar.show(share); };
   catch_interrupts();
   const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
-  if (arguments.record_only) return {simulate(scenario, seed, control, world)};
-  return run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
+  std::vector<SeedRun> runs =
+      arguments.record_only
+          ? std::vector<SeedRun>{simulate(scenario, seed, control, world)}
+          : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
+  if (listened) listened->finish();
+  return runs;
 }
 
 /// Empty where it is not asked for.
@@ -146,8 +153,8 @@ int run(const RunArguments& arguments) {
     overrides.push_back(parse_override(setting));
   }
   Diagnostics diagnostics;
-  const ScenarioWithWorld loaded =
-      load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+  ScenarioWithWorld loaded = load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+  set_pace(arguments.ros2, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
@@ -211,6 +218,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
                  "Run again with each effect of the physical models alone and with all but it, "
                  "and say what each costs")
       ->excludes("--record-only");
+  add_ros2_options(*command, arguments->ros2);
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
       "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");

@@ -30,7 +30,8 @@ def require_rosbag():
 def message_texts(source):
     """The text of each message by name, the project's own and those that they hold."""
     texts = {}
-    for path in sorted((source / "adapters/ros1").glob("*/msg/*.msg")):
+    adapters = source / "adapters"
+    for path in (*adapters.glob("*/msg/*.msg"), *adapters.glob("ros1/*/msg/*.msg")):
         texts[f"{path.parent.parent.name}/{path.stem}"] = path.read_text(encoding="utf-8")
     for package in ("std_msgs", "geometry_msgs"):
         for path in pathlib.Path(f"/usr/share/{package}/msg").glob("*.msg"):

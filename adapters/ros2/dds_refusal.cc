@@ -1,0 +1,19 @@
+// In place of dds_sink.cc, in builds without DDS.
+#include "adapters/ros2/dds_sink.h"
+#include "tagfield/base/error.h"
+
+namespace tagfield::ros2 {
+
+struct DdsSink::Impl {};
+
+DdsSink::DdsSink(std::uint32_t /*domain*/, const std::string& /*node_name*/) {
+  throw Error("this tagfield was built without ROS 2 (-DTAGFIELD_ROS2=OFF)");
+}
+
+DdsSink::~DdsSink() = default;
+std::size_t DdsSink::advertise(const Ros2Topic& /*topic*/, const Ros2Type& /*type*/) { return 0; }
+void DdsSink::publish(std::size_t /*topic*/, Time /*stamp*/, const void* /*message*/) {}
+void DdsSink::finish() {}
+bool DdsSink::wait_for_reader(Duration /*most*/) const { return false; }
+
+}  // namespace tagfield::ros2

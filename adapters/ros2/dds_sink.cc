@@ -1,0 +1,173 @@
+#include "adapters/ros2/dds_sink.h"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "adapters/ros2/dds_types.h"
+#include "tagfield/base/error.h"
+
+namespace tagfield::ros2 {
+namespace {
+
+constexpr dds_duration_t kMostBlocking = DDS_SECS(1);
+constexpr dds_duration_t kMostWaitAtEnd = DDS_SECS(3);
+constexpr std::int32_t kDepth = 1000;  // Of reliable topics: about a second of a fast run.
+
+/// Deleted with all that belongs to it.
+class Entity {
+ public:
+  Entity(dds_entity_t handle, const std::string& what) : handle_(handle) {
+    if (handle < 0) throw Error(fmt::format("ROS 2: {}: {}", what, dds_strretcode(-handle)));
+  }
+  ~Entity() {
+    if (handle_ > 0) dds_delete(handle_);
+  }
+  Entity(Entity&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
+  Entity& operator=(Entity&& other) = delete;
+  [[nodiscard]] dds_entity_t get() const { return handle_; }
+
+ private:
+  dds_entity_t handle_;
+};
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+
+Qos with_user_data(const std::string& text) {
+  Qos qos(dds_create_qos());
+  dds_qset_userdata(qos.get(), text.data(), text.size());
+  return qos;
+}
+
+/// As rmw writes: XCDR1 is all that ROS 2 reads.
+Qos writer_qos(Delivery delivery, const std::string& type_hash) {
+  Qos qos = with_user_data(fmt::format("typehash={};", type_hash));
+  const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
+  dds_qset_data_representation(qos.get(), 1, &xcdr1);
+  const bool keeps_one = delivery != Delivery::kReliable;
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keeps_one ? 1 : kDepth);
+  dds_qset_reliability(
+      qos.get(),
+      delivery == Delivery::kBestEffort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+      kMostBlocking);
+  dds_qset_durability(qos.get(), delivery == Delivery::kLatched ? DDS_DURABILITY_TRANSIENT_LOCAL
+                                                                : DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+rmw_dds_common::Gid gid_of(dds_entity_t entity) {
+  dds_guid_t guid{};
+  dds_get_guid(entity, &guid);
+  rmw_dds_common::Gid gid;
+  std::copy(std::begin(guid.v), std::end(guid.v), gid.data.begin());
+  return gid;
+}
+
+std::uint32_t checked_domain(std::uint32_t domain) {
+  if (domain > 232) {
+    throw Error(fmt::format("ROS 2: domain {}: expected 0 to 232, the ones with ports", domain));
+  }
+  return domain;
+}
+
+struct Writer {
+  Entity topic;
+  Entity writer;
+  DdsType type;
+};
+
+}  // namespace
+
+struct DdsSink::Impl {
+  Impl(std::uint32_t domain, std::string name)
+      : node_name(std::move(name)),
+        participant(dds_create_participant(checked_domain(domain),
+                                           with_user_data("enclave=/;").get(), nullptr),
+                    fmt::format("can't join domain {}", domain)) {
+    // Without the prefix that topics of nodes have.
+    discovery.emplace(make_writer("ros_discovery_info", Delivery::kLatched,
+                                  type_of(rmw_dds_common::ParticipantEntitiesInfo{})));
+    tell_graph();
+  }
+
+  Writer make_writer(const std::string& topic, Delivery delivery, const Ros2Type& type) const {
+    const DdsType& dds_type = dds_types().at(type.name);
+    Entity made(
+        dds_create_topic(participant.get(), dds_type.descriptor, topic.c_str(), nullptr, nullptr),
+        topic);
+    Entity writer(dds_create_writer(participant.get(), made.get(),
+                                    writer_qos(delivery, type.hash).get(), nullptr),
+                  topic);
+    return {std::move(made), std::move(writer), dds_type};
+  }
+
+  /// Shows this as a node with its writers; all others in the graph do the same.
+  void tell_graph() {
+    rmw_dds_common::NodeEntitiesInfo node;
+    node.node_namespace = "/";
+    node.node_name = node_name;
+    for (const Writer& writer : writers) node.writer_gid_seq.push_back(gid_of(writer.writer.get()));
+    const rmw_dds_common::ParticipantEntitiesInfo info{gid_of(participant.get()), {node}};
+    write(*discovery, &info);
+  }
+
+  static void write(const Writer& writer, const void* message) {
+    writer.type.with_struct(message, [&](const void* data) {
+      const dds_return_t result = dds_write(writer.writer.get(), data);
+      // A reader that stands still must not stop the run: it loses what it has no room for.
+      if (result < 0 && result != DDS_RETCODE_TIMEOUT) {
+        throw Error(fmt::format("ROS 2: can't send: {}", dds_strretcode(-result)));
+      }
+    });
+  }
+
+  std::string node_name;
+  Entity participant;
+  std::optional<Writer> discovery;
+  std::vector<Writer> writers;
+};
+
+DdsSink::DdsSink(std::uint32_t domain, const std::string& node_name)
+    : impl_(std::make_unique<Impl>(domain, node_name)) {}
+
+DdsSink::~DdsSink() = default;
+
+std::size_t DdsSink::advertise(const Ros2Topic& topic, const Ros2Type& type) {
+  impl_->writers.push_back(impl_->make_writer("rt" + topic.name, topic.delivery, type));
+  impl_->tell_graph();
+  return impl_->writers.size() - 1;
+}
+
+void DdsSink::publish(std::size_t topic, Time /*stamp*/, const void* message) {
+  Impl::write(impl_->writers.at(topic), message);
+}
+
+void DdsSink::finish() {
+  for (const Writer& writer : impl_->writers) {
+    dds_wait_for_acks(writer.writer.get(), kMostWaitAtEnd);
+  }
+}
+
+bool DdsSink::wait_for_reader(Duration most) const {
+  const auto until = std::chrono::steady_clock::now() + most;
+  do {
+    for (const Writer& writer : impl_->writers) {
+      dds_publication_matched_status_t matched{};
+      dds_get_publication_matched_status(writer.writer.get(), &matched);
+      if (matched.current_count > 0) return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  } while (std::chrono::steady_clock::now() < until);
+  return false;
+}
+
+}  // namespace tagfield::ros2

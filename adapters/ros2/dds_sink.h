@@ -1,0 +1,33 @@
+/// @file
+/// ROS 2 messages into DDS, as a node of ROS 2 would send them, without any of ROS 2.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "adapters/ros2/message_sink.h"
+
+namespace tagfield::ros2 {
+
+/// A node in the graph of a ROS 2 domain.
+class DdsSink : public MessageSink {
+ public:
+  /// Joins the domain, 0 to 232. Throws Error if that can't be done, as without a network interface
+  /// to use (CYCLONEDDS_URI says which; docs/ros2.md).
+  DdsSink(std::uint32_t domain, const std::string& node_name);
+  ~DdsSink() override;
+
+  std::size_t advertise(const Ros2Topic& topic, const Ros2Type& type) override;
+  void publish(std::size_t topic, Time stamp, const void* message) override;
+  /// Waits until reliable readers have got it all, a few seconds at the most.
+  void finish() override;
+
+  /// Waits until somebody listens to any of the topics, `most` at the longest; whether one does.
+  bool wait_for_reader(Duration most) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tagfield::ros2

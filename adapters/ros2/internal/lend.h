@@ -1,0 +1,68 @@
+/// @file
+/// C++ messages lent to structs of C, which point at what the messages hold for as long as they
+/// live.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/ros2/dds_types.h"
+
+namespace tagfield::ros2 {
+
+/// Lists of structs, which must be made anew.
+class Arena {
+ public:
+  template <class T>
+  T* list_of(std::size_t length) {
+    lists_.push_back(std::make_unique<std::byte[]>(length * sizeof(T)));
+    return reinterpret_cast<T*>(lists_.back().get());
+  }
+
+ private:
+  std::vector<std::unique_ptr<std::byte[]>> lists_;  // Zeros; new aligns for any T.
+};
+
+inline void lend(const std::string& text, char*& target, Arena&) {
+  target = const_cast<char*>(text.c_str());
+}
+
+/// A text of bounded length is a part of its struct; what is too long is cut.
+template <std::size_t N>
+void copy_text(const std::string& text, char (&target)[N]) {
+  const std::size_t length = std::min(text.size(), N - 1);
+  std::copy_n(text.begin(), length, target);
+  target[length] = '\0';
+}
+
+template <class T, class Sequence>
+void lend_numbers(const std::vector<T>& values, Sequence& target) {
+  target._maximum = target._length = static_cast<std::uint32_t>(values.size());
+  target._buffer = const_cast<T*>(values.data());
+  target._release = false;
+}
+
+/// `lend` of the elements is found where this is used.
+template <class C, class T, class Sequence>
+void lend_list(const std::vector<T>& values, Sequence& target, Arena& arena) {
+  target._maximum = target._length = static_cast<std::uint32_t>(values.size());
+  target._buffer = arena.list_of<C>(values.size());
+  target._release = false;
+  for (std::size_t i = 0; i < values.size(); ++i) lend(values[i], target._buffer[i], arena);
+}
+
+template <class Message, class C>
+DdsType entry(const dds_topic_descriptor_t& descriptor) {
+  return {&descriptor, [](const void* message, const std::function<void(const void*)>& use) {
+            Arena arena;
+            C target{};
+            lend(*static_cast<const Message*>(message), target, arena);
+            use(&target);
+          }};
+}
+
+}  // namespace tagfield::ros2

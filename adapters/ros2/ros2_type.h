@@ -1,0 +1,16 @@
+/// @file
+/// What ROS 2 and its bags know of a message's type.
+#pragma once
+
+#include <string>
+
+namespace tagfield::ros2 {
+
+struct Ros2Type {
+  std::string name;        ///< "tagfield_msgs/msg/TagReads"
+  std::string hash;        ///< "RIHS01_…", which versions from Iron on compare.
+  std::string definition;  ///< The .msg file and those of all that it is made of ("ros2msg").
+  std::string (*to_cdr)(const void* message);
+};
+
+}  // namespace tagfield::ros2

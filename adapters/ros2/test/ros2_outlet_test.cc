@@ -1,0 +1,197 @@
+#include "adapters/ros2/ros2_outlet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tagfield::ros2 {
+namespace {
+
+/// Keeps all messages as bytes.
+class Kept : public MessageSink {
+ public:
+  std::size_t advertise(const Ros2Topic& topic, const Ros2Type& type) override {
+    topics_.push_back({topic, &type});
+    return topics_.size() - 1;
+  }
+  void publish(std::size_t topic, Time stamp, const void* message) override {
+    bytes_[topics_.at(topic).first.name].push_back(topics_.at(topic).second->to_cdr(message));
+    stamps_[topics_.at(topic).first.name].push_back(stamp);
+  }
+
+  /// All messages of a topic.
+  template <class Message>
+  [[nodiscard]] std::vector<Message> of(const std::string& topic) const {
+    std::vector<Message> messages;
+    const auto found = bytes_.find(topic);
+    if (found == bytes_.end()) return messages;
+    for (const std::string& bytes : found->second) {
+      messages.emplace_back();
+      EXPECT_TRUE(from_cdr(bytes, messages.back()));
+    }
+    return messages;
+  }
+  [[nodiscard]] Delivery delivery_of(const std::string& topic) const {
+    for (const auto& [known, type] : topics_) {
+      if (known.name == topic) return known.delivery;
+    }
+    ADD_FAILURE() << "no topic " << topic;
+    return Delivery::kReliable;
+  }
+
+ private:
+  std::vector<std::pair<Ros2Topic, const Ros2Type*>> topics_;
+  std::map<std::string, std::vector<std::string>> bytes_;
+  std::map<std::string, std::vector<Time>> stamps_;
+};
+
+AntennaInfo antenna_called(const std::string& name, bool is_fixed) {
+  AntennaInfo antenna;
+  antenna.name = antenna.frame_id = name;
+  antenna.reader = "reader";
+  antenna.is_fixed = is_fixed;
+  return antenna;
+}
+
+constexpr Time at(double seconds) {
+  return Time(Duration(static_cast<Duration::rep>(seconds * 1e9)));
+}
+
+/// An update with one read.
+void update(Ros2Outlet& outlet, const AntennaInfo& antenna, double seconds) {
+  const RigidTransform X_WA = from_translation({seconds, 2.0, 3.0});
+  outlet.on_pose(antenna, {at(seconds), antenna.name, X_WA, std::nullopt});
+  outlet.on_antenna_pose(antenna, {at(seconds), antenna.name, X_WA, std::nullopt});
+  outlet.on_distance({at(seconds), antenna.name, "tag", 4.5});
+  TagRead read;
+  read.stamp = at(seconds);
+  read.reader = antenna.reader;
+  read.antenna = antenna.name;
+  read.tag = "tag";
+  read.frequency_hz = 865.7e6;
+  read.phase_rad = 1.25;
+  read.rssi_dbm = -61.5;
+  outlet.on_read(read);
+  outlet.on_update(antenna, at(seconds));
+}
+
+TEST(Ros2Outlet, TellsReadsAndTheTruthApart) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  update(outlet, antenna_called("mobile", false), 1.5);
+  const auto reads = kept->of<tagfield_msgs::TagReads>("/rfid/reads");
+  ASSERT_EQ(reads.size(), 1U);
+  EXPECT_EQ(reads[0].header.frame_id, "mobile");
+  EXPECT_EQ(reads[0].header.stamp.sec, 1);
+  EXPECT_EQ(reads[0].header.stamp.nanosec, 500'000'000U);
+  ASSERT_EQ(reads[0].reads.size(), 1U);
+  EXPECT_EQ(reads[0].reads[0].epc, "tag");
+  EXPECT_EQ(reads[0].reads[0].phase, 1.25);
+  EXPECT_EQ(reads[0].reads[0].rssi, -61.5);
+  EXPECT_TRUE(std::isnan(reads[0].reads[0].doppler)) << "the reader does not tell it";
+  const auto truth = kept->of<tagfield_msgs::AntennaTruth>("/rfid/truth/antennas");
+  ASSERT_EQ(truth.size(), 1U);
+  EXPECT_EQ(truth[0].header.frame_id, "map");
+  EXPECT_EQ(truth[0].epcs, std::vector<std::string>{"tag"});
+  EXPECT_EQ(truth[0].distances, std::vector<double>{4.5});
+  EXPECT_EQ(truth[0].pose.position.y, 2.0);
+}
+
+TEST(Ros2Outlet, UpdatesWithoutReadsAreToldToo) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  outlet.on_update(antenna_called("mobile", false), at(1));
+  EXPECT_TRUE(kept->of<tagfield_msgs::TagReads>("/rfid/reads").at(0).reads.empty());
+}
+
+TEST(Ros2Outlet, FramesThatMoveAndThoseThatDont) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  for (const double seconds : {1.0, 2.0}) {
+    update(outlet, antenna_called("mobile", false), seconds);
+    update(outlet, antenna_called("gate", true), seconds);
+    update(outlet, antenna_called("dock", true), seconds);
+  }
+  const auto moving = kept->of<tf2_msgs::TFMessage>("/tf");
+  ASSERT_EQ(moving.size(), 2U);
+  EXPECT_EQ(moving[1].transforms.at(0).header.frame_id, "map");
+  EXPECT_EQ(moving[1].transforms.at(0).child_frame_id, "mobile");
+  EXPECT_EQ(moving[1].transforms.at(0).transform.translation.x, 2.0);
+  const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static");
+  ASSERT_EQ(fixed.size(), 2U) << "one as each of them is known";
+  EXPECT_EQ(fixed[1].transforms.size(), 2U) << "the last one holds all";
+  EXPECT_EQ(kept->delivery_of("/tf_static"), Delivery::kLatched);
+}
+
+TEST(Ros2Outlet, TheClockNeverStandsOrFalls) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  for (const double seconds : {1.0, 1.0, 2.0}) {
+    update(outlet, antenna_called("mobile", false), seconds);
+  }
+  const auto clock = kept->of<rosgraph_msgs::Clock>("/clock");
+  ASSERT_EQ(clock.size(), 2U);
+  EXPECT_EQ(clock[1].clock.sec, 2);
+}
+
+TEST(Ros2Outlet, TagsAreLatchedAndMovesAreTold) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  outlet.on_tag_added({at(0), "a", {1, 2, 3}}, "");
+  outlet.on_tag_added({at(0), "b", {4, 5, 6}}, "");
+  outlet.on_tags_placed(at(0));
+  outlet.on_tag_moved({at(1), "b", {7, 8, 9}});
+  outlet.on_tags_placed(at(1));
+  outlet.on_tag_removed("a");
+  outlet.on_tags_placed(at(2));
+  const auto tags = kept->of<tagfield_msgs::TagPositions>("/rfid/truth/tags");
+  ASSERT_EQ(tags.size(), 2U);
+  EXPECT_EQ(tags[0].tags.size(), 2U);
+  ASSERT_EQ(tags[1].tags.size(), 1U);
+  EXPECT_EQ(tags[1].tags[0].position.x, 7.0) << "where it moved to";
+  const auto moved = kept->of<tagfield_msgs::TagPositions>("/rfid/truth/tags_moved");
+  ASSERT_EQ(moved.size(), 1U);
+  EXPECT_EQ(moved[0].tags.at(0).epc, "b");
+}
+
+TEST(Ros2Outlet, OdometryHasTheSpeedInTheRobotsFrame) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  // Facing +y and driving there: forwards is +x of the robot.
+  const RigidTransform X_before = from_xyz_rpy({1, 0, 0}, {0, 0, M_PI / 2});
+  const RigidTransform X_after = from_xyz_rpy({1, 1, 0}, {0, 0, M_PI / 2});
+  outlet.on_robot_pose({at(1), "cart 1", X_before, std::nullopt});
+  outlet.on_robot_pose({at(3), "cart 1", X_after, std::nullopt});
+  const auto odometry = kept->of<nav_msgs::Odometry>("/cart_1/ground_truth/odom");
+  ASSERT_EQ(odometry.size(), 2U);
+  EXPECT_EQ(odometry[0].twist.twist.linear.x, 0.0);
+  EXPECT_NEAR(odometry[1].twist.twist.linear.x, 0.5, 1e-12);
+  EXPECT_NEAR(odometry[1].twist.twist.linear.y, 0.0, 1e-12);
+  EXPECT_EQ(odometry[1].child_frame_id, "cart 1/base_link");
+}
+
+TEST(TopicToken, IsOneThatRos2Takes) {
+  EXPECT_EQ(topic_token("gate_1"), "gate_1");
+  EXPECT_EQ(topic_token("gate 1/a"), "gate_1_a");
+  EXPECT_EQ(topic_token("1st"), "n1st");
+  EXPECT_EQ(topic_token("_x"), "n_x");
+  EXPECT_EQ(topic_token(""), "n");
+}
+
+TEST(Ros2Markers, DrawAntennasRangesAndTags) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Markers markers(kept);
+  markers.on_tag_added({at(0), "a", {1, 2, 3}}, "");
+  AntennaInfo antenna = antenna_called("gate", true);
+  antenna.range_m = 4.0;
+  markers.on_antenna_pose(antenna, {at(1), "gate", from_translation({1, 1, 1}), std::nullopt});
+  markers.on_update(antenna, at(1));
+  const auto drawn = kept->of<visualization_msgs::MarkerArray>("/rfid/markers");
+  ASSERT_EQ(drawn.size(), 1U);
+  ASSERT_EQ(drawn[0].markers.size(), 4U) << "away with the old, tags, arrow, ball";
+  EXPECT_EQ(drawn[0].markers[1].points.size(), 1U);
+  EXPECT_EQ(drawn[0].markers[3].scale.x, 8.0);
+}
+
+}  // namespace
+}  // namespace tagfield::ros2

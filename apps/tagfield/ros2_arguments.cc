@@ -1,0 +1,70 @@
+#include "apps/tagfield/ros2_arguments.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "adapters/ros2/ros2_outlet.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/number.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLastDomain = 232.0;
+constexpr const char* kNodeName = "tagfield";
+// Those who run already have found us by then, as a rule.
+constexpr Duration kMostWait = std::chrono::seconds(2);
+constexpr std::chrono::milliseconds kSettling(300);
+
+/// As all of ROS 2 has it.
+std::uint32_t domain_of_environment() {
+  const char* text = std::getenv("ROS_DOMAIN_ID");
+  if (text == nullptr || *text == '\0') return 0;
+  const std::optional<double> number = parse_number(text);
+  if (!number || *number < 0.0 || *number > kLastDomain ||
+      *number != static_cast<double>(static_cast<std::uint32_t>(*number))) {
+    throw Error(fmt::format("ROS_DOMAIN_ID is '{}', expected a whole number from 0 to {:g}", text,
+                            kLastDomain));
+  }
+  return static_cast<std::uint32_t>(*number);
+}
+
+}  // namespace
+
+void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
+  CLI::Option* ros2 = command.add_flag(
+      "--ros2", arguments.ros2,
+      "Play the run into ROS 2, in real time: /rfid/reads, /tf, /clock and more (docs/ros2.md)");
+  command
+      .add_option("--domain", arguments.domain,
+                  "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
+      ->check(CLI::Range(std::uint32_t{0}, static_cast<std::uint32_t>(kLastDomain)))
+      ->needs(ros2);
+  command
+      .add_option("--speed", arguments.speed,
+                  "Multiple of real time to run at, 0 for as fast as it can (default: as the "
+                  "scenario says; with --ros2 1)")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+void set_pace(const Ros2Arguments& arguments, Scenario& scenario) {
+  if (arguments.speed) {
+    scenario.real_time = *arguments.speed;
+  } else if (arguments.ros2 && !(scenario.real_time > 0.0)) {
+    scenario.real_time = 1.0;
+  }
+}
+
+std::shared_ptr<ros2::DdsSink> attach_ros2(const Ros2Arguments& arguments, Outlets& outlets) {
+  if (!arguments.ros2) return nullptr;
+  const std::uint32_t domain = arguments.domain ? *arguments.domain : domain_of_environment();
+  const auto sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
+  attach(std::make_shared<ros2::Ros2Outlet>(sink), outlets);
+  attach(std::make_shared<ros2::Ros2Markers>(sink), outlets);
+  if (sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
+  return sink;
+}
+
+}  // namespace tagfield
