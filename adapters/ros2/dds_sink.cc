@@ -18,7 +18,8 @@ namespace {
 
 constexpr dds_duration_t kMostBlocking = DDS_SECS(1);
 constexpr dds_duration_t kMostWaitAtEnd = DDS_SECS(3);
-constexpr std::int32_t kDepth = 1000;  // Of reliable topics: about a second of a fast run.
+constexpr std::uint32_t kLastDomain = 232;  // Those above have no ports.
+constexpr std::int32_t kDepth = 1000;       // Of reliable topics: about a second of a fast run.
 
 /// Deleted with all that belongs to it.
 class Entity {
@@ -72,11 +73,38 @@ rmw_dds_common::Gid gid_of(dds_entity_t entity) {
   return gid;
 }
 
-std::uint32_t checked_domain(std::uint32_t domain) {
-  if (domain > 232) {
-    throw Error(fmt::format("ROS 2: domain {}: expected 0 to 232, the ones with ports", domain));
+/// What the library has to say while it lives goes here, and not to the standard error.
+class Overheard {
+ public:
+  Overheard() { dds_set_log_sink(&Overheard::hear, &text_); }
+  ~Overheard() { dds_set_log_sink(nullptr, nullptr); }
+  Overheard(const Overheard&) = delete;
+  Overheard& operator=(const Overheard&) = delete;
+  /// Its first line, or "".
+  [[nodiscard]] std::string line() const { return text_.substr(0, text_.find('\n')); }
+
+ private:
+  static void hear(void* text, const dds_log_data_t* data) {
+    static_cast<std::string*>(text)->append(data->message);
   }
-  return domain;
+  std::string text_;
+};
+
+/// With what shows it as a part of ROS 2.
+Entity join(std::uint32_t domain) {
+  if (domain > kLastDomain) {
+    throw Error(fmt::format("ROS 2: domain {}: expected 0 to {}", domain, kLastDomain));
+  }
+  const Overheard overheard;
+  const dds_entity_t participant =
+      dds_create_participant(domain, with_user_data("enclave=/;").get(), nullptr);
+  if (participant < 0) {
+    throw Error(
+        fmt::format("ROS 2: can't join domain {} ({}); CYCLONEDDS_URI says which network "
+                    "interface to use",
+                    domain, overheard.line()));
+  }
+  return {participant, "participant"};
 }
 
 struct Writer {
@@ -89,10 +117,7 @@ struct Writer {
 
 struct DdsSink::Impl {
   Impl(std::uint32_t domain, std::string name)
-      : node_name(std::move(name)),
-        participant(dds_create_participant(checked_domain(domain),
-                                           with_user_data("enclave=/;").get(), nullptr),
-                    fmt::format("can't join domain {}", domain)) {
+      : node_name(std::move(name)), participant(join(domain)) {
     // Without the prefix that topics of nodes have.
     discovery.emplace(make_writer("ros_discovery_info", Delivery::kLatched,
                                   type_of(rmw_dds_common::ParticipantEntitiesInfo{})));

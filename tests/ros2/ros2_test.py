@@ -1,0 +1,196 @@
+#!/usr/bin/python3
+"""A run played into ROS 2, heard by another DDS (Fast DDS, ros2_listener) in a network of its own.
+
+What was heard is decoded here, by the tables of CDR alone.
+"""
+
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "command"))
+
+from common import (Skip, case, check, check_equal, check_in, clean_environment,  # noqa: E402
+                    main, read_csv)
+
+READS = "rt/rfid/reads=tagfield_msgs::msg::dds_::TagReads_"
+TAGS = "rt/rfid/truth/tags=tagfield_msgs::msg::dds_::TagPositions_:transient_local"
+CLOCK = "rt/clock=rosgraph_msgs::msg::dds_::Clock_:best_effort"
+STATIC_TF = "rt/tf_static=tf2_msgs::msg::dds_::TFMessage_:transient_local"
+GRAPH = "ros_discovery_info=rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_:transient_local"
+DOMAIN = 7
+
+
+class Cdr:
+    """Takes values from a message's bytes."""
+
+    def __init__(self, text):
+        data = bytes.fromhex(text)
+        check_equal(data[:4], b"\0\1\0\0", "header of CDR")
+        self.data = data[4:]
+        self.at = 0
+
+    def number(self, form):
+        size = struct.calcsize(form)
+        self.at += -self.at % size
+        self.at += size
+        return struct.unpack("<" + form, self.data[self.at - size:self.at])[0]
+
+    def text(self):
+        size = self.number("I")
+        self.at += size
+        return self.data[self.at - size:self.at - 1].decode("utf-8")
+
+    def stamp(self):
+        seconds = self.number("i")
+        return seconds + self.number("I") * 1e-9
+
+    def header(self):
+        return self.stamp(), self.text()
+
+
+def tag_reads(cdr):
+    """(stamp, antenna, epc, phase, rssi, frequency) of each read of a TagReads."""
+    cdr.header()
+    cdr.text()
+    found = []
+    for _ in range(cdr.number("I")):
+        stamp, _ = cdr.header()
+        epc, _, antenna = cdr.text(), cdr.text(), cdr.text()
+        frequency, phase, rssi = cdr.number("d"), cdr.number("d"), cdr.number("d")
+        cdr.number("d")
+        found.append((stamp, antenna, epc, phase, rssi, frequency))
+    return found
+
+
+def in_own_network(context, script):
+    """Runs a shell script in a network of its own, with a loopback interface alone."""
+    set_up = ("ip link set lo up && ip link set lo multicast on && "
+              "ip route add 224.0.0.0/4 dev lo && ")
+    unshare = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--net", "--map-root-user"]
+    tried = subprocess.run([*unshare, "sh", "-c", set_up + "true"], capture_output=True, text=True,
+                           check=False)
+    if tried.returncode != 0:
+        raise Skip(f"no network of one's own can be had: {tried.stderr.strip()[:200]}")
+    return subprocess.run([*unshare, "sh", "-c", set_up + script], cwd=context.folder,
+                          env=clean_environment(), capture_output=True, text=True, timeout=120,
+                          check=False)
+
+
+def listener(context):
+    path = context.build / "bin/ros2_listener"
+    if not path.exists():
+        raise Skip("Fast DDS is not there (libfastrtps-dev)")
+    return path
+
+
+def heard(context, topics, run, before_s=1.0, patience_s=4):
+    """What a listener hears of a run that begins so long after it (before it, where negative)."""
+    listen = f"{listener(context)} {DOMAIN} {patience_s} {' '.join(topics)} > heard.txt"
+    play = f"{context.tagfield} run {run} --ros2 --domain {DOMAIN} --no-page --out out > said.txt 2>&1"
+    if before_s > 0:
+        script = f"({listen}) & sleep {before_s}; {play}; code=$?; wait; exit $code"
+    else:
+        script = f"({play}) & sleep {-before_s}; {listen}; wait"
+    done = in_own_network(context, script)
+    said = (context.folder / "said.txt").read_text(encoding="utf-8")
+    check_equal(done.returncode, 0, f"exit code ({said})")
+    lines = (context.folder / "heard.txt").read_text(encoding="utf-8").splitlines()
+    return [json.loads(line) for line in lines]
+
+
+def messages(lines, topic):
+    return [Cdr(line["cdr"]) for line in lines if line["kind"] == "message" and line["topic"] == topic]
+
+
+@case
+def every_read_arrives_in_another_dds(context):
+    lines = heard(context, [READS, CLOCK], f"{context.shipped('two_antennas')} --speed 50")
+    got = [read for cdr in messages(lines, "rt/rfid/reads") for read in tag_reads(cdr)]
+    rows = read_csv(context.folder / "out/reads.csv")
+    check_equal(len(got), len(rows), "number of reads")
+    expected = sorted((float(row["stamp_s"]), row["antenna"], row["tag"]) for row in rows)
+    check(sorted((round(stamp, 9), antenna, epc) for stamp, antenna, epc, *_ in got) == expected,
+          "stamps, antennas and tags are not those of reads.csv")
+    by_read = {(float(row["stamp_s"]), row["antenna"], row["tag"]): row for row in rows}
+    for stamp, antenna, epc, phase, rssi, frequency in got:
+        row = by_read[(round(stamp, 9), antenna, epc)]
+        if not check(abs(phase - float(row["phase_rad"])) < 1e-6 and rssi == float(row["rssi_dbm"])
+                     and frequency == float(row["frequency_hz"]), f"a read of {epc} differs"):
+            break
+    clock = [cdr.stamp() for cdr in messages(lines, "rt/clock")]
+    check(len(clock) > 100 and clock == sorted(clock), "the clock stands or falls")
+
+
+@case
+def those_who_come_late_get_what_is_latched(context):
+    lines = heard(context, [TAGS, STATIC_TF], f"{context.shipped('two_antennas')} --speed 12",
+                  before_s=-4.0)
+    tags = messages(lines, "rt/rfid/truth/tags")
+    check_equal(len(tags), 1, "messages of the tags")
+    for cdr in tags:
+        check_equal(cdr.header()[1], "map", "frame of the tags")
+        check_equal(cdr.number("I"), 10, "tags")
+    frames = messages(lines, "rt/tf_static")
+    check_equal(len(frames), 1, "messages of frames at rest")
+    for cdr in frames:
+        cdr.number("I")
+        check_equal((cdr.header()[1], cdr.text()), ("map", "fixed"), "frame and its child")
+
+
+@case
+def it_is_a_node_of_the_graph(context):
+    lines = heard(context, [GRAPH], f"{context.shipped('two_antennas')} --speed 50")
+    users = [line["user_data"] for line in lines if line["kind"] == "participant"]
+    check_in("enclave=/;", users, "user data of participants")
+    writers = {line["topic"]: line for line in lines if line["kind"] == "writer"}
+    for topic in ("rt/rfid/reads", "rt/tf", "rt/clock", "rt/rfid/markers", "rt/rfid/truth/antennas"):
+        if check(topic in writers, f"no writer of {topic}"):
+            check_in("typehash=RIHS01_", writers[topic]["user_data"], f"user data of {topic}")
+    cdr = messages(lines, "ros_discovery_info")[-1]
+    cdr.at += 16
+    check_equal(cdr.number("I"), 1, "nodes")
+    check_equal((cdr.text(), cdr.text()), ("/", "tagfield"), "namespace and name")
+    check_equal(cdr.number("I"), 0, "readers")
+    check_equal(cdr.number("I"), len(writers) - 1, "writers, but for the graph's own")
+
+
+@case
+def a_listener_that_dies_does_not_stop_the_run(context):
+    script = (f"timeout --signal KILL 2 {listener(context)} {DOMAIN} 60 {READS} > heard.txt & sleep 1; "
+              f"{context.tagfield} run {context.shipped('two_antennas')} --ros2 --domain {DOMAIN} "
+              "--speed 20 --no-page --out out")
+    begin = time.monotonic()
+    done = in_own_network(context, script)
+    check_equal(done.returncode, 0, f"exit code ({done.stderr})")
+    check(time.monotonic() - begin < 60, "the run stood still")
+
+
+@case
+def bad_domains_and_no_network(context):
+    run = ["run", context.shipped("two_antennas"), "--no-page", "--out", "out"]
+    for arguments, says in ((["--ros2", "--domain", "233"], "0 to 232"),
+                            (["--ros2", "--domain", "-1"], "--domain"),
+                            (["--domain", "3"], "--ros2"), (["--speed", "-1"], "--speed")):
+        result = context.run(*run, *arguments)
+        check_equal(result.code, 2, f"exit code of {arguments}")
+        check_in(says, result.err, f"complaint of {arguments}")
+    os.environ["ROS_DOMAIN_ID"] = "many"
+    result = context.run(*run, "--ros2")
+    del os.environ["ROS_DOMAIN_ID"]
+    check_equal(result.code, 2, "exit code with a bad ROS_DOMAIN_ID")
+    check_in("ROS_DOMAIN_ID is 'many'", result.err, "complaint")
+    script = f"ip link set lo down; {' '.join(str(word) for word in [context.tagfield, *run])} --ros2"
+    done = in_own_network(context, script)
+    check_equal(done.returncode, 2, "exit code without a network")
+    check_equal(len(done.stderr.splitlines()), 1, "lines of complaint")
+    check_in("can't join domain 0", done.stderr, "complaint")
+    check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
+
+
+if __name__ == "__main__":
+    main()
