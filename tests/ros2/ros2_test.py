@@ -192,5 +192,61 @@ def bad_domains_and_no_network(context):
     check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
 
 
+GENERATE_CPP = "import sys; from rosidl_generator_cpp import generate_cpp; generate_cpp(sys.argv[1])"
+USE_MESSAGES = """\
+#include <tagfield_msgs/msg/antenna_truth.hpp>
+#include <tagfield_msgs/msg/tag_positions.hpp>
+#include <tagfield_msgs/msg/tag_reads.hpp>
+int main() {
+  tagfield_msgs::msg::TagReads message;
+  message.reads.resize(1);
+  message.reads[0].header.frame_id = "a";
+  message.reads[0].epc = "E2";
+  message.reads[0].phase = message.reads[0].rssi = message.reads[0].doppler = 1.0;
+  tagfield_msgs::msg::TagPositions tags;
+  tags.tags.resize(1);
+  tags.tags[0].position.z = 1.0;
+  tagfield_msgs::msg::AntennaTruth truth;
+  truth.pose.orientation.w = truth.distances.emplace_back(1.0);
+  return message.reads[0].doppler == tags.tags[0].position.z ? 0 : 1;
+}
+"""
+
+
+@case
+def ros2s_own_generator_takes_the_messages(context):
+    if not pathlib.Path("/usr/share/rosidl_generator_cpp/resource").exists():
+        raise Skip("rosidl is not there (python3-rosidl, rosidl-generator-c-cpp)")
+    adapters = context.source.resolve() / "adapters"
+    packages = {}
+    for path in (*adapters.glob("ros2/interfaces/*/msg/*.msg"),
+                 *adapters.glob("tagfield_msgs/msg/*.msg")):
+        packages.setdefault(path.parent.parent, []).append(path.stem)
+
+    def made(*command):
+        done = subprocess.run(["/usr/bin/python3", *command], capture_output=True, text=True, check=False)
+        check_equal(done.returncode, 0, f"exit code of {command[:2]} ({done.stderr[-300:]})")
+
+    for folder, names in packages.items():
+        idl = context.folder / "idl" / folder.name
+        arguments = context.write(f"{folder.name}.json", json.dumps(
+            {"non_idl_tuples": [f"{folder}:msg/{name}.msg" for name in names]}))
+        made("-m", "rosidl_adapter", "--package-name", folder.name, "--arguments-file", arguments,
+             "--output-dir", idl, "--output-file", context.folder / "list")
+        arguments = context.write(f"{folder.name}_cpp.json", json.dumps(
+            {"package_name": folder.name, "idl_tuples": [f"{idl}:msg/{name}.idl" for name in names],
+             "ros_interface_dependencies": [], "target_dependencies": [],
+             "output_dir": str(context.folder / "cpp" / folder.name),
+             "template_dir": "/usr/share/rosidl_generator_cpp/resource"}))
+        made("-c", GENERATE_CPP, arguments)
+    source = context.write("use.cc", USE_MESSAGES)
+    includes = [f"-I/usr/include/{name}" for name in
+                ("rosidl_runtime_cpp", "rosidl_runtime_c", "rosidl_typesupport_interface")]
+    done = subprocess.run(["c++", "-std=c++17", "-I", context.folder / "cpp", *includes, source, "-o",
+                           context.folder / "use"], capture_output=True, text=True, check=False)
+    if check_equal(done.returncode, 0, f"exit code of the compiler ({done.stderr[:600]})"):
+        check_equal(subprocess.run([context.folder / "use"], check=False).returncode, 0, "its result")
+
+
 if __name__ == "__main__":
     main()

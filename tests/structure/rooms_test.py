@@ -28,6 +28,7 @@ ROS = ("ros/", "rclcpp/", "rosbag/", "tf2", "tf/", "tagfield_msgs/", "rfid_senso
 GAZEBO = ("gazebo/", "gz/", "ignition/")
 ALIENS = (*ROS, *GAZEBO, "mrpt/", "mpi.h")
 ROS1 = "adapters/ros1/"
+ROS2 = "adapters/ros2/"
 CLASSIC = "adapters/gazebo_classic/"
 # The thin mains that join Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
@@ -84,6 +85,8 @@ def adapter_fault(path, header):
     """What is wrong about an adapter including `header`, its own or a stranger's, or None."""
     if path.startswith(ROS1) and header.startswith((CLASSIC, *GAZEBO)):
         return "adapters/ros1/ knows no Gazebo"
+    if path.startswith(ROS2) and header.startswith((CLASSIC, ROS1, *GAZEBO)):
+        return "adapters/ros2/ knows neither Gazebo nor ROS 1"
     if (path.startswith(CLASSIC) and not path.startswith(JOINTS) and not is_test(path) and
             header.startswith((ROS1, *ROS))):
         return "of adapters/gazebo_classic/ only plugins/ knows ROS"
@@ -294,6 +297,7 @@ PLANTED = (  # a file, its content, what must be said of it
     ("apps/tagfield/a.cc", "#include <gazebo/gazebo.hh>\n", "no ROS"),
     ("adapters/ros1/a.cc", '#include "adapters/gazebo_classic/field.h"\n', "knows no Gazebo"),
     ("adapters/ros1/a.cc", "#include <gazebo/gazebo.hh>\n", "knows no Gazebo"),
+    ("adapters/ros2/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor ROS 1"),
     ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
     ("adapters/gazebo_classic/world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
     ("adapters/ros1/a.cc", '#include "apps/tagfield/table.h"\n', "adapters/ must not include it"),
