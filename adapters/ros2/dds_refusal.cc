@@ -14,6 +14,10 @@ DdsSink::~DdsSink() = default;
 std::size_t DdsSink::advertise(const Ros2Topic& /*topic*/, const Ros2Type& /*type*/) { return 0; }
 void DdsSink::publish(std::size_t /*topic*/, Time /*stamp*/, const void* /*message*/) {}
 void DdsSink::finish() {}
+std::size_t DdsSink::subscribe_twist(const std::string& /*topic*/) { return 0; }
+std::optional<geometry_msgs::Twist> DdsSink::take_twist(std::size_t /*subscription*/) {
+  return std::nullopt;
+}
 bool DdsSink::wait_for_reader(Duration /*most*/) const { return false; }
 
 }  // namespace tagfield::ros2

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adapters/ros2/dds_types.h"
+#include "adapters/ros2/ros2_topics.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield::ros2 {
@@ -107,6 +108,11 @@ Entity join(std::uint32_t domain) {
   return {participant, "participant"};
 }
 
+struct Reader {
+  Entity topic;
+  Entity reader;
+};
+
 struct Writer {
   Entity topic;
   Entity writer;
@@ -141,6 +147,7 @@ struct DdsSink::Impl {
     node.node_namespace = "/";
     node.node_name = node_name;
     for (const Writer& writer : writers) node.writer_gid_seq.push_back(gid_of(writer.writer.get()));
+    for (const Reader& reader : readers) node.reader_gid_seq.push_back(gid_of(reader.reader.get()));
     const rmw_dds_common::ParticipantEntitiesInfo info{gid_of(participant.get()), {node}};
     write(*discovery, &info);
   }
@@ -159,6 +166,7 @@ struct DdsSink::Impl {
   Entity participant;
   std::optional<Writer> discovery;
   std::vector<Writer> writers;
+  std::vector<Reader> readers;
 };
 
 DdsSink::DdsSink(std::uint32_t domain, const std::string& node_name)
@@ -180,6 +188,33 @@ void DdsSink::finish() {
   for (const Writer& writer : impl_->writers) {
     dds_wait_for_acks(writer.writer.get(), kMostWaitAtEnd);
   }
+}
+
+std::size_t DdsSink::subscribe_twist(const std::string& topic) {
+  const Ros2Type& type = type_of(geometry_msgs::Twist{});
+  Entity made(dds_create_topic(impl_->participant.get(), dds_types().at(type.name).descriptor,
+                               ("rt" + topic).c_str(), nullptr, nullptr),
+              topic);
+  // Best effort hears reliable writers too, and only the newest command counts.
+  const Qos qos = with_user_data(fmt::format("typehash={};", type.hash));
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  Entity reader(dds_create_reader(impl_->participant.get(), made.get(), qos.get(), nullptr), topic);
+  impl_->readers.push_back({std::move(made), std::move(reader)});
+  impl_->tell_graph();
+  return impl_->readers.size() - 1;
+}
+
+std::optional<geometry_msgs::Twist> DdsSink::take_twist(std::size_t subscription) {
+  using Twist = geometry_msgs_msg_dds__Twist_;
+  Twist twist{};
+  void* sample = &twist;
+  dds_sample_info_t info{};
+  const dds_return_t count =
+      dds_take(impl_->readers.at(subscription).reader.get(), &sample, &info, 1, 1);
+  if (count < 1 || !info.valid_data) return std::nullopt;
+  return geometry_msgs::Twist{{twist.linear.x, twist.linear.y, twist.linear.z},
+                              {twist.angular.x, twist.angular.y, twist.angular.z}};
 }
 
 bool DdsSink::wait_for_reader(Duration most) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/ros2/message_sink.h"
@@ -21,6 +22,11 @@ class DdsSink : public MessageSink {
   void publish(std::size_t topic, Time stamp, const void* message) override;
   /// Waits until reliable readers have got it all, a few seconds at the most.
   void finish() override;
+
+  /// Listens to twists on a topic ("/cmd_vel"); gives its number.
+  std::size_t subscribe_twist(const std::string& topic);
+  /// The newest that came since this was asked last.
+  std::optional<geometry_msgs::Twist> take_twist(std::size_t subscription);
 
   /// Waits until somebody listens to any of the topics, `most` at the longest; whether one does.
   bool wait_for_reader(Duration most) const;

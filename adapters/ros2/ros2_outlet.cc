@@ -144,8 +144,24 @@ void Ros2Outlet::on_tags_placed(Time stamp) {
   if (!message.tags.empty()) moved_tags_.publish(stamp, message);
 }
 
+void Ros2Outlet::mount(const std::string& robot, const std::set<std::string>& antennas,
+                       const std::string& base_frame) {
+  mount_ = {robot, antennas, base_frame};
+}
+
+/// Where it is on its robot, which is no secret: its mount, and how high its lift is.
+void Ros2Outlet::tell_mounted(const AntennaInfo& antenna, const AntennaPose& pose) {
+  const auto robot = robots_.find(mount_.robot);
+  if (robot == robots_.end() || !robot->second.last || robot->second.last->stamp != pose.stamp) {
+    return;
+  }
+  const RigidTransform X_BA = robot->second.last->X_WA.inverse() * pose.X_WA;
+  tf_.publish(pose.stamp, {{frame_message(pose.stamp, mount_.base_frame, antenna.frame_id, X_BA)}});
+}
+
 void Ros2Outlet::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
   tell_time(pose.stamp);
+  if (mount_.antennas.count(antenna.name) > 0) return;
   const geometry_msgs::TransformStamped transform =
       frame_message(pose.stamp, parent_of(antenna), antenna.frame_id, pose.X_WA);
   if (!antenna.is_fixed) {
@@ -161,6 +177,7 @@ void Ros2Outlet::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
 
 void Ros2Outlet::on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
   updates_[antenna.name].X_WA = pose.X_WA;
+  if (mount_.antennas.count(antenna.name) > 0) tell_mounted(antenna, pose);
 }
 
 void Ros2Outlet::on_distance(const TrueDistance& distance) {

@@ -29,6 +29,13 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
  public:
   explicit Ros2Outlet(std::shared_ptr<MessageSink> sink);
 
+  /// Antennas on a robot whose frames others tell: theirs hang below `base_frame` then, and not
+  /// below the map.
+  void mount(const std::string& robot, const std::set<std::string>& antennas,
+             const std::string& base_frame);
+  /// To /clock, unless it has told that time or a later one.
+  void tell_time(Time stamp);
+
   void on_read(const TagRead& read) override;
   void on_update(const AntennaInfo& antenna, Time stamp) override;
   void on_antenna_removed(const std::string& name) override;
@@ -49,12 +56,17 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
     std::vector<TagRead> reads;
     std::vector<double> distances_m;
   };
+  struct Mount {
+    std::string robot;
+    std::set<std::string> antennas;
+    std::string base_frame;
+  };
   struct Robot {
     Publisher<nav_msgs::Odometry> odometry;
     std::optional<AntennaPose> last;
   };
 
-  void tell_time(Time stamp);
+  void tell_mounted(const AntennaInfo& antenna, const AntennaPose& pose);
   Robot& robot_named(const std::string& name);
 
   std::shared_ptr<MessageSink> sink_;
@@ -71,6 +83,7 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   std::set<std::string> moved_;
   bool has_changed_ = false;
   std::map<std::string, Robot> robots_;
+  Mount mount_;
   std::optional<Time> told_time_;
 };
 

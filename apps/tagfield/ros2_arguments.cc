@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "adapters/ros2/ros2_outlet.h"
+#include "adapters/ros2/ros2_robot.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/number.h"
 
@@ -31,6 +32,21 @@ std::uint32_t domain_of_environment() {
   return static_cast<std::uint32_t>(*number);
 }
 
+RemoteDriving driving_of(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
+                         const std::shared_ptr<ros2::DdsSink>& sink,
+                         const std::shared_ptr<ros2::Ros2Outlet>& outlet) {
+  std::set<std::string> antennas;
+  for (const AntennaSpec& antenna : loaded.scenario.antennas) {
+    if (antenna.on == arguments.drive) antennas.insert(antenna.parameters.name);
+  }
+  outlet->mount(arguments.drive, antennas, ros2::kBaseFrame);
+  const auto warn = [](const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); };
+  return {
+      arguments.drive,
+      std::make_shared<ros2::Ros2Robot>(sink, outlet, navigation_of(loaded.scenario).laser, warn),
+      {std::make_shared<const RayScene>(loaded.scene), loaded.scenario.obstacles}};
+}
+
 }  // namespace
 
 void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
@@ -41,6 +57,11 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
       .add_option("--domain", arguments.domain,
                   "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
       ->check(CLI::Range(std::uint32_t{0}, static_cast<std::uint32_t>(kLastDomain)))
+      ->needs(ros2);
+  command
+      .add_option("--drive", arguments.drive,
+                  "This robot is driven from outside, by Nav2 for example: /cmd_vel in, /odom, "
+                  "/scan and frames out, until the scenario's duration is over or Ctrl-C")
       ->needs(ros2);
   command
       .add_option("--speed", arguments.speed,
@@ -57,14 +78,18 @@ void set_pace(const Ros2Arguments& arguments, Scenario& scenario) {
   }
 }
 
-std::shared_ptr<ros2::DdsSink> attach_ros2(const Ros2Arguments& arguments, Outlets& outlets) {
-  if (!arguments.ros2) return nullptr;
+Ros2Run attach_ros2(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
+                    Outlets& outlets) {
+  Ros2Run run;
+  if (!arguments.ros2) return run;
   const std::uint32_t domain = arguments.domain ? *arguments.domain : domain_of_environment();
-  const auto sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
-  attach(std::make_shared<ros2::Ros2Outlet>(sink), outlets);
-  attach(std::make_shared<ros2::Ros2Markers>(sink), outlets);
-  if (sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
-  return sink;
+  run.sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
+  const auto outlet = std::make_shared<ros2::Ros2Outlet>(run.sink);
+  attach(outlet, outlets);
+  attach(std::make_shared<ros2::Ros2Markers>(run.sink), outlets);
+  if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, run.sink, outlet);
+  if (run.sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
+  return run;
 }
 
 }  // namespace tagfield

@@ -7,7 +7,8 @@
 #include <optional>
 
 #include "adapters/ros2/dds_sink.h"
-#include "tagfield/scenario/scenario.h"
+#include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/simulator/remote_driver.h"
 #include "tagfield/stream/listeners.h"
 
 namespace tagfield {
@@ -16,6 +17,13 @@ struct Ros2Arguments {
   bool ros2 = false;
   std::optional<std::uint32_t> domain;
   std::optional<double> speed;
+  std::string drive;
+};
+
+/// What a run has besides its outlets.
+struct Ros2Run {
+  std::shared_ptr<ros2::DdsSink> sink;   ///< Null where it was not asked for.
+  std::optional<RemoteDriving> driving;  ///< Of the robot that is driven from outside, if one is.
 };
 
 void add_ros2_options(CLI::App& command, Ros2Arguments& arguments);
@@ -24,8 +32,9 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments);
 /// unless the scenario names one.
 void set_pace(const Ros2Arguments& arguments, Scenario& scenario);
 
-/// Attaches what was asked for, and waits a moment for those who listen already; null for nothing.
-/// Throws Error where the domain can't be joined.
-std::shared_ptr<ros2::DdsSink> attach_ros2(const Ros2Arguments& arguments, Outlets& outlets);
+/// Attaches what was asked for, and waits a moment for those who listen already. Throws Error where
+/// the domain can't be joined, or a robot is to be driven that is not there.
+Ros2Run attach_ros2(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
+                    Outlets& outlets);
 
 }  // namespace tagfield

@@ -72,11 +72,14 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
 }
 
 /// The first seed's tables go into `folder` while it runs.
-std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scenario& scenario,
+std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
+                                       const ScenarioWithWorld& loaded,
                                        const NavigationWorld* world, StagedFolder& folder,
                                        Diagnostics& diagnostics) {
+  const Scenario& scenario = loaded.scenario;
   RunControl control;
-  const std::shared_ptr<ros2::DdsSink> listened = attach_ros2(arguments.ros2, control.outlets);
+  const Ros2Run ros2 = attach_ros2(arguments.ros2, loaded, control.outlets);
+  if (ros2.driving) control.remote = &*ros2.driving;
   ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   control.keeps_recording = !arguments.record_only;
   attach(std::make_shared<CsvOutlet>(folder), control.outlets);
@@ -89,7 +92,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments, const Scen
       arguments.record_only
           ? std::vector<SeedRun>{simulate(scenario, seed, control, world)}
           : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
-  if (listened) listened->finish();
+  if (ros2.sink) ros2.sink->finish();
   return runs;
 }
 
@@ -160,15 +163,14 @@ int run(const RunArguments& arguments) {
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
-  if (scenario.pose.source == PoseSource::kSlam) {
+  if (scenario.pose.source == PoseSource::kSlam && arguments.ros2.drive.empty()) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
   const NavigationWorld* const ways = world ? &*world : nullptr;
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::vector<SeedRun> runs =
-      run_with_progress(arguments, scenario, ways, folder, diagnostics);
+  const std::vector<SeedRun> runs = run_with_progress(arguments, loaded, ways, folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   if (arguments.record_only) return finish_recording(runs.front(), diagnostics, out, folder);
 

@@ -164,13 +164,14 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
 
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world) {
-  if (scenario.pose.source == PoseSource::kSlam) {
+  if (scenario.pose.source == PoseSource::kSlam && control.remote == nullptr) {
     if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
     return navigated(scenario, seed, control, *world);
   }
   SeedRun run;
   run.seed = seed;
-  Simulation simulation(scenario, seed, outlets_of(control, run.recording));
+  Simulation simulation(scenario, seed, outlets_of(control, run.recording), nullptr,
+                        control.remote);
   const Pace pace(scenario.real_time);
   while (!simulation.finished() && !stopped(control)) {
     simulation.step();

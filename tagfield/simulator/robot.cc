@@ -5,6 +5,7 @@
 
 #include "tagfield/base/random.h"
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/simulator/remote_driver.h"
 #include "tagfield/simulator/self_driver.h"
 
 namespace tagfield {
@@ -26,18 +27,31 @@ Robot::Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uin
   self_driver_ = std::move(driver);
 }
 
+Robot::Robot(const RobotSpec& spec, std::unique_ptr<RemoteDriver> driver, std::uint64_t seed)
+    : Robot(spec, PoseBelief{}, seed) {
+  belief_.source = PoseSource::kOdometry;
+  remote_driver_ = std::move(driver);
+}
+
 Robot::~Robot() = default;
 Robot::Robot(Robot&&) noexcept = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 
 bool Robot::finished() const {
+  if (remote_driver_) return false;
   return self_driver_ ? self_driver_->finished() : follower_.finished();
 }
 
 double Robot::progress() const {
   if (finished()) return 1.0;
   if (self_driver_) return self_driver_->progress();
+  if (remote_driver_) return 0.0;
   return std::min(travelled_m_ / std::max(planned_length(spec_), 1e-9), 1.0);
+}
+
+BodyVelocity Robot::wanted(Time now, double seconds) {
+  if (remote_driver_) return remote_driver_->step(begin_, now, seconds);
+  return self_driver_ ? self_driver_->step(begin_, now, seconds) : follower_.next(begin_, seconds);
 }
 
 void Robot::step(Time now, double seconds) {
@@ -50,9 +64,7 @@ void Robot::step(Time now, double seconds) {
   }
 
   // Commands go through the wheels, which is all that a skid-steered robot has.
-  const BodyVelocity wanted =
-      self_driver_ ? self_driver_->step(begin_, now, seconds) : follower_.next(begin_, seconds);
-  const WheelSpeeds wheels = wheel_speeds(spec_.drive, wanted);
+  const WheelSpeeds wheels = wheel_speeds(spec_.drive, wanted(now, seconds));
   velocity_ = body_velocity(spec_.drive, wheels);
   travelled_m_ += std::abs(velocity_.forward) * seconds;
   if (belief_.source == PoseSource::kOdometry) {
@@ -78,6 +90,9 @@ PoseError Robot::error_at(double seconds) const {
 
 RigidTransform Robot::believed_pose(double seconds) const {
   if (self_driver_) return to_transform(self_driver_->believed(seconds).pose_M);
+  if (remote_driver_) {
+    return to_transform(spec_.start) * to_transform(remote_driver_->odometry(seconds));
+  }
   if (belief_.source == PoseSource::kOdometry) {
     return to_transform(advance(odometry_, measured_, seconds));
   }

@@ -16,6 +16,7 @@
 
 namespace tagfield {
 
+class RemoteDriver;
 class SelfDriver;
 
 /// One robot during one time step after another. Frame R is its base on the floor, x forward.
@@ -24,6 +25,8 @@ class Robot {
   Robot(const RobotSpec& spec, const PoseBelief& belief, std::uint64_t seed);
   /// Finds its way by itself, from spec.start on. Each of spec.carried has its `to_W`.
   Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uint64_t seed);
+  /// Is driven by somebody outside, and believes its wheels. Never arrives.
+  Robot(const RobotSpec& spec, std::unique_ptr<RemoteDriver> driver, std::uint64_t seed);
   ~Robot();
   Robot(Robot&&) noexcept;
   Robot& operator=(Robot&&) noexcept;
@@ -48,6 +51,7 @@ class Robot {
   [[nodiscard]] double progress() const;
 
  private:
+  [[nodiscard]] BodyVelocity wanted(Time now, double seconds);
   [[nodiscard]] PoseError error_at(double seconds) const;
 
   RobotSpec spec_;
@@ -56,6 +60,7 @@ class Robot {
   std::uint64_t key_;
   PathFollower follower_;
   std::unique_ptr<SelfDriver> self_driver_;
+  std::unique_ptr<RemoteDriver> remote_driver_;
 
   std::uint64_t steps_ = 0;
   double step_seconds_ = 0.0;

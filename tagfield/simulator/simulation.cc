@@ -7,7 +7,7 @@
 
 #include "tagfield/channel/radio_world.h"
 #include "tagfield/scenario/recorded_motion.h"
-#include "tagfield/simulator/internal/self_driving.h"
+#include "tagfield/simulator/internal/robots.h"
 #include "tagfield/simulator/internal/tag_schedule.h"
 #include "tagfield/simulator/robot.h"
 
@@ -37,10 +37,12 @@ RigidTransform mount_at(const AntennaSpec& antenna, Time stamp) {
   return from_translation({0.0, 0.0, lift_height(antenna.lift, stamp)}) * antenna.X_PA;
 }
 
-std::optional<Time> end_of(const Scenario& scenario) {
+std::optional<Time> end_of(const Scenario& scenario, bool is_remote) {
   if (scenario.duration_s) return time_from_seconds(*scenario.duration_s);
   if (const auto last = end_of_recordings(scenario.antennas)) return *last + Duration(1);
-  if (std::any_of(scenario.robots.begin(), scenario.robots.end(), drives)) return std::nullopt;
+  if (is_remote || std::any_of(scenario.robots.begin(), scenario.robots.end(), drives)) {
+    return std::nullopt;
+  }
   throw Error("duration_s must be given where no robot has waypoints to drive");
 }
 
@@ -53,25 +55,14 @@ std::shared_ptr<const RadioWorld> radio_world_of(const Scenario& scenario) {
 }
 
 Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets,
-                       const SelfDriving* driving)
+                       const SelfDriving* driving, const RemoteDriving* remote)
     : seed_(seed),
       time_step_(duration_from_seconds(scenario.time_step_s)),
-      end_(end_of(scenario)),
+      end_(end_of(scenario, remote != nullptr)),
+      robots_(robots_of(scenario, seed, driving, remote)),
       schedule_(std::make_unique<TagSchedule>(scenario.tags)),
       field_(std::move(outlets), scenario.radio_world) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
-  bool has_mapped = true;
-  for (const RobotSpec& robot : scenario.robots) {
-    if (robot_named(robot.name) != nullptr) {
-      fail(robot.location, fmt::format("a second robot is called '{}'", robot.name));
-    }
-    if (driving != nullptr && drives(robot)) {
-      robots_.push_back(self_driving_robot(scenario, robot, *driving, has_mapped, seed_));
-      has_mapped = false;
-    } else {
-      robots_.emplace_back(robot, scenario.pose, seed_);
-    }
-  }
   for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
   for (const TagSpec& tag : scenario.tags) require_robot(tag.on, tag.location);
   handle_events(Time{});

@@ -20,6 +20,7 @@ namespace tagfield {
 class Robot;
 class TagSchedule;
 struct RadioWorld;
+struct RemoteDriving;
 struct SelfDriving;
 
 /// Runs a scenario step by step and tells its outlets what comes of it. Tags and antennas can be
@@ -28,9 +29,10 @@ class Simulation {
  public:
   /// Robots that have anywhere to go drive there by themselves where `driving` is given; what it
   /// points to must outlive this. Throws Error on a scenario that can't be simulated: an ID used
-  /// twice, an unknown robot, a parameter out of range.
+  /// twice, an unknown robot, a parameter out of range. Where `remote` is given it drives one
+  /// robot, and the run ends with the scenario's duration, or never.
   Simulation(const Scenario& scenario, std::uint64_t seed, Outlets outlets = {},
-             const SelfDriving* driving = nullptr);
+             const SelfDriving* driving = nullptr, const RemoteDriving* remote = nullptr);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

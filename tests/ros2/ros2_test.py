@@ -192,6 +192,86 @@ def bad_domains_and_no_network(context):
     check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
 
 
+ROBOT = """\
+name: driven
+model: paper
+time_step_s: 0.01
+duration_s: 12
+world: {path: WORLD}
+robots: [{name: cart, start: [0, 0, 0]}]
+antennas: [{name: mast, on: cart, pose: [0.1, 0, 1.2]}]
+tags: [{id: t, position: [2, 1, 1]}]
+"""
+ODOM = "rt/odom=nav_msgs::msg::dds_::Odometry_"
+SCAN = "rt/scan=sensor_msgs::msg::dds_::LaserScan_:best_effort"
+TF = "rt/tf=tf2_msgs::msg::dds_::TFMessage_"
+
+
+def odometry(cdr):
+    """stamp, x, y, forward speed of an Odometry."""
+    stamp, frame = cdr.header()
+    check_equal((frame, cdr.text()), ("odom", "base_link"), "frame and its child")
+    pose = [cdr.number("d") for _ in range(7)]
+    for _ in range(36):
+        cdr.number("d")
+    return stamp, pose[0], pose[1], cdr.number("d")
+
+
+def frames(cdr):
+    """(parent, child, x, z) of each transform of a TFMessage."""
+    found = []
+    for _ in range(cdr.number("I")):
+        parent, child = cdr.header()[1], cdr.text()
+        place = [cdr.number("d") for _ in range(7)]
+        found.append((parent, child, place[0], place[2]))
+    return found
+
+
+@case
+def a_robot_is_driven_from_another_dds(context):
+    world = context.source.resolve() / "worlds/small_warehouse.sdf"
+    scenario = context.write("driven.yaml", ROBOT.replace("WORLD", str(world)))
+    topics = " ".join([ODOM, SCAN, TF])
+    listen = f"{listener(context)} {DOMAIN} 5 {topics} > heard.txt"
+    # Driven from 3 s on for 4 s, then left alone.
+    drive = f"sleep 4; {context.build / 'bin/ros2_driver'} {DOMAIN} 4 0.5 0"
+    done = in_own_network(
+        context, f"({listen}) & ({drive}) & sleep 1; {context.tagfield} run {scenario} --ros2 --domain "
+        f"{DOMAIN} --drive cart --no-page --out out > said.txt 2>&1; code=$?; wait; exit $code")
+    said = (context.folder / "said.txt").read_text(encoding="utf-8")
+    check_equal(done.returncode, 0, f"exit code ({said})")
+    lines = [json.loads(line) for line in
+             (context.folder / "heard.txt").read_text(encoding="utf-8").splitlines()]
+    told = [odometry(cdr) for cdr in messages(lines, "rt/odom")]
+    if not check(len(told) > 300, f"{len(told)} messages of odometry"):
+        return
+    check_equal(told[0][1:], (0.0, 0.0, 0.0), "where it starts")
+    check(1.2 < told[-1][1] < 2.6, f"it drove {told[-1][1]} m, expected about 4 s at 0.5 m/s")
+    check(abs(told[-1][2]) < 0.1, f"it strayed by {told[-1][2]} m")
+    check_equal(max(round(row[3], 6) for row in told), 0.5, "greatest speed")
+    check_equal(told[-1][3], 0.0, "speed once nobody drives any more")
+    truth = [row for row in read_csv(context.folder / "out/truth/robot_poses.csv")]
+    check(abs(float(truth[-1]["x_m"]) - told[-1][1]) < 0.1, "the odometry is not near the truth")
+    scans = messages(lines, "rt/scan")
+    check(len(scans) > 100, f"{len(scans)} scans")
+    cdr = scans[-1]
+    check_equal(cdr.header()[1], "laser", "frame of the scans")
+    limits = [cdr.number("f") for _ in range(7)]
+    ranges = [cdr.number("f") for _ in range(cdr.number("I"))]
+    check_equal(len(ranges), 720, "beams")
+    check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
+    told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
+    check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
+
+
+@case
+def a_robot_that_is_not_there_is_not_driven(context):
+    result = context.run("run", context.shipped("two_antennas"), "--ros2", "--drive", "p3at2", "--out",
+                         "out")
+    check_equal(result.code, 2, "exit code")
+    check_in("there is no robot 'p3at2' to be driven (did you mean 'p3at'?)", result.err, "complaint")
+
+
 GENERATE_CPP = "import sys; from rosidl_generator_cpp import generate_cpp; generate_cpp(sys.argv[1])"
 USE_MESSAGES = """\
 #include <tagfield_msgs/msg/antenna_truth.hpp>

@@ -30,6 +30,9 @@ ALIENS = (*ROS, *GAZEBO, "mrpt/", "mpi.h")
 ROS1 = "adapters/ros1/"
 ROS2 = "adapters/ros2/"
 CLASSIC = "adapters/gazebo_classic/"
+MCAP = "adapters/mcap/"
+# What a container of bytes may use.
+UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
 # The thin mains that join Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
 # sdformat hands over its poses in this.
@@ -90,6 +93,9 @@ def adapter_fault(path, header):
     if (path.startswith(CLASSIC) and not path.startswith(JOINTS) and not is_test(path) and
             header.startswith((ROS1, *ROS))):
         return "of adapters/gazebo_classic/ only plugins/ knows ROS"
+    if path.startswith(MCAP) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
+                                  not header.startswith(UNDER_MCAP)):
+        return "adapters/mcap/ knows neither RFID nor ROS"
     return None
 
 
@@ -267,6 +273,8 @@ GOOD = {
                             '#include "tagfield/stream/truth.h"\n',
     "adapters/gazebo_classic/field.cc": '#include <gazebo/gazebo.hh>\n#include <sdf/sdf.hh>\n'
                                         '#include "tagfield/base/error.h"\n',
+    "adapters/mcap/writer.cc": '#include "adapters/mcap/records.h"\n'
+                               '#include "tagfield/base/error.h"\n#include <zstd.h>\n',
     "adapters/gazebo_classic/plugins/a.cc": '#include "adapters/ros1/link.h"\n'
                                             '#include "adapters/gazebo_classic/field.h"\n',
 }
@@ -300,6 +308,9 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/ros2/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor ROS 1"),
     ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
     ("adapters/gazebo_classic/world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
+    ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
+    ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
+    ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),
     ("adapters/ros1/a.cc", '#include "apps/tagfield/table.h"\n', "adapters/ must not include it"),
     ("tagfield/world/a.h", "/// @file\n/// It.\n#pragma once\nusing namespace std;\n",
      "using namespace"),

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+
+#include "adapters/ros2/ros2_robot.h"
 
 namespace tagfield::ros2 {
 namespace {
@@ -168,6 +171,38 @@ TEST(Ros2Outlet, OdometryHasTheSpeedInTheRobotsFrame) {
   EXPECT_NEAR(odometry[1].twist.twist.linear.x, 0.5, 1e-12);
   EXPECT_NEAR(odometry[1].twist.twist.linear.y, 0.0, 1e-12);
   EXPECT_EQ(odometry[1].child_frame_id, "cart 1/base_link");
+}
+
+TEST(Ros2Outlet, AntennasOnARobotThatOthersPlaceHangBelowIt) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  outlet.mount("cart", {"mast"}, "base_link");
+  const RigidTransform X_WB = from_xyz_rpy({5, 5, 0}, {0, 0, M_PI / 2});
+  const RigidTransform X_BA = from_translation({0.1, 0.2, 1.5});
+  const AntennaInfo antenna = antenna_called("mast", false);
+  outlet.on_robot_pose({at(1), "cart", X_WB, std::nullopt});
+  outlet.on_pose(antenna, {at(1), "mast", RigidTransform{}, std::nullopt});
+  outlet.on_antenna_pose(antenna, {at(1), "mast", X_WB * X_BA, std::nullopt});
+  const auto frames = kept->of<tf2_msgs::TFMessage>("/tf");
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].transforms.at(0).header.frame_id, "base_link");
+  EXPECT_NEAR(frames[0].transforms.at(0).transform.translation.x, 0.1, 1e-12);
+  EXPECT_NEAR(frames[0].transforms.at(0).transform.translation.y, 0.2, 1e-12);
+}
+
+TEST(ScanMessage, SaysWhatABeamMetAsRep117Does) {
+  LaserScan scan;
+  scan.first_angle_rad = -1.0;
+  scan.angle_step_rad = 0.5;
+  scan.least_range_m = 0.3;
+  scan.most_range_m = 30.0;
+  scan.ranges_m = {2.5F, nothing_range(30.0), 0.0F};
+  const sensor_msgs::LaserScan message = scan_message(scan, "laser", 20.0);
+  EXPECT_EQ(message.ranges.at(0), 2.5F);
+  EXPECT_EQ(message.ranges.at(1), std::numeric_limits<float>::infinity());
+  EXPECT_EQ(message.ranges.at(2), -std::numeric_limits<float>::infinity());
+  EXPECT_EQ(message.angle_max, 0.0F);
+  EXPECT_NEAR(message.scan_time, 0.05, 1e-7);
 }
 
 TEST(TopicToken, IsOneThatRos2Takes) {

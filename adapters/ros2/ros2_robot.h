@@ -1,0 +1,52 @@
+/// @file
+/// A simulated robot as Nav2 and slam_toolbox know robots: /cmd_vel in, /odom, /scan and frames
+/// out.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "adapters/ros2/dds_sink.h"
+#include "adapters/ros2/ros2_outlet.h"
+#include "tagfield/laser/simulated_laser.h"
+#include "tagfield/simulator/remote_driver.h"
+
+namespace tagfield::ros2 {
+
+// Frames by REP-105; /tf has odom to base_link, /tf_static base_link to the laser. The one from map
+// to odom is for whoever localizes the robot.
+inline constexpr const char* kOdomFrame = "odom";
+inline constexpr const char* kBaseFrame = "base_link";
+inline constexpr const char* kLaserFrame = "laser";
+
+class Ros2Robot : public RemoteControl {
+ public:
+  /// `outlet` keeps the clock. `warn` gets a line where a command can't be used, once.
+  Ros2Robot(std::shared_ptr<DdsSink> sink, std::shared_ptr<Ros2Outlet> outlet,
+            const LaserParameters& laser, std::function<void(const std::string&)> warn);
+
+  BodyVelocity wanted(Time now) override;
+  void on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelocity& velocity) override;
+  void on_scan(const LaserScan& scan) override;
+
+ private:
+  std::shared_ptr<DdsSink> sink_;
+  std::shared_ptr<Ros2Outlet> outlet_;
+  LaserParameters laser_;
+  std::function<void(const std::string&)> warn_;
+  std::size_t commands_;
+  Publisher<nav_msgs::Odometry> odometry_;
+  Publisher<sensor_msgs::LaserScan> scans_;
+  Publisher<tf2_msgs::TFMessage> tf_;
+  Publisher<tf2_msgs::TFMessage> static_tf_;
+  BodyVelocity command_;
+  Time commanded_ = Time::min();
+  Time told_ = Time::min();
+};
+
+/// +inf where a beam met nothing, -inf where it met something too near (REP-117).
+sensor_msgs::LaserScan scan_message(const LaserScan& scan, const std::string& frame,
+                                    double rate_hz);
+
+}  // namespace tagfield::ros2

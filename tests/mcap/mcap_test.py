@@ -1,0 +1,190 @@
+"""MCAP files of ours as @mcap/core reads them, and its files as we read them.
+
+That package is what Foxglove made for browsers: a reader that goes by the index, one for streams, and
+a writer. npm puts it into the build folder.
+"""
+
+import functools
+import json
+import pathlib
+import shutil
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "command"))
+from common import (  # noqa: E402  pylint: disable=wrong-import-position
+    Skip, case, check, check_equal, check_in, main, run)
+
+START_NS = 1_700_000_000_000_000_000
+TOPICS = ("/text", "/pose", "/text/größer")  # of messages 0, 1, 2, 3, …
+# Compression, bytes of a chunk, messages.
+FILES = (("none", 1, 10), ("none", 3000, 1000), ("lz4", 3000, 1000), ("zstd", 3000, 1000),
+         ("zstd", 1 << 20, 100_000), ("lz4", 1 << 20, 0))
+
+
+@functools.cache
+def packages(build):
+    """The folder with what package-lock.json names; installed if need be."""
+    for program in ("node", "npm"):
+        if shutil.which(program) is None:
+            raise Skip(f"{program} is missing (scripts/setup --tests installs it)")
+    folder = build / "tests/mcap"
+    lock = (HERE / "package-lock.json").read_bytes()
+    installed = folder / "installed.json"
+    if not installed.exists() or installed.read_bytes() != lock:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(HERE / name, folder)
+        result = run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=folder)
+        if result.code != 0:
+            said = [line for line in result.err.splitlines() if line.lower().startswith("npm err")]
+            raise Skip(f"npm can't install @mcap/core: {' '.join(said[:1]) or result.err!r}")
+        installed.write_bytes(lock)
+    return folder
+
+
+def others(context, *words):
+    return run(["node", HERE / "others.mjs", packages(context.build), *words], cwd=context.folder)
+
+
+def read_by_others(context, *words):
+    """What they find; None, and a failed check, where they refuse the file."""
+    result = others(context, *words)
+    if not check(result.code == 0, f"@mcap/core refuses it: {result.err.strip()[:500]}"):
+        return None
+    return json.loads(result.out)
+
+
+def ours(context, *words):
+    sample = context.build / "bin/mcap_sample"
+    if not sample.exists():
+        raise Skip("mcap_sample is not built (TAGFIELD_MCAP, liblz4-dev, libzstd-dev)")
+    result = run([sample, *words], cwd=context.folder)
+    check(result.code == 0, f"mcap_sample {words}: {result.err.strip()}")
+    return result
+
+
+def write_sample(context, compression, chunk_bytes, count):
+    path = context.folder / f"{compression}.mcap"
+    ours(context, "write", path, compression, chunk_bytes, count)
+    return path
+
+
+def sample_messages(count):
+    """What mcap_sample writes, in order: channel, sequence, log time, time of sending, bytes."""
+    messages = []
+    for i in range(count):
+        sent = START_NS + i * 100_000_000
+        logged = sent + 2_000_000_000 if i % 5 == 0 else sent
+        messages.append([i % 3 + 1, i // 3, str(logged), str(sent),
+                         (bytes([i % 256]) * (i % 50)).hex()])
+    return messages
+
+
+def log_time(message):
+    return int(message[2])
+
+
+def check_definitions(found, what):
+    text = {"encoding": "ros2msg", "text": "string data\n", "name": "std_msgs/msg/String", "id": 1}
+    point = {"encoding": "ros2msg", "text": "float64 x\nfloat64 y\nfloat64 z\n",
+             "name": "geometry_msgs/msg/Point", "id": 2}
+    check_equal(found["schemas"], [text, point], f"{what}: schemas")
+    expected = [("/text", 1, {"offered_qos_profiles": ""}), ("/pose", 2, {}),
+                ("/text/größer", 1, {"a": "1", "b": "2"}), ("/silent", 2, {})]
+    check_equal([(channel["topic"], channel["schema"], channel["metadata"])
+                 for channel in found["channels"]], expected, f"{what}: channels")
+    check_equal([(channel["id"], channel["encoding"]) for channel in found["channels"]],
+                [(i, "cdr") for i in (1, 2, 3, 4)], f"{what}: ids and encodings")
+    check_equal((found["profile"], found["library"]), ("ros2", "tagfield"), f"{what}: header")
+
+
+def check_statistics(index, messages, what):
+    times = sorted(map(log_time, messages)) or [0]
+    check_equal(index["statistics"],
+                {"messages": len(messages), "schemas": 2, "channels": 4, "chunks": index["chunks"],
+                 "from": str(times[0]), "to": str(times[-1])}, f"{what}: statistics")
+    check_equal(index["counts"],
+                {str(channel): sum(message[0] == channel for message in messages)
+                 for channel in (1, 2, 3, 4)}, f"{what}: counts")
+
+
+@case
+def its_readers_find_what_we_wrote(context):
+    for compression, chunk_bytes, count in FILES:
+        what = f"{compression}, chunks of {chunk_bytes} bytes, {count} messages"
+        path = write_sample(context, compression, chunk_bytes, count)
+        found = read_by_others(context, "read", path)
+        if found is None:
+            continue
+        index, stream = found["index"], found["stream"]
+        messages = sample_messages(count)
+        check_definitions(index, what)
+        check_statistics(index, messages, what)
+        check(index["messages"] == sorted(messages, key=log_time), f"{what}: messages by index")
+        check_equal([log_time(message) for message in index["backward"]],
+                    sorted(map(log_time, messages), reverse=True), f"{what}: times backward")
+        check(stream["messages"] == messages, f"{what}: messages of the stream")
+        check_equal((stream["done"], stream["left"]), (True, 0), f"{what}: end of the stream")
+        check(stream["isRightData"], f"{what}: the data's CRC is wrong")
+        check_equal(stream["kinds"].get("Chunk", 0), index["chunks"], f"{what}: chunks")
+        check((index["chunks"] > 1) == (count > 0), f"{what}: {index['chunks']} chunks")
+        check_equal(index["compressions"], [compression.replace("none", "")] if count else [],
+                    f"{what}: compression")
+        check_equal(index["summaryOffsets"], [3, 4, 11, 8] if count else [3, 4, 11],
+                    f"{what}: summary offsets")
+
+
+@case
+def its_index_finds_topics_and_times(context):
+    path = write_sample(context, "zstd", 3000, 1000)
+    messages = sample_messages(1000)
+    for channel, topic in enumerate(TOPICS, 1):
+        begin, end = START_NS + 30_000_000_000, START_NS + 45_000_000_000
+        expected = [message for message in sorted(messages, key=log_time)
+                    if message[0] == channel and begin <= log_time(message) <= end]
+        check(len(expected) > 40, f"{topic}: only {len(expected)} messages to find")
+        check(read_by_others(context, "query", path, topic, begin, end) == expected,
+              f"{topic}: what the index finds")
+
+
+@case
+def its_readers_notice_a_wrong_byte(context):
+    """Or they would not have checked the CRCs above."""
+    path = write_sample(context, "none", 3000, 1000)
+    whole = path.read_bytes()
+    text = whole.index(b"float64 x")
+    for at, says in ((text, "Incorrect chunk CRC"), (whole.rindex(b"float64 x"), "summary CRC")):
+        broken = context.write("broken.mcap", whole[:at] + b"F" + whole[at + 1:])
+        result = others(context, "read", broken)
+        check_equal(result.code, 1, f"exit code with byte {at} wrong")
+        check_in(says, result.err, f"with byte {at} wrong")
+
+
+@case
+def we_read_what_its_writer_wrote(context):
+    messages = [[("/a", "/b")[i % 2], i, (i * 37) % 100, i, (bytes([i]) * i).hex()]
+                for i in range(100)]
+    messages.sort(key=lambda message: message[2])
+    for kind in ("none", "zstd", "flat"):
+        path = context.folder / f"{kind}.mcap"
+        result = others(context, "write", path, kind)
+        check_equal(result.code, 0, f"exit code of its writer ({result.err.strip()[:300]})")
+        found = ours(context, "read", path)
+        check_equal(found.err, "", f"{kind}: warnings")
+        lines = [line.split(" ") for line in found.out.splitlines()]
+        check_equal(lines[:3], [["ros2"], *([topic, "std_msgs/msg/String", f"key={topic}"]
+                                            for topic in ("/a", "/b"))], f"{kind}: channels")
+        check(lines[3:] == [[str(word) for word in message] for message in messages],
+              f"{kind}: messages")
+        # Cut off in the middle, it still gives what is whole.
+        cut = context.write("cut.mcap", path.read_bytes()[:path.stat().st_size // 2])
+        found = ours(context, "read", cut)
+        check_in("is cut off or broken here", found.err, f"{kind}, cut: warnings")
+        left = found.out.splitlines()[3:]
+        check(20 < len(left) < 100 and set(left) <= {" ".join(line) for line in lines[3:]},
+              f"{kind}, cut: {len(left)} messages")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+// A program of another DDS (Fast DDS) that sends velocities, as Nav2 would: SECONDS of FORWARD and TURN, ten
+// a second.
+//
+//     ros2_driver DOMAIN SECONDS FORWARD TURN
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <string>
+#include <thread>
+
+namespace fast = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+using Twist = std::array<double, 6>;  // linear x y z, angular x y z
+
+/// CDR of six numbers: they follow one another.
+class TwistType : public fast::TopicDataType {
+ public:
+  TwistType() {
+    setName("geometry_msgs::msg::dds_::Twist_");
+    m_typeSize = sizeof(Twist) + 4;
+    m_isGetKeyDefined = false;
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const unsigned char header[] = {0, 1, 0, 0};
+    std::memcpy(payload->data, header, sizeof header);
+    std::memcpy(payload->data + sizeof header, data, sizeof(Twist));
+    payload->length = m_typeSize;
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* /*payload*/, void* /*data*/) override { return false; }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
+    return [] { return static_cast<std::uint32_t>(sizeof(Twist) + 4); };
+  }
+  void* createData() override { return new Twist; }
+  void deleteData(void* data) override { delete static_cast<Twist*>(data); }
+  bool getKey(void* /*data*/, rtps::InstanceHandle_t* /*handle*/, bool /*force*/) override {
+    return false;
+  }
+};
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 5) return 2;
+  fast::DomainParticipant* const participant =
+      fast::DomainParticipantFactory::get_instance()->create_participant(
+          static_cast<std::uint32_t>(std::stoul(words[1])), fast::PARTICIPANT_QOS_DEFAULT);
+  if (participant == nullptr) return 1;
+  fast::TypeSupport(new TwistType).register_type(participant);
+  fast::Topic* const topic = participant->create_topic(
+      "rt/cmd_vel", "geometry_msgs::msg::dds_::Twist_", fast::TOPIC_QOS_DEFAULT);
+  fast::Publisher* const publisher = participant->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
+  fast::DataWriterQos qos;
+  qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
+  fast::DataWriter* const writer = publisher->create_datawriter(topic, qos);
+  Twist twist = {std::stod(words[3]), 0, 0, 0, 0, std::stod(words[4])};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(words[2]));
+  while (std::chrono::steady_clock::now() < end) {
+    writer->write(&twist);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  std::quick_exit(0);
+}
