@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "adapters/ros2/mcap_file.h"
 #include "adapters/ros2/ros2_outlet.h"
 #include "adapters/ros2/ros2_robot.h"
 #include "tagfield/base/error.h"
@@ -32,6 +33,14 @@ std::uint32_t domain_of_environment() {
   return static_cast<std::uint32_t>(*number);
 }
 
+std::shared_ptr<ros2::Ros2Outlet> attach_sink(const std::shared_ptr<ros2::MessageSink>& sink,
+                                              Outlets& outlets) {
+  auto outlet = std::make_shared<ros2::Ros2Outlet>(sink);
+  attach(outlet, outlets);
+  attach(std::make_shared<ros2::Ros2Markers>(sink), outlets);
+  return outlet;
+}
+
 RemoteDriving driving_of(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
                          const std::shared_ptr<ros2::DdsSink>& sink,
                          const std::shared_ptr<ros2::Ros2Outlet>& outlet) {
@@ -40,7 +49,9 @@ RemoteDriving driving_of(const Ros2Arguments& arguments, const ScenarioWithWorld
     if (antenna.on == arguments.drive) antennas.insert(antenna.parameters.name);
   }
   outlet->mount(arguments.drive, antennas, ros2::kBaseFrame);
-  const auto warn = [](const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); };
+  const auto warn = [](const std::string& line) {
+    fmt::print(stderr, "tagfield: warning: {}\n", line);
+  };
   return {
       arguments.drive,
       std::make_shared<ros2::Ros2Robot>(sink, outlet, navigation_of(loaded.scenario).laser, warn),
@@ -58,6 +69,9 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
                   "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
       ->check(CLI::Range(std::uint32_t{0}, static_cast<std::uint32_t>(kLastDomain)))
       ->needs(ros2);
+  command.add_option("--mcap", arguments.mcap,
+                     "Record the same messages into this MCAP file, for rosbag2 and Foxglove "
+                     "(docs/mcap.md)");
   command
       .add_option("--drive", arguments.drive,
                   "This robot is driven from outside, by Nav2 for example: /cmd_vel in, /odom, "
@@ -81,14 +95,17 @@ void set_pace(const Ros2Arguments& arguments, Scenario& scenario) {
 Ros2Run attach_ros2(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
                     Outlets& outlets) {
   Ros2Run run;
+  if (!arguments.mcap.empty()) {
+    run.sinks.push_back(ros2::mcap_file(arguments.mcap));
+    (void)attach_sink(run.sinks.back(), outlets);
+  }
   if (!arguments.ros2) return run;
   const std::uint32_t domain = arguments.domain ? *arguments.domain : domain_of_environment();
-  run.sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
-  const auto outlet = std::make_shared<ros2::Ros2Outlet>(run.sink);
-  attach(outlet, outlets);
-  attach(std::make_shared<ros2::Ros2Markers>(run.sink), outlets);
-  if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, run.sink, outlet);
-  if (run.sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
+  const auto sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
+  run.sinks.push_back(sink);
+  const auto outlet = attach_sink(sink, outlets);
+  if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, sink, outlet);
+  if (sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
   return run;
 }
 

@@ -1,10 +1,11 @@
 /// @file
-/// Where a run goes besides its folder: into ROS 2.
+/// Where a run goes besides its folder: into ROS 2, or a file of its messages.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "adapters/ros2/dds_sink.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -18,11 +19,12 @@ struct Ros2Arguments {
   std::optional<std::uint32_t> domain;
   std::optional<double> speed;
   std::string drive;
+  std::string mcap;  ///< File to record into, or "".
 };
 
 /// What a run has besides its outlets.
 struct Ros2Run {
-  std::shared_ptr<ros2::DdsSink> sink;   ///< Null where it was not asked for.
+  std::vector<std::shared_ptr<ros2::MessageSink>> sinks;  ///< To be finished after the run.
   std::optional<RemoteDriving> driving;  ///< Of the robot that is driven from outside, if one is.
 };
 

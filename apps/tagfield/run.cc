@@ -92,7 +92,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
       arguments.record_only
           ? std::vector<SeedRun>{simulate(scenario, seed, control, world)}
           : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
-  if (ros2.sink) ros2.sink->finish();
+  for (const auto& sink : ros2.sinks) sink->finish();
   return runs;
 }
 

@@ -13,7 +13,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "command"))
 from common import (  # noqa: E402  pylint: disable=wrong-import-position
-    Skip, case, check, check_equal, check_in, main, run)
+    Skip, case, check, check_equal, check_in, main, read_csv, run)
 
 START_NS = 1_700_000_000_000_000_000
 TOPICS = ("/text", "/pose", "/text/größer")  # of messages 0, 1, 2, 3, …
@@ -184,6 +184,57 @@ def we_read_what_its_writer_wrote(context):
         left = found.out.splitlines()[3:]
         check(20 < len(left) < 100 and set(left) <= {" ".join(line) for line in lines[3:]},
               f"{kind}, cut: {len(left)} messages")
+
+
+@case
+def a_runs_messages_are_those_of_its_tables(context):
+    folder = context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
+    topics = read_by_others(context, "decode", context.folder / "run.mcap")
+    if topics is None:
+        return
+    types = {topic: entry["type"] for topic, entry in topics.items()}
+    check_equal(types, {
+        "/clock": "rosgraph_msgs/msg/Clock", "/tf": "tf2_msgs/msg/TFMessage",
+        "/tf_static": "tf2_msgs/msg/TFMessage", "/rfid/reads": "tagfield_msgs/msg/TagReads",
+        "/rfid/markers": "visualization_msgs/msg/MarkerArray",
+        "/rfid/truth/antennas": "tagfield_msgs/msg/AntennaTruth",
+        "/rfid/truth/tags": "tagfield_msgs/msg/TagPositions",
+        "/rfid/truth/tags_moved": "tagfield_msgs/msg/TagPositions",
+        "/p3at/ground_truth/odom": "nav_msgs/msg/Odometry"}, "topics and their types")
+    for topic, entry in topics.items():
+        check_in("reliability: ", entry["metadata"].get("offered_qos_profiles", ""), f"{topic}: QoS")
+        check_in("RIHS01_", entry["metadata"].get("topic_type_hash", ""), f"{topic}: hash")
+    check_in("durability: 1", topics["/tf_static"]["metadata"]["offered_qos_profiles"], "/tf_static")
+
+    def seconds(stamp):
+        return f"{stamp['sec']}.{stamp['nanosec']:09}"
+
+    reads = [[seconds(read["header"]["stamp"]), read["antenna"], read["epc"], read["frequency"],
+              read["rssi"], read["phase"], read["doppler"]]
+             for message in topics["/rfid/reads"]["messages"] for read in message["reads"]]
+    rows = read_csv(folder / "reads.csv")
+    check_equal(len(reads), len(rows), "reads")
+    expected = {(row["stamp_s"], row["antenna"], row["tag"]):
+                (float(row["frequency_hz"]), float(row["rssi_dbm"])) for row in rows}
+    check({tuple(read[:3]): tuple(read[3:5]) for read in reads} == expected, "reads differ")
+    check({read[6] for read in reads} == {"NaN"}, "a reader that tells no Doppler tells some")
+    places = {tag["epc"]: tag["position"] for tag in topics["/rfid/truth/tags"]["messages"][0]["tags"]}
+    truth = {row["tag"]: {"x": float(row["x_m"]), "y": float(row["y_m"]), "z": float(row["z_m"])}
+             for row in read_csv(folder / "truth/tags.csv")}
+    check_equal(places, truth, "places of tags")
+    count = len(read_csv(folder / "truth/distances.csv"))
+    check_equal(sum(len(message["distances"]) for message in topics["/rfid/truth/antennas"]["messages"]),
+                count, "distances")
+    check(topics["/rfid/markers"]["messages"][0]["markers"], "no markers")
+
+
+@case
+def a_disk_that_is_full(context):
+    result = context.run("run", context.shipped("two_antennas"), "--no-page", "--out", "out", "--mcap",
+                         "nowhere/run.mcap")
+    check_equal(result.code, 2, "exit code")
+    check_in("nowhere/run.mcap", result.err, "complaint")
+    check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 //
 //   node others.mjs PACKAGES read FILE                 what its two readers find, as JSON
 //   node others.mjs PACKAGES query FILE TOPIC FROM TO  messages of a topic and times, by the index
+//   node others.mjs PACKAGES decode FILE               each topic's messages as ROS 2's schemas say, as JSON
 //   node others.mjs PACKAGES write FILE none|zstd|flat a file of its writer; flat: without chunks
 //
 // Ends with code 1 and a line on standard error where a reader refuses the file.
@@ -14,6 +15,8 @@ const require = createRequire(path.resolve(packages, "package.json"));
 const { McapIndexedReader, McapStreamReader, McapWriter } = require("@mcap/core");
 const { crc32 } = require("@foxglove/crc");
 const lz4 = require("@foxglove/wasm-lz4");
+const { parse } = require("@foxglove/rosmsg");
+const { MessageReader } = require("@foxglove/rosmsg2-serialization");
 const zstd = require("@foxglove/wasm-zstd");
 
 const decompressHandlers = {
@@ -98,6 +101,27 @@ function dataCrc(bytes, expected) {
   return expected !== 0 && crc32(bytes.subarray(0, end)) === expected;
 }
 
+// Without the numbers that JSON doesn't have.
+const asJson = (key, value) => (ArrayBuffer.isView(value) ? [...value] : typeof value === "bigint"
+  ? Number(value) : typeof value === "number" && !Number.isFinite(value) ? String(value) : value);
+
+async function decode(bytes) {
+  const reader = await indexedReader(bytes);
+  const decoders = new Map();
+  const topics = {};
+  for (const channel of reader.channelsById.values()) {
+    const schema = reader.schemasById.get(channel.schemaId);
+    decoders.set(channel.id, new MessageReader(parse(asText(schema.data), { ros2: true })));
+    topics[channel.topic] = { type: schema.name, metadata: Object.fromEntries(channel.metadata),
+                              messages: [] };
+  }
+  for await (const message of reader.readMessages()) {
+    const { topic } = reader.channelsById.get(message.channelId);
+    topics[topic].messages.push(decoders.get(message.channelId).readMessage(message.data));
+  }
+  return topics;
+}
+
 async function write(kind) {
   const out = fs.openSync(file, "w");
   let position = 0n;
@@ -131,6 +155,7 @@ async function main() {
   await Promise.all([lz4.isLoaded, zstd.isLoaded]);
   if (verb === "write") return write(words[0]);
   const bytes = fs.readFileSync(file);
+  if (verb === "decode") return decode(bytes);
   if (verb === "read") return { index: await byIndex(bytes), stream: byStream(bytes) };
   const [topic, from, to] = words;
   const reader = await indexedReader(bytes);
@@ -138,7 +163,7 @@ async function main() {
     { topics: [topic], startTime: BigInt(from), endTime: BigInt(to) }));
 }
 
-main().then((found) => found && console.log(JSON.stringify(found)), (error) => {
+main().then((found) => found && console.log(JSON.stringify(found, asJson)), (error) => {
   console.error(error.message);
   process.exitCode = 1;
 });

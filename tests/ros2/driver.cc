@@ -1,16 +1,15 @@
-// A program of another DDS (Fast DDS) that sends velocities, as Nav2 would: SECONDS of FORWARD and TURN, ten
-// a second.
+// A program of another DDS (Fast DDS) that sends velocities, as Nav2 would: SECONDS of FORWARD and
+// TURN, ten a second.
 //
 //     ros2_driver DOMAIN SECONDS FORWARD TURN
+#include <array>
+#include <chrono>
+#include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
-
-#include <array>
-#include <chrono>
-#include <cstring>
 #include <string>
 #include <thread>
 
@@ -36,7 +35,9 @@ class TwistType : public fast::TopicDataType {
     payload->length = m_typeSize;
     return true;
   }
-  bool deserialize(rtps::SerializedPayload_t* /*payload*/, void* /*data*/) override { return false; }
+  bool deserialize(rtps::SerializedPayload_t* /*payload*/, void* /*data*/) override {
+    return false;
+  }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
     return [] { return static_cast<std::uint32_t>(sizeof(Twist) + 4); };
   }
@@ -63,7 +64,8 @@ int main(int count, char** words) {
   qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
   fast::DataWriter* const writer = publisher->create_datawriter(topic, qos);
   Twist twist = {std::stod(words[3]), 0, 0, 0, 0, std::stod(words[4])};
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(words[2]));
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(words[2]));
   while (std::chrono::steady_clock::now() < end) {
     writer->write(&twist);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

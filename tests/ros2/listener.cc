@@ -1,10 +1,16 @@
-// A program of another DDS (Fast DDS) that listens to topics as ROS 2's nodes do: the test's witness that
-// what is sent arrives elsewhere too.
+// A program of another DDS (Fast DDS) that listens to topics as ROS 2's nodes do: the test's
+// witness that what is sent arrives elsewhere too.
 //
 //     ros2_listener DOMAIN SECONDS_WITHOUT_NEWS TOPIC=TYPE[:transient_local|:best_effort] …
 //
-// Prints a JSON line for each participant, writer and message: kind, name, what it tells of itself, and
-// the bytes of messages in hexadecimal. Ends once nothing has come for so long.
+// Prints a JSON line for each participant, writer and message: kind, name, what it tells of itself,
+// and the bytes of messages in hexadecimal. Ends once nothing has come for so long.
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -12,12 +18,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-
-#include <atomic>
-#include <chrono>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <mutex>
@@ -100,7 +100,8 @@ class Messages : public fast::DataReaderListener {
   void on_data_available(fast::DataReader* reader) override {
     Bytes bytes;
     fast::SampleInfo info;
-    while (reader->take_next_sample(&bytes, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&bytes, &info) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
       if (!info.valid_data) continue;
       print(R"({"kind": "message", "topic": ")" + reader->get_topicdescription()->get_name() +
             R"(", "cdr": ")" + hexadecimal(bytes) + "\"}");
@@ -126,8 +127,8 @@ int main(int count, char** words) {
   Messages messages;
   fast::DomainParticipant* const participant =
       fast::DomainParticipantFactory::get_instance()->create_participant(
-          static_cast<std::uint32_t>(std::stoul(words[1])), fast::PARTICIPANT_QOS_DEFAULT, &discovery,
-          fast::StatusMask::none());
+          static_cast<std::uint32_t>(std::stoul(words[1])), fast::PARTICIPANT_QOS_DEFAULT,
+          &discovery, fast::StatusMask::none());
   if (participant == nullptr) return 1;
   fast::Subscriber* const subscriber =
       participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT, nullptr);

@@ -80,7 +80,8 @@ TEST(ReadTextFile, RefusesDevices) {
 TEST(ReadTextFile, RefusesWhatIsTooLong) {
   const TemporaryFolder folder;
   const std::string path = folder.with("f", std::string(2'000'001, 'x'));
-  EXPECT_TRUE(contains(error_of([&] { read_text_file(path, 2'000'000); }), "is longer than 2000000 bytes"));
+  EXPECT_TRUE(
+      contains(error_of([&] { read_text_file(path, 2'000'000); }), "is longer than 2000000 bytes"));
   EXPECT_EQ(read_text_file(path, 2'000'001).size(), 2'000'001U);
 }
 

@@ -1,0 +1,17 @@
+/// @file
+/// ROS 2 messages into an MCAP file, as rosbag2 would record them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "adapters/ros2/message_sink.h"
+
+namespace tagfield::ros2 {
+
+/// Stamps are both log and publish times. The file appears with finish(); a run that is cut off
+/// leaves PATH.PID.partial. Throws Error if the file can't be written, or if this program was built
+/// without MCAP.
+std::shared_ptr<MessageSink> mcap_file(const std::string& path);
+
+}  // namespace tagfield::ros2

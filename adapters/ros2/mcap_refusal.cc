@@ -1,0 +1,11 @@
+// In place of mcap_sink.cc, in builds without MCAP.
+#include "adapters/ros2/mcap_file.h"
+#include "tagfield/base/error.h"
+
+namespace tagfield::ros2 {
+
+std::shared_ptr<MessageSink> mcap_file(const std::string& /*path*/) {
+  throw Error("this tagfield was built without MCAP (liblz4 and libzstd were not there)");
+}
+
+}  // namespace tagfield::ros2
