@@ -3,15 +3,19 @@
 #include <fstream>
 
 #include "adapters/ros1/bag_recording.h"
+#include "adapters/ros1/mcap_sweep.h"
 
 namespace tagfield {
 namespace {
 
-constexpr const char* kMagic = "#ROSBAG V";
+const std::string kMagic = "#ROSBAG V";
+const std::string kMcapMagic = "\x89MCAP0\r\n";
 
-std::string first_bytes(const std::string& path) {
+std::string first_bytes(const std::string& path, std::size_t count) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return "";
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::char_traits<char>::length(kMagic), '\0');
+  std::string bytes(count, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   return bytes;
@@ -23,8 +27,12 @@ bool is_bag(const std::string& path) {
   const std::filesystem::path name = path;
   const bool named = name.extension() == ".bag" ||
                      (name.extension() == ".active" && name.stem().extension() == ".bag");
-  std::error_code error;
-  return named || (std::filesystem::is_regular_file(name, error) && first_bytes(path) == kMagic);
+  return named || is_mcap(path) || first_bytes(path, kMagic.size()) == kMagic;
+}
+
+bool is_mcap(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".mcap" ||
+         first_bytes(path, kMcapMagic.size()) == kMcapMagic;
 }
 
 }  // namespace tagfield

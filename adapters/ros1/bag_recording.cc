@@ -11,6 +11,7 @@
 #include "adapters/ros1/bag_structure.h"
 #include "adapters/ros1/bag_sweep.h"
 #include "adapters/ros1/bag_transforms.h"
+#include "adapters/ros1/mcap_sweep.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -155,13 +156,19 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   return {found.source, found.frame, tidy_poses(std::move(found.poses))};
 }
 
+BagContent content_of(const std::string& path, const BagOptions& options,
+                      Diagnostics& diagnostics) {
+  if (is_mcap(path)) return sweep_mcap(path, options.on_progress, diagnostics);
+  require_whole_bag(path);
+  return sweep_bag(path, options.frequency_hz, options.on_progress, diagnostics);
+}
+
 }  // namespace
 
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
-  require_whole_bag(path);
   const Silence silence;
-  BagContent content = sweep_bag(path, options.frequency_hz, options.on_progress, diagnostics);
+  BagContent content = content_of(path, options, diagnostics);
   BagRecording recording;
   recording.duration_s = duration_of(content);
   recording.reads = tidy_reads(std::move(content.reads), path, diagnostics);

@@ -1,5 +1,5 @@
 /// @file
-/// A recording out of a rosbag (ROS 1), read without a master.
+/// A recording out of a rosbag of ROS 1, read without a master, or out of an MCAP file of ROS 2.
 #pragma once
 
 #include <functional>
@@ -38,7 +38,7 @@ struct BagRecording {
   double duration_s = 0.0;  ///< From the first stamp of reads, poses and truth to the last.
 };
 
-/// Whether a file is meant to be a bag: by its name (….bag, ….bag.active) or how it begins.
+/// Whether a file is meant to be a bag: by its name (….bag, ….bag.active, ….mcap) or how it begins.
 bool is_bag(const std::string& path);
 
 /// Reads a bag by the types of its messages, whatever the topics' names:

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -15,7 +14,7 @@
 
 namespace tagfield::ros2 {
 
-static_assert(std::endian::native == std::endian::little, "CDR is written as the machine has it");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "CDR is written as the machine has it");
 
 /// "CDR, little endian", in front of each message.
 inline constexpr std::string_view kCdrHeader{"\0\1\0\0", 4};

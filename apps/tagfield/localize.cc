@@ -262,10 +262,11 @@ int localize(const LocalizeArguments& arguments) {
 void add_localize_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<LocalizeArguments>();
   CLI::App* command = app.add_subcommand(
-      "localize", "Locate tags from a rosbag, or from reads and antenna poses as CSV");
+      "localize", "Locate tags from a rosbag or MCAP file, or from reads and antenna poses as CSV");
   command
       ->add_option("READS", arguments->recording,
-                   "Rosbag (RUN.bag), or CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
+                   "Rosbag of ROS 1 (RUN.bag), MCAP file of ROS 2 (RUN.mcap), or CSV: "
+                   "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
                    "rssi_dbm")
       ->required();
   command->add_option("--poses", arguments->poses,

@@ -7,6 +7,7 @@ a writer. npm puts it into the build folder.
 import functools
 import json
 import pathlib
+import random
 import shutil
 import sys
 
@@ -226,6 +227,48 @@ def a_runs_messages_are_those_of_its_tables(context):
     check_equal(sum(len(message["distances"]) for message in topics["/rfid/truth/antennas"]["messages"]),
                 count, "distances")
     check(topics["/rfid/markers"]["messages"][0]["markers"], "no markers")
+
+
+@case
+def tags_are_located_from_the_file_as_from_the_tables(context):
+    scenario = context.shipped("two_antennas")
+    run_folder = context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
+    context.run_well("localize", "run.mcap", "--scenario", scenario, "--method", "hyperbola", "--out", "o")
+    context.run_well("localize", run_folder / "reads.csv", "--poses", run_folder / "antenna_poses.csv",
+                     "--scenario", scenario, "--method", "hyperbola", "--out", "tables")
+    check((context.folder / "o/reads.csv").read_bytes() == (run_folder / "reads.csv").read_bytes(),
+          "reads.csv is not the run's")
+    for name in ("truth/tags.csv", "truth/distances.csv"):
+        check_equal(len(read_csv(context.folder / "o" / name)), len(read_csv(run_folder / name)), name)
+    for row, other in zip(read_csv(context.folder / "o/estimates.csv"),
+                          read_csv(context.folder / "tables/estimates.csv"), strict=True):
+        check_equal((row["tag"], row["verdict"]), (other["tag"], other["verdict"]), "tag and verdict")
+        for key in ("x_m", "y_m", "z_m"):
+            check(abs(float(row[key]) - float(other[key])) < 1e-4, f"{row['tag']}: {key} differs")
+
+
+@case
+def broken_files_are_told_of(context):
+    """Whole messages are used, with a warning; nothing crashes, and nothing is half-written."""
+    context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
+    whole = (context.folder / "run.mcap").read_bytes()
+    cut = context.write("cut.mcap", whole[:len(whole) * 2 // 3])
+    result = context.run("localize", cut, "--out", "cut")
+    check_equal(result.code, 0, "exit code with a file that is cut off")
+    check_in("the file is cut off or broken here", result.err, "warnings")
+    check(len(read_csv(context.folder / "cut/reads.csv")) > 1000, "few reads")
+    draw = random.Random(1)
+    for _ in range(30):
+        data = bytearray(whole)
+        for _ in range(draw.choice((1, 10, 1000))):
+            data[draw.randrange(len(data))] = draw.randrange(256)
+        result = context.run("localize", context.write("odd.mcap", bytes(data)), "--out", "odd")
+        check(result.code in (0, 2), f"exit code {result.code}: {result.err[-300:]}")
+    for text, says in ((b"", "is no MCAP file"), (whole[:8], "no reads"), (b"hello", "is no MCAP file")):
+        result = context.run("localize", context.write("bad.mcap", text), "--out", "bad")
+        check_equal(result.code, 2, "exit code")
+        check_in(says, result.err, "complaint")
+        check(not (context.folder / "bad/reads.csv").exists(), "reads.csv is there")
 
 
 @case
