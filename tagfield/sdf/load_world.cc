@@ -16,11 +16,13 @@
 #include "tagfield/sdf/internal/read_root.h"
 #include "tagfield/sdf/internal/sensors.h"
 #include "tagfield/sdf/internal/shapes.h"
+#include "tagfield/sdf/internal/world_state.h"
 
 namespace tagfield {
 namespace {
 
 using sdf_internal::Context;
+using sdf_internal::ModelState;
 using sdf_internal::NamedPlacement;
 
 /// Walks a world's models and gathers a scene. M is a model's frame, L a link's, C a collision's.
@@ -28,19 +30,22 @@ class SceneGatherer {
  public:
   explicit SceneGatherer(Context& context) : context_(context) {}
 
-  void add_model(const sdf::Model& model, const RigidTransform& X_WP, const std::string& scope) {
+  void add_model(const sdf::Model& model, const RigidTransform& X_WP, const std::string& scope,
+                 const ModelState& state) {
     const std::string name = scope + model.Name();
     const sdf::ElementPtr element = model.Element();
     sdf_internal::require_all_read(context_, element, "link", model.LinkCount());
     sdf_internal::require_all_read(context_, element, "model", model.ModelCount());
     scene_.models.push_back(name);
-    const RigidTransform X_WM =
+    const RigidTransform X_WM_written =
         X_WP * sdf_internal::pose_in_parent(context_, model.SemanticPose(), element);
+    const RigidTransform X_WM = state.pose(context_).value_or(X_WM_written);
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      add_link(*model.LinkByIndex(i), X_WM, name);
+      add_link(*model.LinkByIndex(i), X_WM, name, state);
     }
     for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-      add_model(*model.ModelByIndex(i), X_WM, name + "::");
+      const sdf::Model& nested = *model.ModelByIndex(i);
+      add_model(nested, X_WM, name + "::", state.model(nested.Name()));
     }
   }
 
@@ -54,12 +59,14 @@ class SceneGatherer {
   }
 
  private:
-  void add_link(const sdf::Link& link, const RigidTransform& X_WM, const std::string& model) {
+  void add_link(const sdf::Link& link, const RigidTransform& X_WM, const std::string& model,
+                const ModelState& state) {
     const sdf::ElementPtr element = link.Element();
     sdf_internal::require_all_read(context_, element, "collision", link.CollisionCount());
     sdf_internal::require_all_read(context_, element, "sensor", link.SensorCount());
-    const RigidTransform X_WL =
+    const RigidTransform X_WL_written =
         X_WM * sdf_internal::pose_in_parent(context_, link.SemanticPose(), element);
+    const RigidTransform X_WL = state.link_pose(context_, link.Name()).value_or(X_WL_written);
     const std::string scope = model + "::" + link.Name() + "::";
     const std::vector<std::string> looks = looks_of(link, scope);
     for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
@@ -109,13 +116,8 @@ class SceneGatherer {
   std::vector<NamedPlacement> tags_;
 };
 
-/// Parts of a world that would change where things stand, were they used.
+/// Parts of a world that would bring models, were they used.
 void warn_of_unused_parts(Context& context, const sdf::ElementPtr& world) {
-  const sdf::ElementPtr state = sdf_internal::written_child(world, "state");
-  if (state) {
-    context.diagnostics.warn(sdf_internal::location_of(context, state),
-                             "<state> is not used: models stand where their own <pose> says");
-  }
   const sdf::ElementPtr population = sdf_internal::written_child(world, "population");
   if (population) {
     context.diagnostics.warn(sdf_internal::location_of(context, population),
@@ -126,16 +128,20 @@ void warn_of_unused_parts(Context& context, const sdf::ElementPtr& world) {
 Scene scene_of_world(Context& context, const sdf::World& world) {
   sdf_internal::require_all_read(context, world.Element(), "model", world.ModelCount());
   warn_of_unused_parts(context, world.Element());
+  const ModelState state = sdf_internal::state_of(context, world.Element());
+  const std::set<std::string> deleted = state.deleted();
   SceneGatherer gatherer(context);
   for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-    gatherer.add_model(*world.ModelByIndex(i), RigidTransform{}, "");
+    const sdf::Model& model = *world.ModelByIndex(i);
+    if (deleted.count(model.Name()) > 0) continue;
+    gatherer.add_model(model, RigidTransform{}, "", state.model(model.Name()));
   }
   return gatherer.result(world.Name());
 }
 
 Scene scene_of_model(Context& context, const sdf::Model& model) {
   SceneGatherer gatherer(context);
-  gatherer.add_model(model, RigidTransform{}, "");
+  gatherer.add_model(model, RigidTransform{}, "", {});
   return gatherer.result(model.Name());
 }
 

@@ -251,11 +251,52 @@ TEST_F(LoadWorld, ModelWithoutLinksIsAWarning) {
   EXPECT_EQ(warnings().size(), 1U);
 }
 
-TEST_F(LoadWorld, SavedStateIsNotUsedAndSaysSo) {
-  load("<state world_name='test'><model name='m'><pose>9 9 9 0 0 0</pose></model></state>\n" +
-       model_with("<sphere><radius>1</radius></sphere>"));
-  ASSERT_EQ(warnings().size(), 1U);
-  EXPECT_NE(warnings()[0].find("world.sdf:3: <state> is not used"), std::string::npos);
+/// A model at (1, 0, 0) with its link 1 m above it and its ball 0.1 m in front of that.
+std::string ball_called(const std::string& name) {
+  return "<model name='" + name +
+         "'><pose>1 0 0 0 0 0</pose><link name='l'><pose>0 0 1 0 0 0</pose><collision name='c'>"
+         "<pose>0.1 0 0 0 0 0</pose><geometry><sphere><radius>1</radius></sphere></geometry>"
+         "</collision></link></model>";
+}
+
+TEST_F(LoadWorld, SavedStateSaysWhereModelsStand) {
+  const Scene scene = load(
+      "<state world_name='test'>"
+      "<model name='turned'><pose>5 6 0 0 0 1.5707963267948966</pose></model>"
+      // The link moved in its model, which Gazebo tells in the world's frame.
+      "<model name='bent'><pose>9 9 9 0 0 0</pose><link name='l'>"
+      "<pose>2 3 4 0 0 0</pose></link></model></state>" +
+          ball_called("turned") + ball_called("bent") + ball_called("as_written"),
+      "1.6");
+  ASSERT_EQ(scene.collisions.size(), 3U);
+  EXPECT_TRUE(scene.collisions[0].X_WC.translation.isApprox(Eigen::Vector3d(5, 6.1, 1)));
+  EXPECT_TRUE(scene.collisions[1].X_WC.translation.isApprox(Eigen::Vector3d(2.1, 3, 4)));
+  EXPECT_TRUE(scene.collisions[2].X_WC.translation.isApprox(Eigen::Vector3d(1.1, 0, 1)));
+  EXPECT_TRUE(warnings().empty());
+}
+
+TEST_F(LoadWorld, SavedStateOfNestedModelsAndOfDeletedOnes) {
+  const Scene scene = load(
+      "<state world_name='test'><deletions><name>gone</name></deletions>"
+      "<model name='outer'><pose>1 2 3 0 0 0</pose><model name='inner'><pose>7 8 9 0 0 0</pose>"
+      "</model></model></state>"
+      "<model name='outer'>" +
+          ball_called("inner") + "</model>" + ball_called("gone"),
+      "1.6");
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"outer", "outer::inner"}));
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_TRUE(scene.collisions[0].X_WC.translation.isApprox(Eigen::Vector3d(7.1, 8, 10)));
+}
+
+TEST_F(LoadWorld, WhatOfASavedStateIsNotUsedIsToldOf) {
+  load("<state world_name='test'>\n<insertions>" + ball_called("new") +
+           "</insertions>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale></model>"
+           "</state>" +
+           ball_called("m"),
+       "1.6");
+  ASSERT_EQ(warnings().size(), 2U);
+  EXPECT_NE(warnings()[0].find("world.sdf:4: <insertions> in <state>"), std::string::npos);
+  EXPECT_NE(warnings()[1].find("world.sdf:5: <scale> in <state>"), std::string::npos);
 }
 
 TEST_F(LoadWorld, PrintsNothing) {

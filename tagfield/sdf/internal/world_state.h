@@ -1,0 +1,41 @@
+/// @file
+/// Where a world's models stand that was saved while it ran: its <state>, as Gazebo 11 applies it.
+#pragma once
+
+#include <optional>
+#include <sdf/Element.hh>
+#include <set>
+#include <string>
+
+#include "tagfield/poses/rigid_transform.h"
+#include "tagfield/sdf/internal/context.h"
+
+namespace tagfield::sdf_internal {
+
+/// What the state says of one model, or of the world, whose "models" they are. Of several states
+/// the first counts, as in Gazebo.
+class ModelState {
+ public:
+  /// Says nothing.
+  ModelState() = default;
+  explicit ModelState(sdf::ElementPtr element) : element_(std::move(element)) {}
+
+  /// Of a model in it, by its name there; says nothing where the state has none.
+  [[nodiscard]] ModelState model(const std::string& name) const;
+  /// X_WM of the model itself, in the world's frame; none where the state says nothing of it.
+  [[nodiscard]] std::optional<RigidTransform> pose(const Context& context) const;
+  /// Likewise X_WL of a link.
+  [[nodiscard]] std::optional<RigidTransform> link_pose(const Context& context,
+                                                        const std::string& name) const;
+  /// Names of models that were deleted while the world ran.
+  [[nodiscard]] std::set<std::string> deleted() const;
+
+ private:
+  sdf::ElementPtr element_;
+};
+
+/// The world's state. What of it is not used, as models that were inserted and scales, is warned
+/// of.
+ModelState state_of(Context& context, const sdf::ElementPtr& world);
+
+}  // namespace tagfield::sdf_internal
