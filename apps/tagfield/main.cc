@@ -1,8 +1,13 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -48,15 +53,35 @@ int parse_and_run(int argc, char** argv) {
   return chosen();
 }
 
+/// Where standard input, output or error is closed, the next file that is opened would take its
+/// place, and what is printed would go into that.
+void open_standard_streams() {
+  for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
+    if (::fcntl(file, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);
+  }
+}
+
+/// What was printed must have arrived: its last part only leaves now.
+int with_output_checked(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "tagfield: the standard output can't be written: {}\n", std::strerror(errno));
+  return tagfield::kExitBadInput;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   try {
-    return parse_and_run(argc, argv);
+    return with_output_checked(parse_and_run(argc, argv));
   } catch (const tagfield::Error& error) {
     fmt::print(stderr, "tagfield: {}\n", error.what());
     return tagfield::kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "tagfield: there is not enough memory for this\n");
+    return tagfield::kExitBadInput;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return with_output_checked(tagfield::kExitBadInput);
     fmt::print(stderr, "tagfield: internal error: {}\n", error.what());
     return tagfield::kExitFailure;
   }

@@ -14,6 +14,8 @@ namespace tagfield {
 namespace {
 
 constexpr double kMost = 1e15;  // Of any other number.
+constexpr std::size_t kMostYamlBytes = 16'000'000;
+constexpr int kMostLevels = 100;  // Of lists and maps in each other; a node may hold itself.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
 constexpr const char* kFromCommandLine = "!set";
@@ -83,15 +85,16 @@ std::vector<std::string> split_at_dots(std::string_view path) {
   fail({fmt::format("{} {}", kCommandLine, key_path), 0}, why);
 }
 
-void mark_as_from_command_line(YAML::Node node) {
+void mark_as_from_command_line(YAML::Node node, int levels = kMostLevels) {
+  if (levels == 0) throw Error("holds itself, or lists and maps too deep in each other");
   node.SetTag(kFromCommandLine);
   if (node.IsSequence()) {
-    for (const YAML::Node& element : node) mark_as_from_command_line(element);
+    for (const YAML::Node& element : node) mark_as_from_command_line(element, levels - 1);
   }
   if (node.IsMap()) {
     for (const auto& entry : node) {
-      mark_as_from_command_line(entry.first);
-      mark_as_from_command_line(entry.second);
+      mark_as_from_command_line(entry.first, levels - 1);
+      mark_as_from_command_line(entry.second, levels - 1);
     }
   }
 }
@@ -103,6 +106,8 @@ YAML::Node parse_value(std::string_view key_path, const std::string& text) {
     return value;
   } catch (const YAML::Exception& error) {
     leads_nowhere(key_path, fmt::format("'{}' is not a YAML value: {}", text, error.msg));
+  } catch (const Error& error) {
+    leads_nowhere(key_path, error.what());
   }
 }
 
@@ -253,7 +258,7 @@ void YamlMap::finish() const {
 }
 
 YAML::Node read_yaml(const std::string& path) {
-  const std::string text = read_text_file(path);
+  const std::string text = read_text_file(path, kMostYamlBytes);
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap())

@@ -7,6 +7,7 @@ must say. With --show the complaints are printed, for people to judge their word
 
 import os
 import shutil
+import subprocess
 
 from common import (Skip, case, check, check_equal, check_in, files_in, main, read_csv, read_json)
 
@@ -1164,6 +1165,35 @@ def a_tag_never_read_cannot_be_localized(context):
     check_in("cannot localize: never read", result.out, "the table")
     check_equal([tag["verdict"] for tag in read_json(context.folder / "out/summary.json")["tags"]
                  if tag["id"] == "near"], ["not_located"], "verdict")
+
+
+@case
+def output_that_cannot_be_printed(context):
+    """A full device is told of, and a closed standard output is no place for files to go to."""
+    path = context.write("good.yaml", SCENARIO)
+    for words in (["check", path], ["check", path, "--json"], ["--version"]):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([context.tagfield, *words], stdout=full, stderr=subprocess.PIPE,
+                                  text=True, check=False)
+        check_equal(done.returncode, 2, f"exit code of {words[0]} into a full device")
+        check_in("the standard output can't be written: No space", done.stderr, "complaint")
+    context.run_well("run", path, "--no-page", "--out", "open")
+    closed = f'"{context.tagfield}" run "{path}" --no-page --out closed >&- 2>&-'
+    done = subprocess.run(["sh", "-c", closed], cwd=context.folder, check=False)
+    check_equal(done.returncode, 0, "exit code with a closed output")
+    opened = files_in(context.folder / "open")
+    for name, content in files_in(context.folder / "closed").items():
+        check(name == "summary.json" or content == opened[name], f"{name} differs")
+
+
+@case
+def yaml_beyond_all_measure(context):
+    path = context.write("good.yaml", SCENARIO)
+    expect_complaint(context, "a node that holds itself",
+                     ["run", path, "--set", "tags=&a [*a]", "--out", "o"], "--set tags: holds itself")
+    long = context.write("long.yaml", "#" * 16_000_001)
+    expect_complaint(context, "16 MB", ["run", long, "--out", "o"], "is longer than 16000000 bytes")
+    expect_complaint(context, "a device", ["run", "/dev/zero", "--out", "o"], "/dev/zero: ")
 
 
 if __name__ == "__main__":
