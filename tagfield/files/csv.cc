@@ -88,6 +88,9 @@ std::size_t CsvTable::column(std::string_view name) const {
     fail({file, 1},
          fmt::format("no column '{}'; the columns are {}", name, fmt::join(header, ",")));
   }
+  if (std::count(header.begin(), header.end(), name) > 1) {
+    fail({file, 1}, fmt::format("has the column '{}' twice", name));
+  }
   return static_cast<std::size_t>(found - header.begin());
 }
 

@@ -25,6 +25,12 @@ std::int64_t days_of_date(std::int64_t year, std::int64_t month, std::int64_t da
   return 365 * y + y / 4 - y / 100 + y / 400 + day_of_year - 719468;
 }
 
+std::int64_t days_in(std::int64_t year, std::int64_t month) {
+  const bool is_last = month == 12;
+  return days_of_date(is_last ? year + 1 : year, is_last ? 1 : month + 1, 1) -
+         days_of_date(year, month, 1);
+}
+
 /// A number of `digits` digits at `at` in `text`; none for anything else.
 std::optional<int> digits_at(const std::string& text, std::size_t at, std::size_t digits) {
   if (text.size() < at + digits) return std::nullopt;
@@ -60,7 +66,8 @@ std::optional<Time> parse_iso(const std::string& text) {
   const bool marked = text[4] == '-' && text[7] == '-' && (text[10] == 'T' || text[10] == ' ') &&
                       text[13] == ':' && text[16] == ':';
   const bool in_range = *year >= 1970 && *year <= 2114 && *month >= 1 && *month <= 12 &&
-                        *day >= 1 && *day <= 31 && *hour < 24 && *minute < 60 && *second <= 60;
+                        *day >= 1 && *day <= days_in(*year, *month) && *hour < 24 && *minute < 60 &&
+                        *second <= 60;
   const auto fraction = nanoseconds_of(text.substr(19));
   if (!marked || !in_range || !fraction) return std::nullopt;
   const std::int64_t seconds =

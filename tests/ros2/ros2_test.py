@@ -109,7 +109,7 @@ def messages(lines, topic):
 
 @case
 def every_read_arrives_in_another_dds(context):
-    lines = heard(context, [READS, CLOCK], f"{context.shipped('two_antennas')} --speed 50")
+    lines = heard(context, [READS, CLOCK], f"{context.shipped('two_antennas')} --speed 15")
     got = [read for cdr in messages(lines, "rt/rfid/reads") for read in tag_reads(cdr)]
     rows = read_csv(context.folder / "out/reads.csv")
     check_equal(len(got), len(rows), "number of reads")
@@ -144,7 +144,7 @@ def those_who_come_late_get_what_is_latched(context):
 
 @case
 def it_is_a_node_of_the_graph(context):
-    lines = heard(context, [GRAPH], f"{context.shipped('two_antennas')} --speed 50")
+    lines = heard(context, [GRAPH], f"{context.shipped('two_antennas')} --speed 15")
     users = [line["user_data"] for line in lines if line["kind"] == "participant"]
     check_in("enclave=/;", users, "user data of participants")
     writers = {line["topic"]: line for line in lines if line["kind"] == "writer"}

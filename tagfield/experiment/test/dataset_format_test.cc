@@ -211,6 +211,22 @@ TEST(DatasetFormat, ComplaintsNameTheLine) {
       ":2: time is 'noon', expected a date as 2024-05-01T12:30:00.25");
 }
 
+TEST(DatasetFormat, DatesAreThoseOfTheCalendar) {
+  const auto complaint_of = [](const std::string& date) {
+    const std::string path =
+        written("dates.csv", "time,epc,port,phase_deg,rssi_dbm,frequency_hz\n" + date +
+                                 "T00:00:00,E2,1,0,-50,9e8\n");
+    return complaint(path,
+                     [&] { read_dataset_csv(path, read_dataset_form(shipped("two_tables"))); });
+  };
+  for (const char* date : {"2024-02-29", "2000-02-29", "2023-02-28", "2023-12-31", "2023-04-30"}) {
+    EXPECT_EQ(complaint_of(date), "") << date;
+  }
+  for (const char* date : {"2023-02-29", "2024-02-30", "2100-02-29", "2023-04-31", "2023-12-32"}) {
+    EXPECT_NE(complaint_of(date).find("expected a date as"), std::string::npos) << date;
+  }
+}
+
 TEST(DatasetFormat, ComplaintsOfProfilesNameTheLineToo) {
   const std::string path = written("form.yaml", "stamp: {column: t, unit: hours}\n");
   EXPECT_NE(complaint(path, [&] { read_dataset_form(path); }).find(":1: stamp.unit"),

@@ -128,6 +128,13 @@ TEST(CsvTable, NamesTheColumnsWhenOneIsMissing) {
   EXPECT_TRUE(contains(message, "tag,phase")) << message;
 }
 
+TEST(CsvTable, RefusesAColumnThatStandsThereTwice) {
+  const CsvTable table = table_of("tag,phase,tag\n1,2,3\n");
+  EXPECT_TRUE(contains(error_of([&] { (void)table.column("tag"); }),
+                       "t.csv:1: has the column 'tag' twice"));
+  EXPECT_EQ(table.column("phase"), 1U);
+}
+
 TEST(CsvTable, ReadsNumbers) {
   const CsvTable table = table_of("n\n1.5\n+2\n-3e2\n 4 \n\"5\"\n");
   const std::vector<double> expected = {1.5, 2.0, -300.0, 4.0, 5.0};
