@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tagfield/sdf/internal/complaints.h"
+#include "tagfield/sdf/internal/flattened.h"
 #include "tagfield/sdf/internal/include_tree.h"
 
 namespace tagfield::sdf_internal {
@@ -63,9 +64,25 @@ class Silence {
   std::streambuf* cerr_;
 };
 
+/// sdformat gave up on the file as it stands.
+sdf::Errors load_mended(sdf::Root& root, Context& context, const sdf::ParserConfig& config) {
+  const std::string text = file_text(context.given_path);
+  const std::string mended = without_flattened_names(text);
+  try {
+    root = sdf::Root();
+    sdf::Errors errors = root.LoadSdfString(mended, config);
+    context.diagnostics.warn({context.given_path, 0},
+                             "names with '::', as in worlds that Gazebo saved, are read with '__'");
+    return errors;
+  } catch (const sdf::Exception& exception) {
+    fail({context.given_path, 0},
+         "sdformat gives up on it: " + plain_words(exception.GetErrorStr()));
+  }
+}
+
 /// What sdformat can't read it hands to a parser of URDF, which prints to std::cerr whatever
 /// sdformat's own console is set to. All of these are the process's, so only one load may use them.
-sdf::Errors load_silently(sdf::Root& root, const Context& context, const IncludeTree& tree) {
+sdf::Errors load_silently(sdf::Root& root, Context& context, const IncludeTree& tree) {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   const Silence silence;
@@ -73,9 +90,8 @@ sdf::Errors load_silently(sdf::Root& root, const Context& context, const Include
   const AsGlobalConfig global(config);
   try {
     return root.Load(context.absolute_path, config);
-  } catch (const sdf::Exception& exception) {  // A failed assertion of sdformat's own.
-    fail({context.given_path, 0},
-         "sdformat gives up on it: " + plain_words(exception.GetErrorStr()));
+  } catch (const sdf::Exception&) {  // A failed assertion of sdformat's own.
+    return load_mended(root, context, config);
   }
 }
 
