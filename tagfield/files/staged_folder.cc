@@ -171,8 +171,8 @@ void remove_abandoned(const fs::path& folder) {
 /// Makes `incomplete-PID`, or `incomplete-PID.2` where an earlier program left one.
 fs::path make_staging(const fs::path& folder) {
   for (int attempt = 1; attempt < 1000; ++attempt) {
-    const fs::path staging = folder / fmt::format("{}{}{}", kIncomplete, getpid(),
-                                                  attempt == 1 ? "" : fmt::format(".{}", attempt));
+    fs::path staging = folder / fmt::format("{}{}{}", kIncomplete, getpid(),
+                                            attempt == 1 ? "" : fmt::format(".{}", attempt));
     std::error_code error;
     if (fs::create_directory(staging, error)) return staging;
     if (error) fail({folder.string(), 0}, fmt::format("can't be written to: {}", error.message()));

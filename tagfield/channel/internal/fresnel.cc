@@ -27,12 +27,12 @@ Complex through(Complex root, double thickness_m, double lambda_m) {
 }
 
 /// The slab's two faces see each other's echoes.
-Complex slab_reflection(Complex face, Complex once) {
+Complex reflection_of_slab(Complex face, Complex once) {
   const Complex twice = once * once;
   return face * (1.0 - twice) / (1.0 - face * face * twice);
 }
 
-Complex slab_transmission(Complex face, Complex once) {
+Complex transmission_of_slab(Complex face, Complex once) {
   return (1.0 - face * face) * once / (1.0 - face * face * once * once);
 }
 
@@ -54,7 +54,7 @@ FresnelPair slab_reflection(Complex eta, double cos_incidence, double thickness_
   const Complex root = normal_component(eta, std::clamp(cos_incidence, 0.0, 1.0));
   const Complex once = through(root, thickness_m, lambda_m);
   if (once == 1.0) return {};
-  return {slab_reflection(face.te, once), slab_reflection(face.tm, once)};
+  return {reflection_of_slab(face.te, once), reflection_of_slab(face.tm, once)};
 }
 
 FresnelPair slab_transmission(Complex eta, double cos_incidence, double thickness_m,
@@ -64,7 +64,8 @@ FresnelPair slab_transmission(Complex eta, double cos_incidence, double thicknes
   const Complex once = through(normal_component(eta, cosine), thickness_m, lambda_m);
   if (once == 1.0) return {1.0, 1.0};
   const Complex in_air = through(cosine, thickness_m, lambda_m);
-  return {slab_transmission(face.te, once) / in_air, slab_transmission(face.tm, once) / in_air};
+  return {transmission_of_slab(face.te, once) / in_air,
+          transmission_of_slab(face.tm, once) / in_air};
 }
 
 }  // namespace tagfield
