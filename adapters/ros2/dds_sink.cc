@@ -20,7 +20,7 @@ namespace {
 constexpr dds_duration_t kMostBlocking = DDS_SECS(1);
 constexpr dds_duration_t kMostWaitAtEnd = DDS_SECS(3);
 constexpr std::uint32_t kLastDomain = 232;  // Those above have no ports.
-constexpr std::int32_t kDepth = 1000;       // Of reliable topics: about a second of a fast run.
+constexpr std::int32_t kDepth = 1000;       // Messages kept for slow readers of a reliable topic.
 
 /// Deleted with all that belongs to it.
 class Entity {

@@ -5,8 +5,8 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/outlet_arguments.h"
 #include "apps/tagfield/progress_bar.h"
-#include "apps/tagfield/ros2_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
@@ -36,7 +36,7 @@ struct RunArguments {
   bool no_page = false;
   bool breakdown = false;
   bool record_only = false;
-  Ros2Arguments ros2;
+  OutletArguments outlets;
 };
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
@@ -78,8 +78,8 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
                                        Diagnostics& diagnostics) {
   const Scenario& scenario = loaded.scenario;
   RunControl control;
-  const Ros2Run ros2 = attach_ros2(arguments.ros2, loaded, control.outlets);
-  if (ros2.driving) control.remote = &*ros2.driving;
+  const RunOutlets outlets = attach_outlets(arguments.outlets, loaded, control.outlets);
+  if (outlets.driving) control.remote = &*outlets.driving;
   ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   control.keeps_recording = !arguments.record_only;
   attach(std::make_shared<CsvOutlet>(folder), control.outlets);
@@ -92,7 +92,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
       arguments.record_only
           ? std::vector<SeedRun>{simulate(scenario, seed, control, world)}
           : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
-  for (const auto& sink : ros2.sinks) sink->finish();
+  for (const auto& sink : outlets.sinks) sink->finish();
   return runs;
 }
 
@@ -157,13 +157,13 @@ int run(const RunArguments& arguments) {
   }
   Diagnostics diagnostics;
   ScenarioWithWorld loaded = load_scenario_with_world(arguments.scenario, overrides, diagnostics);
-  set_pace(arguments.ros2, loaded.scenario);
+  apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
-  if (scenario.pose.source == PoseSource::kSlam && arguments.ros2.drive.empty()) {
+  if (scenario.pose.source == PoseSource::kSlam) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
   const NavigationWorld* const ways = world ? &*world : nullptr;
@@ -220,7 +220,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
                  "Run again with each effect of the physical models alone and with all but it, "
                  "and say what each costs")
       ->excludes("--record-only");
-  add_ros2_options(*command, arguments->ros2);
+  add_outlet_options(*command, arguments->outlets);
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
       "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");

@@ -164,8 +164,11 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
 
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world) {
-  if (scenario.pose.source == PoseSource::kSlam && control.remote == nullptr) {
+  if (scenario.pose.source == PoseSource::kSlam) {
     if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
+    if (control.remote != nullptr) {
+      throw Error("navigation 'slam' goes without a robot that is driven from outside");
+    }
     return navigated(scenario, seed, control, *world);
   }
   SeedRun run;

@@ -29,7 +29,6 @@ Robot::Robot(const RobotSpec& spec, std::unique_ptr<SelfDriver> driver, std::uin
 
 Robot::Robot(const RobotSpec& spec, std::unique_ptr<RemoteDriver> driver, std::uint64_t seed)
     : Robot(spec, PoseBelief{}, seed) {
-  belief_.source = PoseSource::kOdometry;
   remote_driver_ = std::move(driver);
 }
 

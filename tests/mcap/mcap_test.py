@@ -272,7 +272,7 @@ def broken_files_are_told_of(context):
 
 
 @case
-def a_disk_that_is_full(context):
+def a_file_that_cannot_be_written(context):
     result = context.run("run", context.shipped("two_antennas"), "--no-page", "--out", "out", "--mcap",
                          "nowhere/run.mcap")
     check_equal(result.code, 2, "exit code")

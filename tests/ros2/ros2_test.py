@@ -15,7 +15,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "command"))
 
 from common import (Skip, case, check, check_equal, check_in, clean_environment,  # noqa: E402
-                    main, read_csv)
+                    main, read_csv, read_json)
 
 READS = "rt/rfid/reads=tagfield_msgs::msg::dds_::TagReads_"
 TAGS = "rt/rfid/truth/tags=tagfield_msgs::msg::dds_::TagPositions_:transient_local"
@@ -262,6 +262,21 @@ def a_robot_is_driven_from_another_dds(context):
     check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
     told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
     check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
+
+
+@case
+def a_robot_is_driven_in_one_run_and_believes_its_wheels(context):
+    for option in (["--seeds", "2"], ["--breakdown"]):
+        result = context.run("run", context.shipped("two_antennas"), "--ros2", "--drive", "p3at", *option)
+        check_equal(result.code, 2, f"exit code with {option[0]}")
+        check_in(option[0], result.err, "complaint")
+    # Whatever the scenario says of poses: here the robot would map the hall by itself.
+    done = in_own_network(
+        context, f"{context.tagfield} run {context.shipped('paper_warehouse_slam')} --ros2 --speed 10 "
+        "--drive p3at --set duration_s=1 --no-page --out out")
+    check_equal(done.returncode, 0, f"exit code ({done.stderr})")
+    check_equal(read_json(context.folder / "out/summary.json")["pose"], "odometry", "pose")
+    check(not (context.folder / "out/map.pgm").exists(), "a map that nobody made")
 
 
 @case

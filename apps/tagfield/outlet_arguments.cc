@@ -1,4 +1,4 @@
-#include "apps/tagfield/ros2_arguments.h"
+#include "apps/tagfield/outlet_arguments.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ std::shared_ptr<ros2::Ros2Outlet> attach_sink(const std::shared_ptr<ros2::Messag
   return outlet;
 }
 
-RemoteDriving driving_of(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
+RemoteDriving driving_of(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
                          const std::shared_ptr<ros2::DdsSink>& sink,
                          const std::shared_ptr<ros2::Ros2Outlet>& outlet) {
   std::set<std::string> antennas;
@@ -60,7 +60,7 @@ RemoteDriving driving_of(const Ros2Arguments& arguments, const ScenarioWithWorld
 
 }  // namespace
 
-void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
+void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
   CLI::Option* ros2 = command.add_flag(
       "--ros2", arguments.ros2,
       "Play the run into ROS 2, in real time: /rfid/reads, /tf, /clock and more (docs/ros2.md)");
@@ -75,8 +75,11 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--drive", arguments.drive,
                   "This robot is driven from outside, by Nav2 for example: /cmd_vel in, /odom, "
-                  "/scan and frames out, until the scenario's duration is over or Ctrl-C")
-      ->needs(ros2);
+                  "/scan and frames out, until the scenario's duration is over or Ctrl-C. There is "
+                  "one such run: not with --seeds or --breakdown")
+      ->needs(ros2)
+      ->excludes("--seeds")
+      ->excludes("--breakdown");
   command
       .add_option("--speed", arguments.speed,
                   "Multiple of real time to run at, 0 for as fast as it can (default: as the "
@@ -84,7 +87,8 @@ void add_ros2_options(CLI::App& command, Ros2Arguments& arguments) {
       ->check(CLI::Range(0.0, 1e6));
 }
 
-void set_pace(const Ros2Arguments& arguments, Scenario& scenario) {
+void apply(const OutletArguments& arguments, Scenario& scenario) {
+  if (!arguments.drive.empty()) scenario.pose.source = PoseSource::kOdometry;
   if (arguments.speed) {
     scenario.real_time = *arguments.speed;
   } else if (arguments.ros2 && !(scenario.real_time > 0.0)) {
@@ -92,9 +96,9 @@ void set_pace(const Ros2Arguments& arguments, Scenario& scenario) {
   }
 }
 
-Ros2Run attach_ros2(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
-                    Outlets& outlets) {
-  Ros2Run run;
+RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
+                          Outlets& outlets) {
+  RunOutlets run;
   if (!arguments.mcap.empty()) {
     run.sinks.push_back(ros2::mcap_file(arguments.mcap));
     (void)attach_sink(run.sinks.back(), outlets);

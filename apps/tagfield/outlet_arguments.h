@@ -14,7 +14,7 @@
 
 namespace tagfield {
 
-struct Ros2Arguments {
+struct OutletArguments {
   bool ros2 = false;
   std::optional<std::uint32_t> domain;
   std::optional<double> speed;
@@ -23,20 +23,21 @@ struct Ros2Arguments {
 };
 
 /// What a run has besides its outlets.
-struct Ros2Run {
+struct RunOutlets {
   std::vector<std::shared_ptr<ros2::MessageSink>> sinks;  ///< To be finished after the run.
   std::optional<RemoteDriving> driving;  ///< Of the robot that is driven from outside, if one is.
 };
 
-void add_ros2_options(CLI::App& command, Ros2Arguments& arguments);
+void add_outlet_options(CLI::App& command, OutletArguments& arguments);
 
 /// Sets the pace of a run that others listen to: that of the command line, or else of real time
-/// unless the scenario names one.
-void set_pace(const Ros2Arguments& arguments, Scenario& scenario);
+/// unless the scenario names one. Where somebody outside drives, poses are believed by the wheels,
+/// whatever the scenario says: nobody in here maps, or knows better.
+void apply(const OutletArguments& arguments, Scenario& scenario);
 
 /// Attaches what was asked for, and waits a moment for those who listen already. Throws Error where
 /// the domain can't be joined, or a robot is to be driven that is not there.
-Ros2Run attach_ros2(const Ros2Arguments& arguments, const ScenarioWithWorld& loaded,
-                    Outlets& outlets);
+RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
+                          Outlets& outlets);
 
 }  // namespace tagfield
