@@ -1,6 +1,5 @@
 #include "adapters/gazebo_classic/collision_shapes.h"
 
-#include <Eigen/Geometry>
 #include <gazebo/common/CommonIface.hh>
 #include <gazebo/common/Mesh.hh>
 #include <gazebo/common/MeshManager.hh>
@@ -9,30 +8,17 @@
 #include <utility>
 
 #include "adapters/gazebo_classic/conversions.h"
+#include "adapters/gazebo_common/mesh_copy.h"
 
 namespace tagfield {
 namespace {
 
 using gazebo::common::SubMesh;
 
-void append(const SubMesh& part, const Eigen::Vector3d& scale, TriangleMesh& mesh) {
-  if (part.GetPrimitiveType() != SubMesh::TRIANGLES) return;
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (unsigned i = 0; i < part.GetVertexCount(); ++i) {
-    mesh.vertices.push_back(from_gazebo(part.Vertex(i)).cwiseProduct(scale));
-  }
-  // A mirroring scale turns faces inside out, so it takes the other order of corners.
-  const unsigned second = scale.prod() < 0.0 ? 2 : 1;
-  for (unsigned i = 0; i + 2 < part.GetIndexCount(); i += 3) {
-    mesh.triangles.push_back({first + part.GetIndex(i), first + part.GetIndex(i + second),
-                              first + part.GetIndex(i + 3 - second)});
-  }
-}
-
-void move_to_centre(TriangleMesh& mesh) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) bounds.extend(vertex);
-  for (Eigen::Vector3d& vertex : mesh.vertices) vertex -= bounds.center();
+MeshPart part_of(const SubMesh& own) {
+  return {own.GetVertexCount(), own.GetIndexCount(),
+          [&own](std::uint32_t i) { return from_gazebo(own.Vertex(i)); },
+          [&own](std::uint32_t i) { return own.GetIndex(i); }};
 }
 
 /// A named part, or all.
@@ -51,7 +37,8 @@ MeshPtr copy_of(const gazebo::common::Mesh& mesh, const Part& part, const Eigen:
   TriangleMesh copy;
   for (unsigned i = 0; i < mesh.GetSubMeshCount(); ++i) {
     const SubMesh& own = *mesh.GetSubMesh(i);
-    if (part.name.empty() || own.GetName() == part.name) append(own, scale, copy);
+    if (own.GetPrimitiveType() != SubMesh::TRIANGLES) continue;
+    if (part.name.empty() || own.GetName() == part.name) append(part_of(own), scale, copy);
   }
   if (part.is_centred) move_to_centre(copy);
   return std::make_shared<const TriangleMesh>(std::move(copy));

@@ -1,34 +1,16 @@
 /// @file
-/// Gazebo's poses and times as Tagfield's.
+/// Gazebo 11's times as Tagfield's, and its poses.
 #pragma once
 
 #include <gazebo/common/Time.hh>
-#include <ignition/math/Pose3.hh>
 
+#include "adapters/gazebo_common/conversions.h"
 #include "tagfield/base/time.h"
-#include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {
 
 inline Time from_gazebo(const gazebo::common::Time& time) {
   return Time(std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec));
-}
-
-inline Eigen::Vector3d from_gazebo(const ignition::math::Vector3d& v) {
-  return {v.X(), v.Y(), v.Z()};
-}
-
-/// The pose of Gazebo's link or sensor; both mean p_A = X_AB * p_B.
-inline RigidTransform from_gazebo(const ignition::math::Pose3d& pose) {
-  return {Eigen::Quaterniond(pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()),
-          from_gazebo(pose.Pos())};
-}
-
-/// Exactly; Gazebo's own comparison takes poses a millimetre apart for equal.
-inline bool is_same(const ignition::math::Pose3d& a, const ignition::math::Pose3d& b) {
-  return a.Pos().X() == b.Pos().X() && a.Pos().Y() == b.Pos().Y() && a.Pos().Z() == b.Pos().Z() &&
-         a.Rot().W() == b.Rot().W() && a.Rot().X() == b.Rot().X() && a.Rot().Y() == b.Rot().Y() &&
-         a.Rot().Z() == b.Rot().Z();
 }
 
 }  // namespace tagfield

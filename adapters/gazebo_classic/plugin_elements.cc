@@ -8,14 +8,6 @@
 namespace tagfield {
 namespace {
 
-void gather(const sdf::ElementPtr& parent, std::vector<RawParameter>& parameters) {
-  for (sdf::ElementPtr child = parent->GetFirstElement(); child; child = child->GetNextElement()) {
-    const sdf::ParamPtr value = child->GetValue();
-    parameters.push_back({child->GetName(), value ? value->GetAsString() : "", {}});
-    gather(child, parameters);
-  }
-}
-
 void lay_over(std::vector<RawParameter>& below, const std::vector<RawParameter>& above) {
   const auto given_above = [&](const RawParameter& parameter) {
     return std::any_of(above.begin(), above.end(),
@@ -36,22 +28,6 @@ std::vector<sdf::ElementPtr> plugins_of(gazebo::physics::Model& model,
 }
 
 }  // namespace
-
-std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name) {
-  std::vector<sdf::ElementPtr> found;
-  if (!parent || !parent->HasElement(name)) return found;
-  for (sdf::ElementPtr child = parent->GetElement(name); child;
-       child = child->GetNextElement(name)) {
-    found.push_back(child);
-  }
-  return found;
-}
-
-std::vector<RawParameter> parameters_in(const sdf::ElementPtr& plugin) {
-  std::vector<RawParameter> parameters;
-  gather(plugin, parameters);
-  return parameters;
-}
 
 std::optional<std::vector<RawParameter>> plugin_parameters(gazebo::physics::Model& model,
                                                            const sdf::ElementPtr& own,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "adapters/gazebo_classic/conversions.h"
+#include "adapters/gazebo_common/sensor_names.h"
 #include "tagfield/base/error.h"
 #include "tagfield/field/antenna_facts.h"
 
@@ -18,14 +19,6 @@ namespace {
 constexpr const char* kWorldFrame = "world";
 /// Simulated time in which a fault may pass.
 constexpr Duration kPatience = std::chrono::milliseconds(200);
-
-void put_model_in_front(AntennaOnLink& antenna) {
-  FieldAntenna& field = antenna.antenna;
-  const std::string name = fmt::format("{}::{}", antenna.model, field.sensor);
-  if (field.parameters.reader == field.sensor) field.parameters.reader = name;
-  if (field.frame_id == field.sensor) field.frame_id = name;
-  field.parameters.name = name;
-}
 
 }  // namespace
 
@@ -64,7 +57,9 @@ void RfidWorld::remove_tags(Handle handle) {
 RfidWorld::Handle RfidWorld::add_antenna(AntennaOnLink antenna) {
   const std::lock_guard lock(mutex_);
   const std::string& name = antenna.antenna.parameters.name;
-  if (driver_.has_antenna(name) && name == antenna.antenna.sensor) put_model_in_front(antenna);
+  if (driver_.has_antenna(name) && name == antenna.antenna.sensor) {
+    put_model_in_front(antenna.model, antenna.antenna);
+  }
   if (driver_.has_antenna(name)) {
     throw Error(fmt::format(
         "there is an antenna called '{}' already; give this one another <antenna>", name));

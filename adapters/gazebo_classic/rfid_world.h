@@ -15,18 +15,11 @@
 #include <vector>
 
 #include "adapters/gazebo_classic/static_scene.h"
+#include "adapters/gazebo_common/tag_set.h"
 #include "tagfield/field/field_driver.h"
 #include "tagfield/field/field_worker.h"
 
 namespace tagfield {
-
-/// A tag fixed to a link.
-struct TagOnLink {
-  std::string id;
-  std::string label;
-  RigidTransform X_LT;
-  std::shared_ptr<const TagModel> model;  ///< Its kind, where it is told.
-};
 
 /// Tags that come and go together.
 struct TagsOnLink {

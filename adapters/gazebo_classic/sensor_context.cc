@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <gazebo/physics/physics.hh>
 #include <gazebo/sensors/sensors.hh>
 
-#include "adapters/gazebo_classic/plugin_elements.h"
+#include "adapters/gazebo_common/sdf_elements.h"
+#include "adapters/gazebo_common/sensor_names.h"
 
 namespace tagfield {
 namespace {
@@ -46,8 +46,7 @@ std::string model_name_of(const gazebo::sensors::Sensor& sensor) {
 }
 
 std::string place_of(const gazebo::sensors::Sensor& sensor) {
-  return fmt::format("model '{}', link '{}', sensor '{}'", model_name_of(sensor),
-                     link_name_of(sensor), sensor.Name());
+  return place_of({model_name_of(sensor), link_name_of(sensor), sensor.Name()});
 }
 
 std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
@@ -64,12 +63,7 @@ std::vector<RawParameter> parameters_of(const sdf::ElementPtr& plugin) {
 
 std::string tag_id_of(const std::string& sensor, gazebo::physics::Link& link) {
   const gazebo::physics::ModelPtr model = link.GetModel();
-  const std::vector<std::string> tags = tags_on_links_of(*model);
-  if (tags.size() <= 1) return model->GetScopedName();
-  if (std::count(tags.begin(), tags.end(), sensor) == 1) {
-    return fmt::format("{}::{}", model->GetScopedName(), sensor);
-  }
-  return fmt::format("{}::{}", link.GetScopedName(), sensor);
+  return tag_id_of({model->GetScopedName(), link.GetName(), sensor}, tags_on_links_of(*model));
 }
 
 std::string published_name_of(const std::string& sensor, gazebo::physics::Link& link) {

@@ -8,7 +8,7 @@
 #include <ignition/math/Color.hh>
 
 #include "adapters/gazebo_classic/conversions.h"
-#include "adapters/gazebo_classic/plugin_elements.h"
+#include "adapters/gazebo_common/sdf_elements.h"
 
 namespace tagfield {
 namespace {

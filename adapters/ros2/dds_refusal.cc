@@ -4,6 +4,8 @@
 
 namespace tagfield::ros2 {
 
+const bool kHasDds = false;
+
 struct DdsSink::Impl {};
 
 DdsSink::DdsSink(std::uint32_t /*domain*/, const std::string& /*node_name*/) {

@@ -121,6 +121,8 @@ struct Writer {
 
 }  // namespace
 
+const bool kHasDds = true;
+
 struct DdsSink::Impl {
   Impl(std::uint32_t domain, std::string name)
       : node_name(std::move(name)), participant(join(domain)) {

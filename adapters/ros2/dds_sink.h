@@ -10,6 +10,9 @@
 
 namespace tagfield::ros2 {
 
+/// Whether this was built with DDS.
+extern const bool kHasDds;
+
 /// A node in the graph of a ROS 2 domain.
 class DdsSink : public MessageSink {
  public:

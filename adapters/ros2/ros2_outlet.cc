@@ -98,20 +98,21 @@ std::string topic_token(const std::string& text) {
   return token;
 }
 
-Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink)
+Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock)
     : sink_(std::move(sink)),
-      clock_(*sink_, {"/clock", Delivery::kBestEffort}),
       tf_(*sink_, {"/tf"}),
       static_tf_(*sink_, {"/tf_static", Delivery::kLatched}),
       reads_(*sink_, {"/rfid/reads"}),
       antennas_(*sink_, {"/rfid/truth/antennas"}),
       tags_(*sink_, {"/rfid/truth/tags", Delivery::kLatched}),
-      moved_tags_(*sink_, {"/rfid/truth/tags_moved"}) {}
+      moved_tags_(*sink_, {"/rfid/truth/tags_moved"}) {
+  if (tells_clock) clock_.emplace(*sink_, Ros2Topic{"/clock", Delivery::kBestEffort});
+}
 
 void Ros2Outlet::tell_time(Time stamp) {
-  if (told_time_ && stamp <= *told_time_) return;
+  if (!clock_ || (told_time_ && stamp <= *told_time_)) return;
   told_time_ = stamp;
-  clock_.publish(stamp, {to_message(stamp)});
+  clock_->publish(stamp, {to_message(stamp)});
 }
 
 void Ros2Outlet::on_tag_added(const TagPosition& tag, const std::string& /*label*/) {

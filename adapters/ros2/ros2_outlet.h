@@ -27,7 +27,8 @@ std::string topic_token(const std::string& text);
 /// /rfid/truth/antennas, /rfid/truth/tags, /rfid/truth/tags_moved, /ROBOT/ground_truth/odom.
 class Ros2Outlet : public ReadListener, public PoseListener, public TruthListener {
  public:
-  explicit Ros2Outlet(std::shared_ptr<MessageSink> sink);
+  /// `tells_clock`: /clock too; not where a simulator's bridge does.
+  explicit Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock = true);
 
   /// Antennas on a robot whose frames others tell: theirs hang below `base_frame` then, and not
   /// below the map.
@@ -70,7 +71,7 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   Robot& robot_named(const std::string& name);
 
   std::shared_ptr<MessageSink> sink_;
-  Publisher<rosgraph_msgs::Clock> clock_;
+  std::optional<Publisher<rosgraph_msgs::Clock>> clock_;
   Publisher<tf2_msgs::TFMessage> tf_;
   Publisher<tf2_msgs::TFMessage> static_tf_;
   Publisher<tagfield_msgs::TagReads> reads_;

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "adapters/gazebo_classic/world/scenario_world.h"
+#include "adapters/gazebo_world/gz_sim_world.h"
+#include "adapters/gazebo_world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "tagfield/files/files.h"
@@ -25,6 +26,8 @@ struct GazeboArguments {
   std::vector<std::string> settings;
   std::optional<double> real_time;
   std::string keep_out;
+  bool gz = false;
+  GzSimOptions gz_options;
 };
 
 /// The folder with Tagfield's own models: installed beside the program, or in the source tree.
@@ -49,6 +52,11 @@ void write_keep_out(const std::string& path, const Scenario& scenario, const Sce
        {path, map_to_yaml(nothing, image.string())}});
 }
 
+fs::path out_of(const GazeboArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return fs::path(arguments.scenario).stem().concat(arguments.gz ? ".sdf" : ".world");
+}
+
 int write_gazebo_world(const GazeboArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
@@ -64,28 +72,59 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   GazeboWorldOptions options;
   options.robot_model = (models_folder() / "p3at/model.sdf").string();
   options.real_time = arguments.real_time;
-  const std::string text = gazebo_world(scenario, loaded.scene, options, diagnostics);
+  std::string text = gazebo_world(scenario, loaded.scene, options, diagnostics);
+  if (arguments.gz) {
+    text = gz_sim_world(text, "", arguments.gz_options, diagnostics);
+  }
   if (!arguments.keep_out.empty()) {
     write_keep_out(arguments.keep_out, loaded.scenario, loaded.scene, diagnostics);
   }
   print_warnings(diagnostics);
-  const fs::path out = arguments.out.empty() ? fs::path(arguments.scenario).stem().concat(".world")
-                                             : fs::path(arguments.out);
+  const fs::path out = out_of(arguments);
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
   folders.push_back(models_folder().string());
-  fmt::print("world: {}\nGAZEBO_MODEL_PATH={}\n", out.string(), fmt::join(folders, ":"));
+  const char* const variable = arguments.gz ? "GZ_SIM_RESOURCE_PATH" : "GAZEBO_MODEL_PATH";
+  fmt::print("world: {}\n{}={}\n", out.string(), variable, fmt::join(folders, ":"));
   return kExitOk;
+}
+
+/// A world or a model of somebody's Gazebo 11, for gz-sim.
+int convert_world(const GazeboArguments& arguments) {
+  if (!arguments.settings.empty() || arguments.real_time || !arguments.keep_out.empty()) {
+    throw Error("--set, --real-time and --keep-out are for scenarios, not for worlds");
+  }
+  Diagnostics diagnostics;
+  const std::string text = gz_sim_world(read_text_file(arguments.scenario), arguments.scenario,
+                                        arguments.gz_options, diagnostics);
+  print_warnings(diagnostics);
+  const fs::path out = out_of(arguments);
+  write_text_file(out.string(), text);
+  fmt::print("world: {}\n", out.string());
+  return kExitOk;
+}
+
+int write_world(const GazeboArguments& arguments) {
+  const fs::path kind = fs::path(arguments.scenario).extension();
+  if (kind != ".world" && kind != ".sdf") return write_gazebo_world(arguments);
+  if (arguments.gz) return convert_world(arguments);
+  throw Error(
+      fmt::format("{}: a world, expected a scenario (with --gz it may be a world of Gazebo "
+                  "11 too)",
+                  arguments.scenario));
 }
 
 }  // namespace
 
 void add_gazebo_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<GazeboArguments>();
-  CLI::App* command =
-      app.add_subcommand("gazebo", "Write a scenario as a world of Gazebo 11 with Tagfield in it");
-  command->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
-  command->add_option("--out", arguments->out, "File to write (default NAME.world)");
+  CLI::App* command = app.add_subcommand(
+      "gazebo", "Write a scenario as a world of Gazebo 11, or of gz-sim, with Tagfield in it");
+  command
+      ->add_option("SCENARIO", arguments->scenario,
+                   "Scenario file (YAML); with --gz also a .world or .sdf of Gazebo 11")
+      ->required();
+  command->add_option("--out", arguments->out, "File to write (default NAME.world, or NAME.sdf)");
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()
       ->allow_extra_args(false);
@@ -98,11 +137,22 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
       "--keep-out", arguments->keep_out,
       "Also write a map (YAML, image beside) of what robots can hit but their laser "
       "can't see, for navigation 'slam'");
+  CLI::Option* const gz = command->add_flag(
+      "--gz", arguments->gz, "For gz-sim: Fortress, Harmonic and later (docs/gz.md)");
+  command
+      ->add_option("--mcap", arguments->gz_options.mcap, "gz-sim records its run to this MCAP file")
+      ->needs(gz);
+  command
+      ->add_flag("--stop-at-end", arguments->gz_options.stops_at_end,
+                 "gz-sim ends when the first robot has driven its waypoints")
+      ->needs(gz);
   command->footer(
-      "Prints the folders that GAZEBO_MODEL_PATH must name for the world. GAZEBO_PLUGIN_PATH must\n"
-      "name the folder with Tagfield's plugins; scripts/gazebo-experiment does all of that.");
+      "Prints the folders that GAZEBO_MODEL_PATH (GZ_SIM_RESOURCE_PATH) must name for the world.\n"
+      "GAZEBO_PLUGIN_PATH (GZ_SIM_SYSTEM_PLUGIN_PATH) must name the folder with Tagfield's "
+      "plugins;\n"
+      "scripts/gazebo-experiment and scripts/gz-experiment do all of that.");
   command->callback(
-      [arguments, &chosen] { chosen = [arguments] { return write_gazebo_world(*arguments); }; });
+      [arguments, &chosen] { chosen = [arguments] { return write_world(*arguments); }; });
 }
 
 }  // namespace tagfield

@@ -2,36 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <thread>
 
+#include "adapters/ros2/domain.h"
 #include "adapters/ros2/mcap_file.h"
 #include "adapters/ros2/ros2_outlet.h"
 #include "adapters/ros2/ros2_robot.h"
 #include "tagfield/base/error.h"
-#include "tagfield/base/number.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kLastDomain = 232.0;
 constexpr const char* kNodeName = "tagfield";
 // Those who run already have found us by then, as a rule.
 constexpr Duration kMostWait = std::chrono::seconds(2);
 constexpr std::chrono::milliseconds kSettling(300);
-
-/// As all of ROS 2 has it.
-std::uint32_t domain_of_environment() {
-  const char* text = std::getenv("ROS_DOMAIN_ID");
-  if (text == nullptr || *text == '\0') return 0;
-  const std::optional<double> number = parse_number(text);
-  if (!number || *number < 0.0 || *number > kLastDomain ||
-      *number != static_cast<double>(static_cast<std::uint32_t>(*number))) {
-    throw Error(fmt::format("ROS_DOMAIN_ID is '{}', expected a whole number from 0 to {:g}", text,
-                            kLastDomain));
-  }
-  return static_cast<std::uint32_t>(*number);
-}
 
 std::shared_ptr<ros2::Ros2Outlet> attach_sink(const std::shared_ptr<ros2::MessageSink>& sink,
                                               Outlets& outlets) {
@@ -67,7 +52,7 @@ void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
   command
       .add_option("--domain", arguments.domain,
                   "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
-      ->check(CLI::Range(std::uint32_t{0}, static_cast<std::uint32_t>(kLastDomain)))
+      ->check(CLI::Range(std::uint32_t{0}, static_cast<std::uint32_t>(ros2::kLastDomain)))
       ->needs(ros2);
   command.add_option("--mcap", arguments.mcap,
                      "Record the same messages into this MCAP file, for rosbag2 and Foxglove "
@@ -104,7 +89,7 @@ RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWo
     (void)attach_sink(run.sinks.back(), outlets);
   }
   if (!arguments.ros2) return run;
-  const std::uint32_t domain = arguments.domain ? *arguments.domain : domain_of_environment();
+  const std::uint32_t domain = arguments.domain ? *arguments.domain : ros2::domain_of_environment();
   const auto sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
   run.sinks.push_back(sink);
   const auto outlet = attach_sink(sink, outlets);

@@ -307,7 +307,7 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/ros1/a.cc", "#include <gazebo/gazebo.hh>\n", "knows no Gazebo"),
     ("adapters/ros2/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor ROS 1"),
     ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
-    ("adapters/gazebo_classic/world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
+    ("adapters/gazebo_world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
     ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),

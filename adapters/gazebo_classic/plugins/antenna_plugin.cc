@@ -8,26 +8,11 @@
 #include "adapters/gazebo_classic/conversions.h"
 #include "adapters/gazebo_classic/plugins/shared_world.h"
 #include "adapters/gazebo_classic/sensor_context.h"
+#include "adapters/gazebo_common/sensor_names.h"
 #include "tagfield/base/error.h"
 #include "tagfield/settings/sensor_parameters.h"
 
 namespace gazebo {
-namespace {
-
-tagfield::FieldAntenna field_antenna(const sensors::Sensor& sensor,
-                                     const tagfield::SensorAntenna& described) {
-  tagfield::FieldAntenna antenna;
-  antenna.parameters = described.parameters;
-  antenna.seed = described.seed;
-  antenna.sensor = sensor.Name();
-  antenna.name_space = described.name_space;
-  antenna.frame_id = described.frame_id;
-  antenna.parent_frame = described.parent_frame;
-  return antenna;
-}
-
-}  // namespace
-
 RfidAntennaPlugin::~RfidAntennaPlugin() {
   if (world_) world_->remove_antenna(handle_);
 }
@@ -57,7 +42,7 @@ void RfidAntennaPlugin::load(const sensors::SensorPtr& sensor, const sdf::Elemen
   antenna.place = tagfield::place_of(*sensor);
   antenna.link = sensor->ParentName();
   antenna.X_LA = tagfield::from_gazebo(sensor->Pose());
-  antenna.antenna = field_antenna(*sensor, described);
+  antenna.antenna = tagfield::field_antenna(sensor->Name(), described);
   const auto world = tagfield::shared_rfid_world(physics::get_world(sensor->WorldName()));
   antenna.model = tagfield::model_name_of(*sensor);
   handle_ = world->add_antenna(std::move(antenna));

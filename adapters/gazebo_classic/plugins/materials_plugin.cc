@@ -4,7 +4,7 @@
 #include <gazebo/physics/physics.hh>
 
 #include "adapters/gazebo_classic/plugins/shared_world.h"
-#include "adapters/gazebo_classic/world_materials.h"
+#include "adapters/gazebo_common/world_materials.h"
 
 namespace gazebo {
 

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <utility>
 
-#include "adapters/gazebo_classic/window_markers.h"
+#include "adapters/gazebo_common/window_markers.h"
 #include "adapters/ros1/rfid_markers.h"
 #include "adapters/ros1/rfid_publisher.h"
 

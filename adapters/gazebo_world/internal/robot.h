@@ -2,7 +2,7 @@
 /// A scenario's robot as a Gazebo model.
 #pragma once
 
-#include "adapters/gazebo_classic/world/internal/bodies.h"
+#include "adapters/gazebo_world/internal/bodies.h"
 
 namespace tagfield::gazebo_world_internal {
 

@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/world/scenario_world.h"
+#include "adapters/gazebo_world/scenario_world.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "adapters/gazebo_classic/world/internal/xml.h"
+#include "adapters/gazebo_world/internal/xml.h"
 #include "tagfield/base/raw_parameter.h"
 #include "tagfield/scenario/scenario.h"
 

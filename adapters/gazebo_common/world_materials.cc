@@ -1,11 +1,11 @@
-#include "adapters/gazebo_classic/world_materials.h"
+#include "adapters/gazebo_common/world_materials.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/gazebo_classic/plugin_elements.h"
+#include "adapters/gazebo_common/sdf_elements.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/spelling.h"
 

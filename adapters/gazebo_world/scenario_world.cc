@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/world/scenario_world.h"
+#include "adapters/gazebo_world/scenario_world.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "adapters/gazebo_classic/world/internal/bodies.h"
-#include "adapters/gazebo_classic/world/internal/radio.h"
-#include "adapters/gazebo_classic/world/internal/robot.h"
+#include "adapters/gazebo_world/internal/bodies.h"
+#include "adapters/gazebo_world/internal/radio.h"
+#include "adapters/gazebo_world/internal/robot.h"
 #include "tagfield/base/units.h"
 #include "tagfield/sdf/resource_path.h"
 

@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/world/internal/xml.h"
+#include "adapters/gazebo_world/internal/xml.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/world/internal/robot.h"
+#include "adapters/gazebo_world/internal/robot.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/gazebo_classic/world/internal/xml.h"
+#include "adapters/gazebo_world/internal/xml.h"
 #include "tagfield/scenario/scenario.h"
 
 namespace tagfield::gazebo_world_internal {

@@ -1,14 +1,12 @@
-#include "adapters/gazebo_classic/window_markers.h"
-
-#include <ignition/msgs/marker.pb.h>
+#include "adapters/gazebo_common/window_markers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ignition/msgs/Utility.hh>
-#include <ignition/transport/Node.hh>
 #include <map>
 #include <vector>
+
+#include "adapters/gazebo_common/gz_names.h"
 
 namespace tagfield {
 namespace {
@@ -17,24 +15,43 @@ constexpr Duration kInterval = std::chrono::milliseconds(500);
 constexpr const char* kService = "/marker";
 constexpr const char* kTags = "tagfield_tags";
 constexpr const char* kAntennas = "tagfield_antennas";
-/// Materials of Gazebo's own, from the weakest reads to the strongest: its window colours markers
-/// by material alone. A marker has one, so tags are drawn shade by shade.
-constexpr std::array<const char*, 5> kShades = {"Gazebo/BlueTransparent", "Gazebo/GreenTransparent",
-                                                "Gazebo/Green", "Gazebo/Orange", "Gazebo/Red"};
-constexpr int kSilent = static_cast<int>(kShades.size());
-constexpr const char* kSilentMaterial = "Gazebo/GreyTransparent";
+/// Gazebo 11 colours markers by its own materials alone, later ones by colours alone.
+struct Look {
+  const char* material;
+  ReadColor color;
+};
+/// From the weakest reads to the strongest, and of silent tags. A marker has one look, so tags are
+/// drawn shade by shade.
+constexpr std::array<Look, 6> kShades = {{{"Gazebo/BlueTransparent", {0.0, 0.0, 1.0, 0.5}},
+                                          {"Gazebo/GreenTransparent", {0.0, 1.0, 0.0, 0.5}},
+                                          {"Gazebo/Green", {0.0, 1.0, 0.0, 1.0}},
+                                          {"Gazebo/Orange", {1.0, 0.5, 0.0, 1.0}},
+                                          {"Gazebo/Red", {1.0, 0.0, 0.0, 1.0}},
+                                          {"Gazebo/GreyTransparent", {0.5, 0.5, 0.5, 0.5}}}};
+constexpr int kSilent = static_cast<int>(kShades.size()) - 1;
+constexpr Look kArrow = {"Gazebo/Orange", {1.0, 0.5, 0.0, 1.0}};
+constexpr Look kBall = {"Gazebo/YellowTransparent", {1.0, 1.0, 0.0, 0.15}};
 constexpr double kTagRadius = 0.06;  // [m] larger than a label, to be seen across a hall
 constexpr double kArrowLength = 0.5;
 constexpr double kArrowRadius = 0.04;
 
-using ignition::msgs::Marker;
+using gz_msgs::Marker;
 
-ignition::math::Vector3d to_ignition(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+gz_math::Vector3d to_gz(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-void set_material(const std::string& name, Marker& marker) {
-  ignition::msgs::Material::Script* const script = marker.mutable_material()->mutable_script();
-  script->set_name(name);
-  script->add_uri("file://media/materials/scripts/gazebo.material");
+void set_color(const ReadColor& color, gz_msgs::Color& to) {
+  to.set_r(static_cast<float>(color.red));
+  to.set_g(static_cast<float>(color.green));
+  to.set_b(static_cast<float>(color.blue));
+  to.set_a(static_cast<float>(color.alpha));
+}
+
+void set_look(const Look& look, Marker& marker) {
+  gz_msgs::Material& material = *marker.mutable_material();
+  material.mutable_script()->set_name(look.material);
+  material.mutable_script()->add_uri("file://media/materials/scripts/gazebo.material");
+  set_color(look.color, *material.mutable_ambient());
+  set_color(look.color, *material.mutable_diffuse());
 }
 
 Marker marker_of(const char* name_space, std::uint64_t id, Marker::Type type) {
@@ -43,7 +60,7 @@ Marker marker_of(const char* name_space, std::uint64_t id, Marker::Type type) {
   marker.set_id(id);
   marker.set_action(Marker::ADD_MODIFY);
   marker.set_type(type);
-  ignition::msgs::Set(marker.mutable_scale(), ignition::math::Vector3d::One);
+  gz_msgs::Set(marker.mutable_scale(), gz_math::Vector3d::One);
   return marker;
 }
 
@@ -58,7 +75,7 @@ void add_octahedron(const Eigen::Vector3d& center, Marker& marker) {
     for (const int axis : axes) {
       Eigen::Vector3d tip = center;
       tip[axis] += kTagRadius * sign[axis];
-      ignition::msgs::Set(marker.add_point(), to_ignition(tip));
+      gz_msgs::Set(marker.add_point(), to_gz(tip));
     }
   }
 }
@@ -73,18 +90,14 @@ int shade_of(const ReadColor& color) {
   return static_cast<int>(std::lround(share * (kSilent - 1)));
 }
 
-std::string material_of_shade(int shade) {
-  return shade == kSilent ? kSilentMaterial : kShades.at(static_cast<std::size_t>(shade));
-}
-
 }  // namespace
 
 struct WindowMarkers::Window {
-  ignition::transport::Node node;
+  gz_transport::Node node;
   std::set<std::pair<std::string, std::uint64_t>> shown;
 
   [[nodiscard]] bool is_open() const {
-    std::vector<ignition::transport::ServicePublisher> windows;
+    std::vector<gz_transport::ServicePublisher> windows;
     return node.ServiceInfo(kService, windows);
   }
   void show(const Marker& marker) {
@@ -115,31 +128,28 @@ void WindowMarkers::draw(Time stamp) {
     add_octahedron(tag.p_WT, found->second);
   }
   for (auto& [shade, marker] : by_shade) {
-    set_material(material_of_shade(shade), marker);
+    set_look(kShades.at(static_cast<std::size_t>(shade)), marker);
     window_->show(marker);
   }
   std::uint64_t id = 1;
   for (const auto& [name, antenna] : antennas()) {
     const Eigen::Quaterniond& q = antenna.X_WA.rotation;
-    const ignition::math::Quaterniond rotation(q.w(), q.x(), q.y(), q.z());
+    const gz_math::Quaterniond rotation(q.w(), q.x(), q.y(), q.z());
     // A cylinder stands on z; the antenna looks along x.
-    const ignition::math::Quaterniond along_x =
-        rotation * ignition::math::Quaterniond(0.0, 0.5 * M_PI, 0.0);
-    const ignition::math::Vector3d place = to_ignition(antenna.X_WA.translation);
+    const gz_math::Quaterniond along_x = rotation * gz_math::Quaterniond(0.0, 0.5 * M_PI, 0.0);
+    const gz_math::Vector3d place = to_gz(antenna.X_WA.translation);
     Marker arrow = marker_of(kAntennas, id++, Marker::CYLINDER);
-    const ignition::math::Vector3d middle =
-        place + rotation * ignition::math::Vector3d(0.5 * kArrowLength, 0.0, 0.0);
-    ignition::msgs::Set(arrow.mutable_pose(), ignition::math::Pose3d(middle, along_x));
-    ignition::msgs::Set(
-        arrow.mutable_scale(),
-        ignition::math::Vector3d(2.0 * kArrowRadius, 2.0 * kArrowRadius, kArrowLength));
-    set_material("Gazebo/Orange", arrow);
+    const gz_math::Vector3d middle =
+        place + rotation * gz_math::Vector3d(0.5 * kArrowLength, 0.0, 0.0);
+    gz_msgs::Set(arrow.mutable_pose(), gz_math::Pose3d(middle, along_x));
+    gz_msgs::Set(arrow.mutable_scale(),
+                 gz_math::Vector3d(2.0 * kArrowRadius, 2.0 * kArrowRadius, kArrowLength));
+    set_look(kArrow, arrow);
     window_->show(arrow);
     Marker ball = marker_of(kAntennas, id++, Marker::SPHERE);
-    ignition::msgs::Set(ball.mutable_pose(), ignition::math::Pose3d(place, rotation));
-    ignition::msgs::Set(ball.mutable_scale(),
-                        ignition::math::Vector3d::One * (2.0 * antenna.range_m));
-    set_material("Gazebo/YellowTransparent", ball);
+    gz_msgs::Set(ball.mutable_pose(), gz_math::Pose3d(place, rotation));
+    gz_msgs::Set(ball.mutable_scale(), gz_math::Vector3d::One * (2.0 * antenna.range_m));
+    set_look(kBall, ball);
     window_->show(ball);
   }
   for (const auto& which : before) {

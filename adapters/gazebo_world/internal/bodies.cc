@@ -1,10 +1,10 @@
-#include "adapters/gazebo_classic/world/internal/bodies.h"
+#include "adapters/gazebo_world/internal/bodies.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "adapters/gazebo_classic/world/internal/radio.h"
-#include "adapters/gazebo_classic/world/scenario_world.h"
+#include "adapters/gazebo_world/internal/radio.h"
+#include "adapters/gazebo_world/scenario_world.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield::gazebo_world_internal {

@@ -1,4 +1,4 @@
-#include "adapters/gazebo_classic/world/internal/radio.h"
+#include "adapters/gazebo_world/internal/radio.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,0 +1,19 @@
+/// @file
+/// A plugin's or a sensor's parameters from SDF.
+#pragma once
+
+#include <sdf/sdf.hh>
+#include <string>
+#include <vector>
+
+#include "tagfield/base/raw_parameter.h"
+
+namespace tagfield {
+
+/// The children of `parent`, which may be null, that are called `name`.
+std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& parent, const std::string& name);
+
+/// The elements in `parent`; those inside others (`<path><waypoint>`) stand for themselves.
+std::vector<RawParameter> parameters_in(const sdf::ElementPtr& parent);
+
+}  // namespace tagfield

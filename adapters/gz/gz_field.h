@@ -1,0 +1,87 @@
+/// @file
+/// The tags and antennas of one world of gz-sim, and their updates in simulated time.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/gazebo_common/tag_set.h"
+#include "adapters/gz/static_solids.h"
+#include "tagfield/field/field_driver.h"
+#include "tagfield/field/field_worker.h"
+
+namespace tagfield {
+
+/// Drives a field by gz-sim: after each step it looks which custom sensors came and went and which
+/// antennas are due by simulated time, gathers where all tags and those antennas are, and hands
+/// that to a FieldWorker. An update is stamped with the time of its step, so reads don't depend on
+/// how fast Gazebo runs. Not thread-safe: gz-sim calls a system's updates one after the other.
+class GzField {
+ public:
+  GzField(Outlets outlets, RadioWorldOptions materials);
+
+  /// After physics: what the entities are at `now`. While the world is paused only what comes and
+  /// goes is taken.
+  void after_step(Time now, bool is_paused, const gz_sim::EntityComponentManager& ecm);
+  /// The world begins anew: all sensors are looked for again in the next step.
+  void forget_sensors();
+
+  /// How long updates took, for benchmarks.
+  struct Cost {
+    std::int64_t updates = 0;  ///< Of antennas, in steps to which no tag came.
+    double step_s = 0.0;       ///< Wall time that gz-sim waited in them.
+    WorkDone work;
+  };
+  [[nodiscard]] Cost cost() const;
+
+ private:
+  struct TagGroup {
+    gz_sim::Entity sensor = gz_sim::kNullEntity;
+    gz_sim::Entity link = gz_sim::kNullEntity;
+    gz_math::Pose3d X_WL;  ///< When it was told of last.
+    bool is_told = false;  ///< Whether its tags have a place.
+    std::vector<TagOnLink> tags;
+    std::vector<std::uint32_t> numbers;
+  };
+  struct Antenna {
+    gz_sim::Entity sensor = gz_sim::kNullEntity;
+    gz_sim::Entity link = gz_sim::kNullEntity;
+    std::optional<gz_sim::Entity> parent;  ///< None for the world.
+    bool tells_pose = false;
+    RigidTransform X_LA;
+  };
+
+  void find_sensors(Time now, const gz_sim::EntityComponentManager& ecm);
+  void add_sensor(gz_sim::Entity sensor, const sdf::Sensor& description, Time now,
+                  const gz_sim::EntityComponentManager& ecm);
+  void add_antenna(gz_sim::Entity sensor, const sdf::ElementPtr& element, Time now,
+                   const gz_sim::EntityComponentManager& ecm);
+  void add_tag(gz_sim::Entity sensor, const sdf::ElementPtr& element,
+               const gz_sim::EntityComponentManager& ecm);
+  void add_tag_set(gz_sim::Entity sensor, const sdf::ElementPtr& element,
+                   const gz_sim::EntityComponentManager& ecm);
+  void add_group(gz_sim::Entity sensor, std::vector<TagOnLink> tags,
+                 const gz_sim::EntityComponentManager& ecm);
+  void remove_sensor(gz_sim::Entity sensor);
+  void place_tags(Time now, const gz_sim::EntityComponentManager& ecm);
+  static Antenna mounted(gz_sim::Entity sensor, FieldAntenna& field,
+                         const gz_sim::EntityComponentManager& ecm);
+  void place(AntennaDue& due, const gz_sim::EntityComponentManager& ecm) const;
+  void gather_world(FieldStep& step, const gz_sim::EntityComponentManager& ecm);
+
+  RadioWorldOptions materials_;
+  StaticSolids solids_;
+  std::vector<TagGroup> groups_;             ///< In rising order of sensors.
+  std::map<std::string, Antenna> antennas_;  ///< By name.
+  /// Names of the tag sensors of each model.
+  std::map<gz_sim::Entity, std::vector<std::string>> tags_in_;
+  bool has_looked_ = false;
+  FieldDriver driver_;
+  Time last_ = Time::min();
+  Cost cost_;
+  FieldWorker worker_;
+};
+
+}  // namespace tagfield

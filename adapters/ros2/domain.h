@@ -1,0 +1,19 @@
+/// @file
+/// Domains of ROS 2.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tagfield::ros2 {
+
+inline constexpr double kLastDomain = 232.0;
+
+/// The domain that `text` says. Throws Error that names `place` unless it is a whole number from 0
+/// to kLastDomain.
+std::uint32_t domain_in(const std::string& text, const std::string& place);
+
+/// ROS_DOMAIN_ID of the environment, as all of ROS 2 has it; 0 where it is not set.
+std::uint32_t domain_of_environment();
+
+}  // namespace tagfield::ros2

@@ -1,0 +1,155 @@
+// A gz-sim server for tests, which does what its script says, line by line, and nothing meanwhile:
+//
+//   gz_test_server WORLD SCRIPT
+//
+//   run SECONDS            of simulated time, as fast as it goes
+//   create FILE            what an SDF file holds comes
+//   remove MODEL
+//   pose MODEL X Y Z YAW   moves it there
+//   reset                  the world begins anew
+//
+// Prints the simulated time at the end, and the wall time that `run` took. Exit code 1 if a request
+// is refused.
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#if TAGFIELD_GZ_SIM == 6
+#include <ignition/msgs/boolean.pb.h>
+#include <ignition/msgs/entity.pb.h>
+#include <ignition/msgs/entity_factory.pb.h>
+#include <ignition/msgs/pose.pb.h>
+#include <ignition/msgs/world_control.pb.h>
+
+#include <ignition/common/Console.hh>
+#include <ignition/gazebo/Server.hh>
+#include <ignition/transport/Node.hh>
+namespace sim = ignition::gazebo;
+namespace messages = ignition::msgs;
+namespace transport = ignition::transport;
+namespace common = ignition::common;
+#else
+#include <gz/msgs/boolean.pb.h>
+#include <gz/msgs/entity.pb.h>
+#include <gz/msgs/entity_factory.pb.h>
+#include <gz/msgs/pose.pb.h>
+#include <gz/msgs/world_control.pb.h>
+
+#include <gz/common/Console.hh>
+#include <gz/sim/Server.hh>
+#include <gz/transport/Node.hh>
+namespace sim = gz::sim;
+namespace messages = gz::msgs;
+namespace transport = gz::transport;
+namespace common = gz::common;
+#endif
+
+namespace {
+
+constexpr unsigned kPatience_ms = 10'000;
+constexpr double kStep_s = 0.001;
+
+class Script {
+ public:
+  Script(sim::Server& server, std::string world) : server_(server), world_(std::move(world)) {}
+
+  bool act(const std::string& line) {
+    std::istringstream words(line);
+    std::string what;
+    words >> what;
+    if (what == "run") {
+      double seconds = 0.0;
+      words >> seconds;
+      return run(static_cast<std::uint64_t>(seconds / kStep_s + 0.5));
+    }
+    if (what == "create") {
+      messages::EntityFactory request;
+      std::string file;
+      words >> file;
+      request.set_sdf_filename(file);
+      return ask("create", request);
+    }
+    if (what == "remove") {
+      messages::Entity request;
+      request.set_type(messages::Entity::MODEL);
+      words >> *request.mutable_name();
+      return ask("remove", request);
+    }
+    if (what == "pose") return ask("set_pose", pose_in(words));
+    if (what == "reset") {
+      messages::WorldControl request;
+      request.set_pause(false);
+      request.mutable_reset()->set_all(true);
+      return ask("control", request);
+    }
+    std::cerr << "unknown: " << line << "\n";
+    return false;
+  }
+
+  [[nodiscard]] double wall_s() const { return wall_s_; }
+
+ private:
+  static messages::Pose pose_in(std::istream& words) {
+    messages::Pose request;
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    double yaw = 0.0;
+    words >> *request.mutable_name() >> x >> y >> z >> yaw;
+    request.mutable_position()->set_x(x);
+    request.mutable_position()->set_y(y);
+    request.mutable_position()->set_z(z);
+    request.mutable_orientation()->set_w(std::cos(0.5 * yaw));
+    request.mutable_orientation()->set_z(std::sin(0.5 * yaw));
+    return request;
+  }
+
+  bool run(std::uint64_t steps) {
+    const auto begin = std::chrono::steady_clock::now();
+    const bool done = server_.Run(true, steps, false);
+    wall_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return done;
+  }
+
+  template <class Request>
+  bool ask(const std::string& service, const Request& request) {
+    messages::Boolean reply;
+    bool result = false;
+    const std::string name = "/world/" + world_ + "/" + service;
+    const bool heard = node_.Request(name, request, kPatience_ms, reply, result);
+    if (heard && result && reply.data()) return true;
+    std::cerr << name << ": refused\n";
+    return false;
+  }
+
+  sim::Server& server_;
+  std::string world_;
+  transport::Node node_;
+  double wall_s_ = 0.0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: gz_test_server WORLD SCRIPT\n";
+    return 2;
+  }
+  common::Console::SetVerbosity(3);
+  sim::ServerConfig config;
+  if (!config.SetSdfFile(argv[1])) return 2;
+  sim::Server server(config);
+  std::ifstream lines(argv[2]);
+  std::string line;
+  // The world's name stands in the script's first line.
+  if (!std::getline(lines, line)) return 2;
+  Script script(server, line);
+  while (std::getline(lines, line)) {
+    if (!line.empty() && !script.act(line)) return 1;
+  }
+  std::cout << "wall " << script.wall_s() << "\n";
+  return 0;
+}
