@@ -28,7 +28,7 @@ def environment(context):
     for name in ("GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH"):
         env[name] = ":".join(plugins)
     for name in ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"):
-        env[name] = str(context.source / "models")
+        env[name] = str(context.build / "gz/models")
     for name in ("GZ_PARTITION", "IGN_PARTITION"):
         env[name] = uuid.uuid4().hex
     for name in ("GZ_IP", "IGN_IP"):

@@ -178,6 +178,21 @@ def the_robot_drives_its_way_and_tags_are_located(context):
 
 
 @case
+def our_models_are_found_and_read(context):
+    """What `model://` names: a shelf of tags with its table, an antenna, a robot that DiffDrive drives."""
+    def include(name, pose):
+        return f"<include><uri>model://{name}</uri><pose>{pose}</pose></include>"
+    said = serve(context, world(include("rfid_antenna", "0 0 1 0 0 0"),
+                                include("rfid_tag", "2 0 1 0 0 0"),
+                                include("rfid_tag_set", "3 0 0 0 0 0"),
+                                include("p3at_rfid", "5 5 0 0 0 0")), ["run 1"])
+    check_equal(errors(said), [], "errors")
+    reads = read_csv(recorded(context) / "reads.csv")
+    check_equal(len({read["antenna"] for read in reads}), 2, "antennas that read")
+    check_equal(len({read["tag"] for read in reads}), 25, "tags read")
+
+
+@case
 def a_world_of_gazebo_11_is_read_after_its_conversion(context):
     old = context.write("old.world", '''<?xml version="1.0"?><sdf version="1.6"><world name="hall">
       <plugin name="materials" filename="libTagfieldMaterialsPlugin.so"><made_of name="rack*">metal</made_of></plugin>

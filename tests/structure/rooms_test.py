@@ -31,6 +31,11 @@ ROS1 = "adapters/ros1/"
 ROS2 = "adapters/ros2/"
 CLASSIC = "adapters/gazebo_classic/"
 MCAP = "adapters/mcap/"
+GZ = "adapters/gz/"
+WORLDS = "adapters/gazebo_world/"
+COMMON = "adapters/gazebo_common/"
+# The one source of the plugin for gz-sim that joins it and ROS 2.
+GZ_JOINT = "adapters/gz/rfid_system.cc"
 # What a container of bytes may use.
 UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
 # The thin mains that join Gazebo and ROS.
@@ -93,6 +98,12 @@ def adapter_fault(path, header):
     if (path.startswith(CLASSIC) and not path.startswith(JOINTS) and not is_test(path) and
             header.startswith((ROS1, *ROS))):
         return "of adapters/gazebo_classic/ only plugins/ knows ROS"
+    if path.startswith(WORLDS) and header.startswith(ALIENS):
+        return "adapters/gazebo_world/ knows neither Gazebo nor ROS"
+    if path.startswith((GZ, COMMON)) and header.startswith((CLASSIC, ROS1, "gazebo/")):
+        return "adapters/gz/ and gazebo_common/ know neither Gazebo 11 nor ROS 1"
+    if path.startswith((GZ, COMMON)) and path != GZ_JOINT and header.startswith((ROS2, *ROS)):
+        return "of adapters/gz/ only rfid_system.cc knows ROS 2"
     if path.startswith(MCAP) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                   not header.startswith(UNDER_MCAP)):
         return "adapters/mcap/ knows neither RFID nor ROS"
@@ -140,11 +151,12 @@ def include_faults(path, text):
             yield f"{place}: internal to another room"
         if own and "/test/" in header and not is_test(path):
             yield f"{place}: a test's helper"
-        if header.startswith("sdf/") and not path.startswith(("tagfield/sdf/", CLASSIC)):
+        if header.startswith("sdf/") and not path.startswith(("tagfield/sdf/", CLASSIC, GZ,
+                                                                       COMMON)):
             yield f"{place}: only sdf/ includes sdformat"
         math = header.startswith(MATH) and path.startswith("tagfield/sdf/")
         if (header.startswith(ALIENS) and not math and
-                not path.startswith(("adapters/", "tests/gazebo/"))):
+                not path.startswith(("adapters/", "tests/gazebo/", "tests/gz/"))):
             yield f"{place}: no ROS, Gazebo, MRPT or MPI here"
         if (header.endswith(("/truth.h", "/truth_csv.h")) and not may_see_truth(path) and
                 not is_test(path)):
@@ -307,7 +319,11 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/ros1/a.cc", "#include <gazebo/gazebo.hh>\n", "knows no Gazebo"),
     ("adapters/ros2/a.cc", '#include "adapters/ros1/ros_link.h"\n', "neither Gazebo nor ROS 1"),
     ("adapters/gazebo_classic/a.cc", '#include "adapters/ros1/link.h"\n', "only plugins/"),
-    ("adapters/gazebo_world/a.cc", "#include <ros/ros.h>\n", "only plugins/"),
+    ("adapters/gazebo_world/a.cc", "#include <ros/ros.h>\n", "neither Gazebo nor ROS"),
+    ("adapters/gz/a.cc", "#include <gazebo/gazebo.hh>\n", "neither Gazebo 11 nor ROS 1"),
+    ("adapters/gazebo_common/a.cc", '#include "adapters/gazebo_classic/field.h"\n',
+     "neither Gazebo 11 nor ROS 1"),
+    ("adapters/gz/a.cc", '#include "adapters/ros2/dds_sink.h"\n', "only rfid_system.cc"),
     ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),
