@@ -39,17 +39,18 @@ def environment(context):
     return env
 
 
-def serve(context, world, script, env=None):
-    """Runs the script in a server with the world's text; gives all that it said."""
+def serve(context, world, script, before=()):
+    """Runs the script in a server with the world's text, by a command that others stand before; gives
+    all that it said."""
     server = context.build / "bin/gz_test_server"
     if not server.exists():
         raise Skip(MISSING)
     path = context.write("served.sdf", world)
     name = re.search(r'<world name="([^"]*)"', world).group(1)
     lines = context.write("script", "\n".join([name, *script, ""]))
-    done = subprocess.run([str(server), str(path), str(lines)], stdout=subprocess.PIPE,
+    done = subprocess.run([*before, str(server), str(path), str(lines)], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, timeout=200, check=False, cwd=context.folder,
-                          env={**environment(context), **(env or {})})
+                          env=environment(context))
     said = re.sub(r"\x1b\[[0-9;]*m", "", done.stdout.decode("utf-8", "replace"))
     check(done.returncode == 0, f"the server's exit code is {done.returncode}: {said[-2000:]}")
     return said

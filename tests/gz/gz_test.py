@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """Tagfield in a real gz-sim: the same reads as headless, and nothing that stops the server."""
 
+import json
 import math
+import os
 import re
+import subprocess
 
 from gz import (
-    antenna, case, check, check_equal, check_in, check_near, errors, main,
+    Skip, antenna, case, check, check_equal, check_in, check_near, errors, main,
     model, read_csv, recorded, sensor, serve, tag, world)
 from hall import SECONDS, headless, reads_in, scenario
 
@@ -175,6 +178,34 @@ def the_robot_drives_its_way_and_tags_are_located(context):
         check_equal(row["verdict"], "located", f"verdict on {row['tag']}")
     last = float(read_csv(folder / "reads.csv")[-1]["stamp_s"])
     check(last < 150.0, f"the robot drove {last} s, and did not stop at the end")
+
+
+@case
+def ros_2_hears_the_reads_without_a_bridge(context):
+    """Fast DDS, in a network of its own with the server, gets a message an update."""
+    listener = context.build / "bin/ros2_listener"
+    if not listener.exists():
+        raise Skip("Fast DDS is not there (libfastrtps-dev)")
+    own = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--net", "--map-root-user"]
+    if subprocess.run([*own, "true"], capture_output=True, check=False).returncode != 0:
+        raise Skip("no network of one's own can be had")
+    topic = "rt/rfid/reads=tagfield_msgs::msg::dds_::TagReads_"
+    clock = "rt/clock=rosgraph_msgs::msg::dds_::Clock_:best_effort"
+    listen = (f"ip link set lo up && ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo; "
+              f"{listener} 7 4 {topic} {clock} > heard.txt & sleep 1; \"$@\"; code=$?; wait; exit $code")
+    text = world(antenna("gate", 0, 0, 1), tag("first", 2, 0, 1), settings="<domain>7</domain>")
+    text = text.replace("<ros2>false</ros2>", "<ros2>true</ros2>")
+    text = text.replace("<real_time_factor>0<", "<real_time_factor>1<")
+    serve(context, text, ["run 3"], [*own, "sh", "-c", listen, "sh"])
+    heard = [json.loads(line) for line in
+             (context.folder / "heard.txt").read_text(encoding="utf-8").splitlines()]
+    reads = [line for line in heard if line["kind"] == "message" and "rfid/reads" in line["topic"]]
+    # Finding each other may take some updates; 45 are made.
+    check(20 <= len(reads) <= 45, f"{len(reads)} messages of reads")
+    for line in reads:
+        check("first".encode().hex() in line["cdr"], f"no read of the tag in {line['cdr'][:80]}")
+    check(not [line for line in heard if line["kind"] == "message" and "clock" in line["topic"]],
+          "/clock is told, which a bridge does")
 
 
 @case
