@@ -35,6 +35,10 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
              const std::string& base_frame);
   /// To /clock, unless it has told that time or a later one.
   void tell_time(Time stamp);
+  /// To /tf.
+  void tell_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
+  /// To /tf_static, with all others that were told before, unless it was told just so.
+  void tell_fixed_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
 
   void on_read(const TagRead& read) override;
   void on_update(const AntennaInfo& antenna, Time stamp) override;
@@ -78,7 +82,7 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   Publisher<tagfield_msgs::TagPositions> tags_;
   Publisher<tagfield_msgs::TagPositions> moved_tags_;
   std::map<std::string, Update> updates_;                         ///< By antenna.
-  std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< By antenna.
+  std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< By frame.
   std::map<std::string, TagPosition> places_;                     ///< By tag.
   std::set<std::string> moved_;
   bool has_changed_ = false;

@@ -8,6 +8,7 @@ import functools
 import json
 import pathlib
 import random
+import re
 import shutil
 import sys
 
@@ -227,6 +228,57 @@ def a_runs_messages_are_those_of_its_tables(context):
     check_equal(sum(len(message["distances"]) for message in topics["/rfid/truth/antennas"]["messages"]),
                 count, "distances")
     check(topics["/rfid/markers"]["messages"][0]["markers"], "no markers")
+
+
+def pgm_cells(path):
+    """Cells of a map file as messages have them, from its lower left corner on."""
+    without_comment = re.sub(rb"#[^\n]*\n", b"", path.read_bytes(), count=1)
+    kind, width, height, most, pixels = without_comment.split(maxsplit=4)
+    check_equal((kind, most), (b"P5", b"255"), "kind of the image")
+    width, height = int(width), int(height)
+    check_equal(len(pixels), width * height, "pixels")
+    rows = [pixels[row * width:(row + 1) * width] for row in reversed(range(height))]
+    return width, height, [{0: 100, 254: 0, 205: -1}[pixel] for row in rows for pixel in row]
+
+
+@case
+def a_robots_map_and_scans_are_in_the_file(context):
+    folder = context.simulate("paper_warehouse_slam", "--no-page", "--mcap", context.folder / "run.mcap",
+                              "--set", "navigation.mapping.limit_s=5", "--set", "duration_s=2",
+                              "--set", "localization.method=hyperbola")
+    topics = read_by_others(context, "decode", context.folder / "run.mcap")
+    if topics is None:
+        return
+    check_equal({topic: topics[topic]["type"] for topic in ("/map", "/p3at/scan")},
+                {"/map": "nav_msgs/msg/OccupancyGrid", "/p3at/scan": "sensor_msgs/msg/LaserScan"}, "types")
+    check_in("durability: 1", topics["/map"]["metadata"]["offered_qos_profiles"], "/map")
+    if not check_equal(len(topics["/map"]["messages"]), 1, "maps"):
+        return
+    grid = topics["/map"]["messages"][0]
+    width, height, cells = pgm_cells(folder / "map.pgm")
+    check_equal((grid["info"]["width"], grid["info"]["height"]), (width, height), "cells of the map")
+    # The file keeps three kinds of cells.
+    told = [-1 if cell < 0 else 100 if cell >= 65 else 0 if cell < 20 else -1 for cell in grid["data"]]
+    check(told == cells, "the cells are not those of map.pgm")
+    check(cells.count(0) > 1000 and cells.count(100) > 100, "the map is empty")
+    text = (folder / "map.yaml").read_text(encoding="utf-8")
+    origin = grid["info"]["origin"]["position"]
+    numbers = [float(word) for word in re.search(r"origin: \[(.*)\]", text)[1].split(",")]
+    check_equal([origin["x"], origin["y"], 0.0], numbers, "origin")
+    check_in("resolution: 0.05", text, "map.yaml")
+    check(abs(grid["info"]["resolution"] - 0.05) < 1e-8, "resolution")
+
+    scans = topics["/p3at/scan"]["messages"]
+    check(len(scans) > 20, f"{len(scans)} scans")
+    check_equal({scan["header"]["frame_id"] for scan in scans}, {"p3at/laser"}, "frame of scans")
+    frames = [frame for message in topics["/tf"]["messages"] for frame in message["transforms"]]
+    check({(scan["header"]["stamp"]["sec"], scan["header"]["stamp"]["nanosec"]) for scan in scans} ==
+          {(frame["header"]["stamp"]["sec"], frame["header"]["stamp"]["nanosec"]) for frame in frames
+           if (frame["header"]["frame_id"], frame["child_frame_id"]) == ("map", "p3at/base_link")},
+          "a scan without its robot's frame")
+    check_equal([(frame["header"]["frame_id"], frame["child_frame_id"])
+                 for message in topics["/tf_static"]["messages"] for frame in message["transforms"]],
+                [("p3at/base_link", "p3at/laser")], "frames at rest")
 
 
 @case
