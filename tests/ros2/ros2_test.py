@@ -283,6 +283,7 @@ def a_robot_is_driven_from_another_dds(context):
     limits = [cdr.number("f") for _ in range(7)]
     ranges = [cdr.number("f") for _ in range(cdr.number("I"))]
     check_equal(len(ranges), 720, "beams")
+    check_equal([round(limit, 6) for limit in limits[5:]], [0.3, 30.0], "nearest and farthest range")
     check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
     told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
     check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
