@@ -241,12 +241,73 @@ def pgm_cells(path):
     return width, height, [{0: 100, 254: 0, 205: -1}[pixel] for row in rows for pixel in row]
 
 
-@case
-def a_robots_map_and_scans_are_in_the_file(context):
+def mapping_run(context):
+    """Folder of a short run whose robot maps first, and all topics of its file."""
     folder = context.simulate("paper_warehouse_slam", "--no-page", "--mcap", context.folder / "run.mcap",
                               "--set", "navigation.mapping.limit_s=5", "--set", "duration_s=2",
                               "--set", "localization.method=hyperbola")
-    topics = read_by_others(context, "decode", context.folder / "run.mcap")
+    return folder, read_by_others(context, "decode", context.folder / "run.mcap")
+
+
+# What the panels of the layout can show, of what Foxglove's 3D panel and plots take.
+SHOWN_IN_3D = {"nav_msgs/msg/OccupancyGrid", "sensor_msgs/msg/LaserScan",
+               "visualization_msgs/msg/MarkerArray"}
+MESSAGE_PATH = re.compile(r"(?P<topic>/[\w/]+)(?P<fields>(?:\.\w+(?:\[:\])?(?:\{\w+==\$\w+\})?)*)$")
+FIELD = re.compile(r"\.(?P<name>\w+)(?P<list>\[:\])?(?:\{(?P<key>\w+)==\$(?P<variable>\w+)\})?")
+
+
+def values_at(path, topics, variables):
+    """What a message path of Foxglove leads to in all messages, as far as the layout's are written."""
+    found = MESSAGE_PATH.match(path)
+    if not check(found and found["topic"] in topics, f"{path!r} leads nowhere"):
+        return []
+    values = topics[found["topic"]]["messages"]
+    for field in FIELD.finditer(found["fields"]):
+        values = [value[field["name"]] for value in values]
+        if field["list"]:
+            values = [one for value in values for one in value]
+        if field["key"]:
+            wanted = variables[field["variable"]]
+            values = [value for value in values if value[field["key"]] == wanted]
+    return values
+
+
+def leaves(tree):
+    return [tree] if isinstance(tree, str) else [*leaves(tree["first"]), *leaves(tree["second"])]
+
+
+@case
+def the_layout_for_foxglove_shows_what_is_there(context):
+    text = (context.source / "docs/foxglove_layout.json").read_text(encoding="utf-8")
+    layout = json.loads(text)
+    panels = layout["configById"]
+    check_equal(sorted(leaves(layout["layout"])), sorted(panels), "panels that are laid out")
+    _, topics = mapping_run(context)
+    if topics is None:
+        return
+    frames = {frame["header"]["frame_id"] for topic in ("/tf", "/tf_static")
+              for message in topics[topic]["messages"] for frame in message["transforms"]}
+    kinds = []
+    for name, panel in panels.items():
+        kinds.append(name.split("!")[0])
+        if kinds[-1] == "3D":
+            check_in(panel["followTf"], sorted(frames), "frames")
+            check_equal({topics.get(topic, {}).get("type") for topic in panel["topics"]}, SHOWN_IN_3D,
+                        "types of the topics in 3D")
+        elif kinds[-1] == "Plot":
+            for path in panel["paths"]:
+                values = values_at(path["value"], topics, layout["globalVariables"])
+                check(len(values) > 5 and all(isinstance(value, (int, float)) for value in values),
+                      f"{path['value']}: {values[:5]}")
+        else:
+            check_equal(kinds[-1], "RawMessages", "kind of panel")
+            check(values_at(panel["topicPath"], topics, {}), f"{panel['topicPath']}: nothing")
+    check_equal(sorted(kinds), ["3D", "Plot", "Plot", "RawMessages"], "panels")
+
+
+@case
+def a_robots_map_and_scans_are_in_the_file(context):
+    folder, topics = mapping_run(context)
     if topics is None:
         return
     check_equal({topic: topics[topic]["type"] for topic in ("/map", "/p3at/scan")},
