@@ -147,9 +147,9 @@ Take take_of(const RecordedTopic& topic) {
 }
 
 /// Goes through one file after another.
-class Sweep {
+class Ros2Sweep {
  public:
-  explicit Sweep(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit Ros2Sweep(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void take_file(const std::string& path, const std::function<void(double)>& on_progress) {
     const std::unique_ptr<RecordedFile> file = open_recorded_file(path, diagnostics_);
@@ -179,7 +179,7 @@ class Sweep {
 BagContent sweep_ros2(const std::string& path, const std::function<void(double share)>& on_progress,
                       Diagnostics& diagnostics) {
   const std::vector<std::string> files = files_of_recording(path, diagnostics);
-  Sweep sweep(diagnostics);
+  Ros2Sweep sweep(diagnostics);
   for (std::size_t i = 0; i < files.size(); ++i) {
     sweep.take_file(files[i], [&](double share) {
       const double done = static_cast<double>(i) + share;

@@ -17,8 +17,10 @@ constexpr double kArrowWidth_m = 0.08;
 
 using visualization_msgs::Marker;
 
+/// Gazebo's world is the map here.
 std::string parent_of(const AntennaInfo& antenna) {
-  return antenna.parent_frame.empty() ? kMapFrame : antenna.parent_frame;
+  const bool is_world = antenna.parent_frame.empty() || antenna.parent_frame == "world";
+  return is_world ? kMapFrame : antenna.parent_frame;
 }
 
 tagfield_msgs::TagRead read_message(const TagRead& read, const std::string& frame) {

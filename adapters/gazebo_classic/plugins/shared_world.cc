@@ -11,6 +11,7 @@
 #include <mutex>
 #include <utility>
 
+#include "adapters/gazebo_classic/plugins/recording.h"
 #include "adapters/gazebo_classic/window_markers.h"
 #include "adapters/ros1/rfid_markers.h"
 #include "adapters/ros1/rfid_publisher.h"
@@ -35,10 +36,13 @@ std::shared_ptr<RfidWorld> make_world(const gazebo::physics::WorldPtr& world) {
   attach(std::make_shared<RfidPublisher>(link), outlets);
   attach(std::make_shared<RfidMarkers>(link), outlets);
   attach(std::make_shared<WindowMarkers>(), outlets);
+  // Last, as a full disk ends what comes after it in a step.
+  const Recordings recordings = attach_recordings(*world, outlets);
   const auto on_step = [link](Time now) { link->advance_clock(now); };
-  const auto delete_and_report = [](RfidWorld* old) {
+  const auto delete_and_report = [recordings](RfidWorld* old) {
     report_cost(*old);
     delete old;
+    finish(recordings);
   };
   return {new RfidWorld(world, std::move(outlets), on_step), delete_and_report};
 }

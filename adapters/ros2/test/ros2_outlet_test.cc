@@ -114,7 +114,9 @@ TEST(Ros2Outlet, FramesThatMoveAndThoseThatDont) {
   for (const double seconds : {1.0, 2.0}) {
     update(outlet, antenna_called("mobile", false), seconds);
     update(outlet, antenna_called("gate", true), seconds);
-    update(outlet, antenna_called("dock", true), seconds);
+    AntennaInfo dock = antenna_called("dock", true);
+    dock.parent_frame = "world";
+    update(outlet, dock, seconds);
   }
   const auto moving = kept->of<tf2_msgs::TFMessage>("/tf");
   ASSERT_EQ(moving.size(), 2U);
@@ -123,7 +125,8 @@ TEST(Ros2Outlet, FramesThatMoveAndThoseThatDont) {
   EXPECT_EQ(moving[1].transforms.at(0).transform.translation.x, 2.0);
   const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static");
   ASSERT_EQ(fixed.size(), 2U) << "one as each of them is known";
-  EXPECT_EQ(fixed[1].transforms.size(), 2U) << "the last one holds all";
+  ASSERT_EQ(fixed[1].transforms.size(), 2U) << "the last one holds all";
+  for (const auto& frame : fixed[1].transforms) EXPECT_EQ(frame.header.frame_id, "map");
   EXPECT_EQ(kept->delivery_of("/tf_static"), Delivery::kLatched);
 }
 
