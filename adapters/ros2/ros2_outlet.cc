@@ -17,12 +17,6 @@ constexpr double kArrowWidth_m = 0.08;
 
 using visualization_msgs::Marker;
 
-/// Gazebo's world is the map here.
-std::string parent_of(const AntennaInfo& antenna) {
-  const bool is_world = antenna.parent_frame.empty() || antenna.parent_frame == "world";
-  return is_world ? kMapFrame : antenna.parent_frame;
-}
-
 tagfield_msgs::TagRead read_message(const TagRead& read, const std::string& frame) {
   return {header_message(read.stamp, frame),
           read.tag,
@@ -105,6 +99,10 @@ std::string topic_token(const std::string& text) {
   return token;
 }
 
+std::string frame_in_ros2(const std::string& frame) {
+  return frame.empty() || frame == "world" ? kMapFrame : frame;
+}
+
 Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink)
     : sink_(std::move(sink)),
       clock_(*sink_, {"/clock", Delivery::kBestEffort}),
@@ -184,7 +182,7 @@ void Ros2Outlet::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
   tell_time(pose.stamp);
   if (mount_.antennas.count(antenna.name) > 0) return;
   const geometry_msgs::TransformStamped transform =
-      frame_message(pose.stamp, parent_of(antenna), antenna.frame_id, pose.X_WA);
+      frame_message(pose.stamp, frame_in_ros2(antenna.parent_frame), antenna.frame_id, pose.X_WA);
   if (antenna.is_fixed) {
     tell_fixed_frame(pose.stamp, transform);
   } else {

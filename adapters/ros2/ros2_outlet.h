@@ -22,6 +22,9 @@ inline constexpr const char* kMapFrame = "map";
 /// topic's name.
 std::string topic_token(const std::string& text);
 
+/// A frame's name: Gazebo's world, and that of no name, is the map.
+std::string frame_in_ros2(const std::string& frame);
+
 /// Tells the topics of docs/ros2.md as the run goes on:
 /// /rfid/reads, /tf (antennas that move, as told), /tf_static (those at rest), /clock,
 /// /rfid/truth/antennas, /rfid/truth/tags, /rfid/truth/tags_moved, /ROBOT/ground_truth/odom.

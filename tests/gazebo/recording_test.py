@@ -5,7 +5,8 @@ import os
 import re
 import signal
 
-from gazebo import (Run, antenna, case, check, check_equal, check_in, main, read_csv, schedule, tag, world)
+from gazebo import (Run, Skip, antenna, case, check, check_equal, check_in, check_near, main, read_csv, run,
+                    schedule, tag, world)
 
 
 def recording(*elements):
@@ -51,6 +52,54 @@ def it_holds_what_ros1_hears(context):
         check_equal(len(read_csv(own / name)) > 0, True, name)
     first = {row["tag"]: row for row in reversed(read_csv(bag / "truth/tags.csv"))}
     check_equal({row["tag"]: row for row in reversed(read_csv(own / "truth/tags.csv"))}, first, "tags")
+
+
+DRIVING = """\
+name: driving
+robots:
+  - {name: p3at, start: [1, 0, 0.3], speed_m_s: 0.4, waypoints: [[3, 0.5], [3, 2]]}
+antennas:
+  - {name: mast, on: p3at, pose: [0, 0, 1.5], range_m: 6, communication_gain: 3}
+tags:
+  - {id: shelf, position: [3, 3, 1.2]}
+"""
+OF_ROBOT = {"/odom": "nav_msgs/msg/Odometry", "/ground_truth/odom": "nav_msgs/msg/Odometry",
+            "/scan": "sensor_msgs/msg/LaserScan"}
+
+
+@case
+def a_robots_ways_scans_and_frames_are_in_it(context):
+    scenario = context.write("driving.yaml", DRIVING)
+    context.run_well("gazebo", scenario, "--out", context.folder / "driving.world", "--real-time", 1)
+    log, mcap = context.folder / "log", context.folder / "run.mcap"
+    text = (context.folder / "driving.world").read_text(encoding="utf-8").replace(
+        "</world>", recording(f"<mcap>{mcap}</mcap>") + schedule(log, stop=6.0) + "</world>")
+    with Run(context, text, record=True) as running:
+        running.finish(log)
+        check_equal(errors_in(running), [], "Gazebo's errors")
+    sample = context.build / "bin/mcap_sample"
+    if not sample.exists():
+        raise Skip("mcap_sample is not built (TAGFIELD_MCAP, liblz4-dev, libzstd-dev)")
+    lines = [line.split() for line in run([sample, "read", mcap], cwd=context.folder).out.splitlines()
+             if line.startswith("/")]
+    topics = [tuple(line[:2]) for line in lines if not line[1].isdigit()]
+    check_equal(len({name for name, _ in topics}), len(topics), "channels, one a topic")
+    counts = {}
+    for line in lines:
+        if line[1].isdigit():
+            counts[line[0]] = counts.get(line[0], 0) + 1
+    for topic, kind in OF_ROBOT.items():
+        check_in((topic, kind), topics, "topics")
+        check(counts.get(topic, 0) > 50, f"{counts.get(topic, 0)} messages of {topic}")
+    # By tf: from the map over the odometry and the robot to its antenna.
+    context.run_well("localize", mcap, "--method", "hyperbola", "--poses", "tf", "--out", "by_tf")
+    believed = read_csv(context.folder / "by_tf/antenna_poses.csv")
+    truth = {row["stamp_s"]: row for row in read_csv(context.folder / "by_tf/truth/antenna_poses.csv")}
+    check(len(believed) > 60, f"{len(believed)} poses")
+    for row in believed:
+        for axis in ("x_m", "y_m", "z_m"):
+            check_near(float(row[axis]), float(truth[row["stamp_s"]][axis]), 0.1, f"{axis} at {row['stamp_s']} s")
+    check(float(believed[-1]["x_m"]) - float(believed[0]["x_m"]) > 1.0, "the robot stood")
 
 
 @case

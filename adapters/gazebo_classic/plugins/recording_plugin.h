@@ -7,10 +7,10 @@
 ///       </plugin>
 ///     </world>
 ///
-/// The topics are those of docs/ros2.md that antennas and tags have: /rfid/reads, /rfid/truth/…,
-/// /rfid/markers, /tf, /tf_static, /clock. A file gets its name when Gazebo ends; until then, and
-/// if Gazebo is killed, it is PATH.PID.partial. What is wrong is one error that names plugin and
-/// element.
+/// The topics are those of docs/ros2.md: /rfid/reads, /rfid/truth/…, /rfid/markers, /tf,
+/// /tf_static, /clock; and of each robot odom, ground_truth/odom and scan in its namespace. A file
+/// gets its name when Gazebo ends; until then, and if Gazebo is killed, it is PATH.PID.partial.
+/// What is wrong is one error that names plugin and element.
 #pragma once
 
 #include <gazebo/common/Plugin.hh>

@@ -15,6 +15,7 @@
 #include "adapters/gazebo_classic/window_markers.h"
 #include "adapters/ros1/rfid_markers.h"
 #include "adapters/ros1/rfid_publisher.h"
+#include "adapters/ros2/ros2_outlet.h"
 
 namespace tagfield {
 namespace {
@@ -36,13 +37,14 @@ std::shared_ptr<RfidWorld> make_world(const gazebo::physics::WorldPtr& world) {
   attach(std::make_shared<RfidPublisher>(link), outlets);
   attach(std::make_shared<RfidMarkers>(link), outlets);
   attach(std::make_shared<WindowMarkers>(), outlets);
-  // Last, as a full disk ends what comes after it in a step.
-  const Recordings recordings = attach_recordings(*world, outlets);
+  if (const auto recording = shared_recording(world)) {
+    attach(std::make_shared<ros2::Ros2Outlet>(recording), outlets);
+    attach(std::make_shared<ros2::Ros2Markers>(recording), outlets);
+  }
   const auto on_step = [link](Time now) { link->advance_clock(now); };
-  const auto delete_and_report = [recordings](RfidWorld* old) {
+  const auto delete_and_report = [](RfidWorld* old) {
     report_cost(*old);
     delete old;
-    finish(recordings);
   };
   return {new RfidWorld(world, std::move(outlets), on_step), delete_and_report};
 }

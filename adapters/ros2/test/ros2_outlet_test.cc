@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/ros2/robot_topics.h"
 #include "adapters/ros2/ros2_robot.h"
 #include "adapters/ros2/tee_sink.h"
 
@@ -257,6 +258,48 @@ TEST(Ros2Navigation, TellsTheMapOnceAndWhereEachScanWasTaken) {
   ASSERT_EQ(fixed.size(), 2U);
   ASSERT_EQ(fixed[1].transforms.size(), 2U) << "a latched topic keeps its last message alone";
   EXPECT_EQ(fixed[1].transforms[1].child_frame_id, "cart 2/laser");
+}
+
+TEST(RobotTopics, AreThoseOfItsNamespaceAndHangBelowTheMap) {
+  const auto kept = std::make_shared<Kept>();
+  RobotNames names;
+  names.name_space = "/hall/cart 1";
+  names.odom_parent = "world";
+  const RobotTopics topics(kept, names);
+  OdometryReport odometry;
+  odometry.stamp = at(1);
+  odometry.pose = {1.0, 2.0, M_PI / 2};
+  odometry.covariance << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  odometry.velocity = {0.5, 0.25};
+  odometry.velocity_variance = {0.1, 0.2};
+  topics.publish(odometry);
+  topics.publish(MotionReport{at(1), from_translation({1, 2, 3}), {4, 5, 6}, {7, 8, 9}});
+  topics.publish(ScanReport{at(1), -1.0, 1.0, 0.05, 0.1, 30.0, {1.0F, 2.0F, 3.0F}});
+  topics.publish_fixed_frames(at(1), from_translation({0.2, 0, 0}), from_translation({5, 0, 0}));
+
+  const auto told = kept->of<nav_msgs::Odometry>("/hall/cart_1/odom").at(0);
+  EXPECT_EQ(told.header.frame_id, "odom");
+  EXPECT_EQ(told.child_frame_id, "base_link");
+  EXPECT_EQ(told.twist.twist.linear.x, 0.5);
+  // Of x, y and yaw, which are the first two and the sixth of six.
+  const auto& covariance = told.pose.covariance;
+  EXPECT_EQ((std::array{covariance[0], covariance[1], covariance[5]}), (std::array{1.0, 2.0, 3.0}));
+  EXPECT_EQ((std::array{covariance[30], covariance[31], covariance[35]}),
+            (std::array{7.0, 8.0, 9.0}));
+  EXPECT_EQ(told.twist.covariance[0], 0.1);
+  EXPECT_EQ(told.twist.covariance[35], 0.2);
+  const auto truth = kept->of<nav_msgs::Odometry>("/hall/cart_1/ground_truth/odom").at(0);
+  EXPECT_EQ(truth.header.frame_id, "map");
+  EXPECT_EQ(truth.pose.pose.position.z, 3.0);
+  EXPECT_EQ(truth.twist.twist.angular.x, 7.0);
+  const auto scan = kept->of<sensor_msgs::LaserScan>("/hall/cart_1/scan").at(0);
+  EXPECT_EQ(scan.angle_increment, 1.0F);
+  EXPECT_EQ(scan.ranges, (std::vector<float>{1.0F, 2.0F, 3.0F}));
+  const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static").at(0).transforms;
+  ASSERT_EQ(fixed.size(), 2U);
+  EXPECT_EQ(fixed[0].child_frame_id, "laser");
+  EXPECT_EQ(fixed[1].header.frame_id, "map");
+  EXPECT_EQ(fixed[1].transform.translation.x, 5.0);
 }
 
 TEST(TeeSink, EachSinkGetsAllUnderItsOwnNumbers) {
