@@ -3,13 +3,12 @@
 #include <fstream>
 
 #include "adapters/ros1/bag_recording.h"
-#include "adapters/ros1/mcap_sweep.h"
+#include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {
 namespace {
 
 const std::string kMagic = "#ROSBAG V";
-const std::string kMcapMagic = "\x89MCAP0\r\n";
 
 std::string first_bytes(const std::string& path, std::size_t count) {
   std::error_code error;
@@ -27,12 +26,7 @@ bool is_bag(const std::string& path) {
   const std::filesystem::path name = path;
   const bool named = name.extension() == ".bag" ||
                      (name.extension() == ".active" && name.stem().extension() == ".bag");
-  return named || is_mcap(path) || first_bytes(path, kMagic.size()) == kMagic;
-}
-
-bool is_mcap(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".mcap" ||
-         first_bytes(path, kMcapMagic.size()) == kMcapMagic;
+  return named || is_ros2_recording(path) || first_bytes(path, kMagic.size()) == kMagic;
 }
 
 }  // namespace tagfield

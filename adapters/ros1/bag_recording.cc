@@ -11,7 +11,8 @@
 #include "adapters/ros1/bag_structure.h"
 #include "adapters/ros1/bag_sweep.h"
 #include "adapters/ros1/bag_transforms.h"
-#include "adapters/ros1/mcap_sweep.h"
+#include "adapters/ros1/ros2_sweep.h"
+#include "adapters/rosbag2/recording_files.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -158,7 +159,7 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
 
 BagContent content_of(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
-  if (is_mcap(path)) return sweep_mcap(path, options.on_progress, diagnostics);
+  if (is_ros2_recording(path)) return sweep_ros2(path, options.on_progress, diagnostics);
   require_whole_bag(path);
   return sweep_bag(path, options.frequency_hz, options.on_progress, diagnostics);
 }

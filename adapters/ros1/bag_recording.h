@@ -1,5 +1,6 @@
 /// @file
-/// A recording out of a rosbag of ROS 1, read without a master, or out of an MCAP file of ROS 2.
+/// A recording out of a rosbag of ROS 1, read without a master, or out of one of ROS 2: an MCAP
+/// file, a database of rosbag2, or a folder of them.
 #pragma once
 
 #include <functional>
@@ -38,7 +39,8 @@ struct BagRecording {
   double duration_s = 0.0;  ///< From the first stamp of reads, poses and truth to the last.
 };
 
-/// Whether a file is meant to be a bag: by its name (….bag, ….bag.active, ….mcap) or how it begins.
+/// Whether a file is meant to be a bag: by its name (….bag, ….bag.active, ….mcap, ….db3) or how it
+/// begins, or a folder that rosbag2 records into.
 bool is_bag(const std::string& path);
 
 /// Reads a bag by the types of its messages, whatever the topics' names:

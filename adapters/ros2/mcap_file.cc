@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "adapters/mcap/mcap_writer.h"
@@ -37,9 +38,14 @@ class McapSink : public MessageSink {
   };
   McapWriter writer_;
   std::vector<Topic> topics_;
+  std::map<std::string, std::size_t> by_name_;
 };
 
 std::size_t McapSink::advertise(const Ros2Topic& topic, const Ros2Type& type) {
+  // A topic of several publishers is one channel.
+  const auto known = by_name_.find(topic.name);
+  if (known != by_name_.end() && topics_.at(known->second).type->name == type.name)
+    return known->second;
   McapChannel channel;
   channel.topic = topic.name;
   channel.schema =
@@ -47,6 +53,7 @@ std::size_t McapSink::advertise(const Ros2Topic& topic, const Ros2Type& type) {
   channel.metadata = {{"offered_qos_profiles", offered_qos(topic.delivery)},
                       {"topic_type_hash", type.hash}};
   topics_.push_back({writer_.add_channel(channel), &type});
+  by_name_[topic.name] = topics_.size() - 1;
   return topics_.size() - 1;
 }
 

@@ -17,10 +17,6 @@ constexpr double kArrowWidth_m = 0.08;
 
 using visualization_msgs::Marker;
 
-std::string parent_of(const AntennaInfo& antenna) {
-  return antenna.parent_frame.empty() ? kMapFrame : antenna.parent_frame;
-}
-
 tagfield_msgs::TagRead read_message(const TagRead& read, const std::string& frame) {
   return {header_message(read.stamp, frame),
           read.tag,
@@ -44,6 +40,11 @@ geometry_msgs::Twist twist_between(const AntennaPose& before, const AntennaPose&
   const Eigen::AngleAxisd turn(X_BN.rotation);
   return {vector_message(X_BN.translation / seconds),
           vector_message(turn.axis() * turn.angle() / seconds)};
+}
+
+/// Whenever that holds.
+bool is_same(const geometry_msgs::TransformStamped& a, const geometry_msgs::TransformStamped& b) {
+  return a.header.frame_id == b.header.frame_id && to_cdr(a.transform) == to_cdr(b.transform);
 }
 
 std_msgs::ColorRGBA color_message(const ReadColor& color) {
@@ -98,6 +99,10 @@ std::string topic_token(const std::string& text) {
   return token;
 }
 
+std::string frame_in_ros2(const std::string& frame) {
+  return frame.empty() || frame == "world" ? kMapFrame : frame;
+}
+
 Ros2Outlet::Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock)
     : sink_(std::move(sink)),
       tf_(*sink_, {"/tf"}),
@@ -113,6 +118,20 @@ void Ros2Outlet::tell_time(Time stamp) {
   if (!clock_ || (told_time_ && stamp <= *told_time_)) return;
   told_time_ = stamp;
   clock_->publish(stamp, {to_message(stamp)});
+}
+
+void Ros2Outlet::tell_frame(Time stamp, const geometry_msgs::TransformStamped& frame) {
+  tf_.publish(stamp, {{frame}});
+}
+
+void Ros2Outlet::tell_fixed_frame(Time stamp, const geometry_msgs::TransformStamped& frame) {
+  const auto [told, is_new] = fixed_.emplace(frame.child_frame_id, frame);
+  if (!is_new && is_same(told->second, frame)) return;
+  told->second = frame;
+  // A latched topic keeps its last message alone.
+  tf2_msgs::TFMessage all;
+  for (const auto& [name, fixed] : fixed_) all.transforms.push_back(fixed);
+  static_tf_.publish(stamp, all);
 }
 
 void Ros2Outlet::on_tag_added(const TagPosition& tag, const std::string& /*label*/) {
@@ -157,23 +176,19 @@ void Ros2Outlet::tell_mounted(const AntennaInfo& antenna, const AntennaPose& pos
     return;
   }
   const RigidTransform X_BA = robot->second.last->X_WA.inverse() * pose.X_WA;
-  tf_.publish(pose.stamp, {{frame_message(pose.stamp, mount_.base_frame, antenna.frame_id, X_BA)}});
+  tell_frame(pose.stamp, frame_message(pose.stamp, mount_.base_frame, antenna.frame_id, X_BA));
 }
 
 void Ros2Outlet::on_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
   tell_time(pose.stamp);
   if (mount_.antennas.count(antenna.name) > 0) return;
   const geometry_msgs::TransformStamped transform =
-      frame_message(pose.stamp, parent_of(antenna), antenna.frame_id, pose.X_WA);
-  if (!antenna.is_fixed) {
-    tf_.publish(pose.stamp, {{transform}});
-    return;
+      frame_message(pose.stamp, frame_in_ros2(antenna.parent_frame), antenna.frame_id, pose.X_WA);
+  if (antenna.is_fixed) {
+    tell_fixed_frame(pose.stamp, transform);
+  } else {
+    tell_frame(pose.stamp, transform);
   }
-  if (!fixed_.emplace(antenna.name, transform).second) return;
-  // A latched topic keeps its last message alone.
-  tf2_msgs::TFMessage all;
-  for (const auto& [name, fixed] : fixed_) all.transforms.push_back(fixed);
-  static_tf_.publish(pose.stamp, all);
 }
 
 void Ros2Outlet::on_antenna_pose(const AntennaInfo& antenna, const AntennaPose& pose) {
@@ -204,10 +219,7 @@ void Ros2Outlet::on_update(const AntennaInfo& antenna, Time stamp) {
   antennas_.publish(stamp, truth);
 }
 
-void Ros2Outlet::on_antenna_removed(const std::string& name) {
-  updates_.erase(name);
-  fixed_.erase(name);
-}
+void Ros2Outlet::on_antenna_removed(const std::string& name) { updates_.erase(name); }
 
 Ros2Outlet::Robot& Ros2Outlet::robot_named(const std::string& name) {
   const auto found = robots_.find(name);

@@ -22,6 +22,9 @@ inline constexpr const char* kMapFrame = "map";
 /// topic's name.
 std::string topic_token(const std::string& text);
 
+/// A frame's name: Gazebo's world, and that of no name, is the map.
+std::string frame_in_ros2(const std::string& frame);
+
 /// Tells the topics of docs/ros2.md as the run goes on:
 /// /rfid/reads, /tf (antennas that move, as told), /tf_static (those at rest), /clock,
 /// /rfid/truth/antennas, /rfid/truth/tags, /rfid/truth/tags_moved, /ROBOT/ground_truth/odom.
@@ -36,6 +39,10 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
              const std::string& base_frame);
   /// To /clock, unless it has told that time or a later one.
   void tell_time(Time stamp);
+  /// To /tf.
+  void tell_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
+  /// To /tf_static, with all others that were told before, unless it was told just so.
+  void tell_fixed_frame(Time stamp, const geometry_msgs::TransformStamped& frame);
 
   void on_read(const TagRead& read) override;
   void on_update(const AntennaInfo& antenna, Time stamp) override;
@@ -79,7 +86,7 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   Publisher<tagfield_msgs::TagPositions> tags_;
   Publisher<tagfield_msgs::TagPositions> moved_tags_;
   std::map<std::string, Update> updates_;                         ///< By antenna.
-  std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< By antenna.
+  std::map<std::string, geometry_msgs::TransformStamped> fixed_;  ///< By frame.
   std::map<std::string, TagPosition> places_;                     ///< By tag.
   std::set<std::string> moved_;
   bool has_changed_ = false;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "adapters/ros2/dds_sink.h"
+#include "adapters/ros2/ros2_navigation.h"
 #include "adapters/ros2/ros2_outlet.h"
 #include "tagfield/laser/simulated_laser.h"
 #include "tagfield/simulator/remote_driver.h"
@@ -22,31 +23,28 @@ inline constexpr const char* kLaserFrame = "laser";
 
 class Ros2Robot : public RemoteControl {
  public:
-  /// `outlet` keeps the clock. `warn` gets a line where a command can't be used, once.
-  Ros2Robot(std::shared_ptr<DdsSink> sink, std::shared_ptr<Ros2Outlet> outlet,
-            const LaserParameters& laser, std::function<void(const std::string&)> warn);
+  /// Commands come from `driver`; messages go into `sink`. `outlet` keeps the clock and the frames.
+  /// `warn` gets a line where a command can't be used, once.
+  Ros2Robot(std::shared_ptr<DdsSink> driver, std::shared_ptr<MessageSink> sink,
+            std::shared_ptr<Ros2Outlet> outlet, const LaserParameters& laser,
+            std::function<void(const std::string&)> warn);
 
   BodyVelocity wanted(Time now) override;
   void on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelocity& velocity) override;
   void on_scan(const LaserScan& scan) override;
 
  private:
-  std::shared_ptr<DdsSink> sink_;
+  std::shared_ptr<DdsSink> driver_;
+  std::shared_ptr<MessageSink> sink_;
   std::shared_ptr<Ros2Outlet> outlet_;
   LaserParameters laser_;
   std::function<void(const std::string&)> warn_;
   std::size_t commands_;
   Publisher<nav_msgs::Odometry> odometry_;
   Publisher<sensor_msgs::LaserScan> scans_;
-  Publisher<tf2_msgs::TFMessage> tf_;
-  Publisher<tf2_msgs::TFMessage> static_tf_;
   BodyVelocity command_;
   Time commanded_ = Time::min();
   Time told_ = Time::min();
 };
-
-/// +inf where a beam met nothing, -inf where it met something too near (REP-117).
-sensor_msgs::LaserScan scan_message(const LaserScan& scan, const std::string& frame,
-                                    double rate_hz);
 
 }  // namespace tagfield::ros2

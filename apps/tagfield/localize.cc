@@ -190,7 +190,9 @@ void keep_of_this_run(const std::string& out, const std::optional<ScenarioWithWo
 std::string folder_of(const LocalizeArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   if (!is_bag(arguments.recording)) return "runs/localized";
-  return "runs/" + fs::path(arguments.recording).stem().string();
+  fs::path path = arguments.recording;
+  if (fs::is_directory(path)) path = fs::canonical(path);
+  return "runs/" + path.stem().string();
 }
 
 void refuse_options_of_bags(const LocalizeArguments& arguments) {
@@ -261,11 +263,13 @@ int localize(const LocalizeArguments& arguments) {
 
 void add_localize_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<LocalizeArguments>();
-  CLI::App* command = app.add_subcommand(
-      "localize", "Locate tags from a rosbag or MCAP file, or from reads and antenna poses as CSV");
+  CLI::App* command = app.add_subcommand("localize",
+                                         "Locate tags from a rosbag of ROS 1 or 2 or an MCAP file, "
+                                         "or from reads and antenna poses as CSV");
   command
       ->add_option("READS", arguments->recording,
-                   "Rosbag of ROS 1 (RUN.bag), MCAP file of ROS 2 (RUN.mcap), or CSV: "
+                   "Rosbag of ROS 1 (RUN.bag), recording of ROS 2 (RUN.mcap, RUN.db3, or "
+                   "rosbag2's folder), or CSV: "
                    "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
                    "rssi_dbm")
       ->required();

@@ -8,6 +8,7 @@
 #include "adapters/ros2/mcap_file.h"
 #include "adapters/ros2/ros2_outlet.h"
 #include "adapters/ros2/ros2_robot.h"
+#include "adapters/ros2/tee_sink.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -18,16 +19,28 @@ constexpr const char* kNodeName = "tagfield";
 constexpr Duration kMostWait = std::chrono::seconds(2);
 constexpr std::chrono::milliseconds kSettling(300);
 
+/// One that takes what all of `sinks` are to get.
+std::shared_ptr<ros2::MessageSink> joined(
+    const std::vector<std::shared_ptr<ros2::MessageSink>>& sinks) {
+  return sinks.size() == 1 ? sinks.front() : std::make_shared<ros2::TeeSink>(sinks);
+}
+
 std::shared_ptr<ros2::Ros2Outlet> attach_sink(const std::shared_ptr<ros2::MessageSink>& sink,
-                                              Outlets& outlets) {
+                                              const ScenarioWithWorld& loaded,
+                                              RunControl& control) {
   auto outlet = std::make_shared<ros2::Ros2Outlet>(sink);
-  attach(outlet, outlets);
-  attach(std::make_shared<ros2::Ros2Markers>(sink), outlets);
+  attach(outlet, control.outlets);
+  attach(std::make_shared<ros2::Ros2Markers>(sink), control.outlets);
+  if (loaded.scenario.pose.source == PoseSource::kSlam) {
+    control.navigation =
+        std::make_shared<ros2::Ros2Navigation>(sink, outlet, navigation_of(loaded.scenario).laser);
+  }
   return outlet;
 }
 
 RemoteDriving driving_of(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
-                         const std::shared_ptr<ros2::DdsSink>& sink,
+                         const std::shared_ptr<ros2::DdsSink>& dds,
+                         const std::shared_ptr<ros2::MessageSink>& sink,
                          const std::shared_ptr<ros2::Ros2Outlet>& outlet) {
   std::set<std::string> antennas;
   for (const AntennaSpec& antenna : loaded.scenario.antennas) {
@@ -37,10 +50,10 @@ RemoteDriving driving_of(const OutletArguments& arguments, const ScenarioWithWor
   const auto warn = [](const std::string& line) {
     fmt::print(stderr, "tagfield: warning: {}\n", line);
   };
-  return {
-      arguments.drive,
-      std::make_shared<ros2::Ros2Robot>(sink, outlet, navigation_of(loaded.scenario).laser, warn),
-      {std::make_shared<const RayScene>(loaded.scene), loaded.scenario.obstacles}};
+  return {arguments.drive,
+          std::make_shared<ros2::Ros2Robot>(dds, sink, outlet, navigation_of(loaded.scenario).laser,
+                                            warn),
+          {std::make_shared<const RayScene>(loaded.scene), loaded.scenario.obstacles}};
 }
 
 }  // namespace
@@ -82,19 +95,21 @@ void apply(const OutletArguments& arguments, Scenario& scenario) {
 }
 
 RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
-                          Outlets& outlets) {
+                          RunControl& control) {
   RunOutlets run;
-  if (!arguments.mcap.empty()) {
-    run.sinks.push_back(ros2::mcap_file(arguments.mcap));
-    (void)attach_sink(run.sinks.back(), outlets);
+  if (!arguments.mcap.empty()) run.sinks.push_back(ros2::mcap_file(arguments.mcap));
+  std::shared_ptr<ros2::DdsSink> dds;
+  if (arguments.ros2) {
+    const std::uint32_t domain =
+        arguments.domain ? *arguments.domain : ros2::domain_of_environment();
+    dds = std::make_shared<ros2::DdsSink>(domain, kNodeName);
+    run.sinks.push_back(dds);
   }
-  if (!arguments.ros2) return run;
-  const std::uint32_t domain = arguments.domain ? *arguments.domain : ros2::domain_of_environment();
-  const auto sink = std::make_shared<ros2::DdsSink>(domain, kNodeName);
-  run.sinks.push_back(sink);
-  const auto outlet = attach_sink(sink, outlets);
-  if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, sink, outlet);
-  if (sink->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
+  if (run.sinks.empty()) return run;
+  const std::shared_ptr<ros2::MessageSink> sink = joined(run.sinks);
+  const auto outlet = attach_sink(sink, loaded, control);
+  if (!arguments.drive.empty()) run.driving = driving_of(arguments, loaded, dds, sink, outlet);
+  if (dds && dds->wait_for_reader(kMostWait)) std::this_thread::sleep_for(kSettling);
   return run;
 }
 

@@ -10,7 +10,7 @@
 #include "adapters/ros2/dds_sink.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/simulator/remote_driver.h"
-#include "tagfield/stream/listeners.h"
+#include "tagfield/simulator/run_control.h"
 
 namespace tagfield {
 
@@ -38,6 +38,6 @@ void apply(const OutletArguments& arguments, Scenario& scenario);
 /// Attaches what was asked for, and waits a moment for those who listen already. Throws Error where
 /// the domain can't be joined, or a robot is to be driven that is not there.
 RunOutlets attach_outlets(const OutletArguments& arguments, const ScenarioWithWorld& loaded,
-                          Outlets& outlets);
+                          RunControl& control);
 
 }  // namespace tagfield

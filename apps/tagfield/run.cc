@@ -78,7 +78,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
                                        Diagnostics& diagnostics) {
   const Scenario& scenario = loaded.scenario;
   RunControl control;
-  const RunOutlets outlets = attach_outlets(arguments.outlets, loaded, control.outlets);
+  const RunOutlets outlets = attach_outlets(arguments.outlets, loaded, control);
   if (outlets.driving) control.remote = &*outlets.driving;
   ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
   control.keeps_recording = !arguments.record_only;

@@ -223,7 +223,10 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
     if (i > 0 && stopped(control)) return;
     begun[i] = 1;
     RunControl of_seed = of_one;
-    if (i > 0) of_seed.outlets = {};
+    if (i > 0) {
+      of_seed.outlets = {};
+      of_seed.navigation = nullptr;
+    }
     runs[i] = simulate(scenario, first + i, of_seed, world);
     localize(scenario, runs[i], threads_inside, warnings[i]);
     if (i > 0) {

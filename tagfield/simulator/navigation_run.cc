@@ -7,6 +7,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/simulator/internal/self_driving.h"
+#include "tagfield/simulator/navigation_listener.h"
 
 namespace tagfield {
 namespace {
@@ -100,6 +101,13 @@ class BeliefWatch {
   std::map<std::string, Place> places_;
 };
 
+void tell_scans(const Robot& robot, NavigationListener* listener) {
+  if (listener == nullptr) return;
+  for (const SensedScan& sensed : robot.self_driver()->scans()) {
+    listener->on_scan(robot.name(), robot.self_driver()->believed_at(sensed), sensed.scan);
+  }
+}
+
 /// How often beliefs are looked at [s].
 constexpr double kBeliefInterval = 0.1;
 
@@ -123,6 +131,7 @@ void drive(const Scenario& scenario, const RunControl& control, const Navigation
     for (const Robot& robot : simulation.robots()) {
       if (robot.self_driver() == nullptr) continue;
       touches.look(robot.name(), planar(robot.true_pose(0.0)), begin);
+      tell_scans(robot, control.navigation.get());
       if (is_due) beliefs.look(robot, begin);
     }
     if (control.on_progress) {
@@ -148,6 +157,7 @@ NavigatedRun run_navigation(const Scenario& scenario, std::uint64_t seed, const 
                             const NavigationWorld& world, Outlets outlets) {
   NavigatedRun run;
   const SelfDriving driving = find_map(scenario, seed, control, world, run.navigation);
+  if (control.navigation) control.navigation->on_map(run.navigation.map);
   Simulation simulation(scenario, seed, std::move(outlets), &driving);
   drive(scenario, control, world, simulation, run.navigation);
   simulation.finish();

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include "tagfield/base/time.h"
@@ -12,15 +13,17 @@
 
 namespace tagfield {
 
+class NavigationListener;
 struct RemoteDriving;
 
 /// Threads, progress, and an early end.
 struct RunControl {
   int threads = 1;
-  const std::atomic<bool>* stop = nullptr;        ///< Set by others to end early.
-  std::function<void(double share)> on_progress;  ///< Called now and then with 0 … 1, or empty.
-  Outlets outlets;                                ///< Told of the first seed's run, as it goes.
-  const RemoteDriving* remote = nullptr;          ///< Who drives a robot from outside, if anybody.
+  const std::atomic<bool>* stop = nullptr;         ///< Set by others to end early.
+  std::function<void(double share)> on_progress;   ///< Called now and then with 0 … 1, or empty.
+  Outlets outlets;                                 ///< Told of the first seed's run, as it goes.
+  std::shared_ptr<NavigationListener> navigation;  ///< Of that run, too; or null.
+  const RemoteDriving* remote = nullptr;           ///< Who drives a robot from outside, if anybody.
   bool keeps_recording = true;  ///< Else memory does not grow with the run, and nothing is located.
 };
 

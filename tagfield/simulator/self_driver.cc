@@ -81,6 +81,10 @@ PoseEstimate SelfDriver::believed(double seconds) const {
   return localizer_.estimate_at(senses_.odometry(seconds));
 }
 
+PlanarPose SelfDriver::believed_at(const SensedScan& sensed) const {
+  return localizer_.estimate_at(sensed.odometry).pose_M;
+}
+
 double SelfDriver::progress() const {
   return goals_.empty()
              ? 1.0
@@ -164,10 +168,11 @@ BodyVelocity SelfDriver::wanted(const PlanarPose& begin_W, Time now) {
 BodyVelocity SelfDriver::step(const PlanarPose& begin_W, Time now, double seconds) {
   look_after_place(now);
   velocity_ = limited(wanted(begin_W, now), velocity_, settings_.limits, seconds);
-  for (const SensedScan& sensed : senses_.step(begin_W, velocity_, now, seconds)) {
+  scans_ = senses_.step(begin_W, velocity_, now, seconds);
+  for (const SensedScan& sensed : scans_) {
     has_looked_ = localizer_.update(sensed.scan, sensed.odometry) || has_looked_;
     if (knows_place_) {
-      driver_.see(sensed.scan, localizer_.estimate_at(sensed.odometry).pose_M);
+      driver_.see(sensed.scan, believed_at(sensed));
     } else {
       wander_.see(sensed.scan, sensed.odometry);
     }

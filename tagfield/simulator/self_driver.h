@@ -45,6 +45,9 @@ class SelfDriver {
 
   /// Believed pose `seconds` after the present step's beginning.
   [[nodiscard]] PoseEstimate believed(double seconds) const;
+  /// Those that ended in the present step, and where it believes to have been at their stamps.
+  [[nodiscard]] const std::vector<SensedScan>& scans() const { return scans_; }
+  [[nodiscard]] PlanarPose believed_at(const SensedScan& sensed) const;
   /// Whether it believes to know where it is.
   [[nodiscard]] bool knows_place() const { return knows_place_; }
   /// Whether all goals are reached or given up.
@@ -71,6 +74,7 @@ class SelfDriver {
   std::vector<PlanarPose> goals_;
   std::vector<GoalOutcome> outcomes_;
   BodyVelocity velocity_;
+  std::vector<SensedScan> scans_;
   std::vector<Eigen::Vector2d> hidden_M_;  ///< Where the map has what the laser does not see.
   bool knows_place_ = true;
   Time lost_since_;

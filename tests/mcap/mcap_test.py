@@ -8,6 +8,7 @@ import functools
 import json
 import pathlib
 import random
+import re
 import shutil
 import sys
 
@@ -227,6 +228,118 @@ def a_runs_messages_are_those_of_its_tables(context):
     check_equal(sum(len(message["distances"]) for message in topics["/rfid/truth/antennas"]["messages"]),
                 count, "distances")
     check(topics["/rfid/markers"]["messages"][0]["markers"], "no markers")
+
+
+def pgm_cells(path):
+    """Cells of a map file as messages have them, from its lower left corner on."""
+    without_comment = re.sub(rb"#[^\n]*\n", b"", path.read_bytes(), count=1)
+    kind, width, height, most, pixels = without_comment.split(maxsplit=4)
+    check_equal((kind, most), (b"P5", b"255"), "kind of the image")
+    width, height = int(width), int(height)
+    check_equal(len(pixels), width * height, "pixels")
+    rows = [pixels[row * width:(row + 1) * width] for row in reversed(range(height))]
+    return width, height, [{0: 100, 254: 0, 205: -1}[pixel] for row in rows for pixel in row]
+
+
+def mapping_run(context):
+    """Folder of a short run whose robot maps first, and all topics of its file."""
+    folder = context.simulate("paper_warehouse_slam", "--no-page", "--mcap", context.folder / "run.mcap",
+                              "--set", "navigation.mapping.limit_s=5", "--set", "duration_s=2",
+                              "--set", "localization.method=hyperbola")
+    return folder, read_by_others(context, "decode", context.folder / "run.mcap")
+
+
+# What the panels of the layout can show, of what Foxglove's 3D panel and plots take.
+SHOWN_IN_3D = {"nav_msgs/msg/OccupancyGrid", "sensor_msgs/msg/LaserScan",
+               "visualization_msgs/msg/MarkerArray"}
+MESSAGE_PATH = re.compile(r"(?P<topic>/[\w/]+)(?P<fields>(?:\.\w+(?:\[:\])?(?:\{\w+==\$\w+\})?)*)$")
+FIELD = re.compile(r"\.(?P<name>\w+)(?P<list>\[:\])?(?:\{(?P<key>\w+)==\$(?P<variable>\w+)\})?")
+
+
+def values_at(path, topics, variables):
+    """What a message path of Foxglove leads to in all messages, as far as the layout's are written."""
+    found = MESSAGE_PATH.match(path)
+    if not check(found and found["topic"] in topics, f"{path!r} leads nowhere"):
+        return []
+    values = topics[found["topic"]]["messages"]
+    for field in FIELD.finditer(found["fields"]):
+        values = [value[field["name"]] for value in values]
+        if field["list"]:
+            values = [one for value in values for one in value]
+        if field["key"]:
+            wanted = variables[field["variable"]]
+            values = [value for value in values if value[field["key"]] == wanted]
+    return values
+
+
+def leaves(tree):
+    return [tree] if isinstance(tree, str) else [*leaves(tree["first"]), *leaves(tree["second"])]
+
+
+@case
+def the_layout_for_foxglove_shows_what_is_there(context):
+    text = (context.source / "docs/foxglove_layout.json").read_text(encoding="utf-8")
+    layout = json.loads(text)
+    panels = layout["configById"]
+    check_equal(sorted(leaves(layout["layout"])), sorted(panels), "panels that are laid out")
+    _, topics = mapping_run(context)
+    if topics is None:
+        return
+    frames = {frame["header"]["frame_id"] for topic in ("/tf", "/tf_static")
+              for message in topics[topic]["messages"] for frame in message["transforms"]}
+    kinds = []
+    for name, panel in panels.items():
+        kinds.append(name.split("!")[0])
+        if kinds[-1] == "3D":
+            check_in(panel["followTf"], sorted(frames), "frames")
+            check_equal({topics.get(topic, {}).get("type") for topic in panel["topics"]}, SHOWN_IN_3D,
+                        "types of the topics in 3D")
+        elif kinds[-1] == "Plot":
+            for path in panel["paths"]:
+                values = values_at(path["value"], topics, layout["globalVariables"])
+                check(len(values) > 5 and all(isinstance(value, (int, float)) for value in values),
+                      f"{path['value']}: {values[:5]}")
+        else:
+            check_equal(kinds[-1], "RawMessages", "kind of panel")
+            check(values_at(panel["topicPath"], topics, {}), f"{panel['topicPath']}: nothing")
+    check_equal(sorted(kinds), ["3D", "Plot", "Plot", "RawMessages"], "panels")
+
+
+@case
+def a_robots_map_and_scans_are_in_the_file(context):
+    folder, topics = mapping_run(context)
+    if topics is None:
+        return
+    check_equal({topic: topics[topic]["type"] for topic in ("/map", "/p3at/scan")},
+                {"/map": "nav_msgs/msg/OccupancyGrid", "/p3at/scan": "sensor_msgs/msg/LaserScan"}, "types")
+    check_in("durability: 1", topics["/map"]["metadata"]["offered_qos_profiles"], "/map")
+    if not check_equal(len(topics["/map"]["messages"]), 1, "maps"):
+        return
+    grid = topics["/map"]["messages"][0]
+    width, height, cells = pgm_cells(folder / "map.pgm")
+    check_equal((grid["info"]["width"], grid["info"]["height"]), (width, height), "cells of the map")
+    # The file keeps three kinds of cells.
+    told = [-1 if cell < 0 else 100 if cell >= 65 else 0 if cell < 20 else -1 for cell in grid["data"]]
+    check(told == cells, "the cells are not those of map.pgm")
+    check(cells.count(0) > 1000 and cells.count(100) > 100, "the map is empty")
+    text = (folder / "map.yaml").read_text(encoding="utf-8")
+    origin = grid["info"]["origin"]["position"]
+    numbers = [float(word) for word in re.search(r"origin: \[(.*)\]", text)[1].split(",")]
+    check_equal([origin["x"], origin["y"], 0.0], numbers, "origin")
+    check_in("resolution: 0.05", text, "map.yaml")
+    check(abs(grid["info"]["resolution"] - 0.05) < 1e-8, "resolution")
+
+    scans = topics["/p3at/scan"]["messages"]
+    check(len(scans) > 20, f"{len(scans)} scans")
+    check_equal({scan["header"]["frame_id"] for scan in scans}, {"p3at/laser"}, "frame of scans")
+    frames = [frame for message in topics["/tf"]["messages"] for frame in message["transforms"]]
+    check({(scan["header"]["stamp"]["sec"], scan["header"]["stamp"]["nanosec"]) for scan in scans} ==
+          {(frame["header"]["stamp"]["sec"], frame["header"]["stamp"]["nanosec"]) for frame in frames
+           if (frame["header"]["frame_id"], frame["child_frame_id"]) == ("map", "p3at/base_link")},
+          "a scan without its robot's frame")
+    check_equal([(frame["header"]["frame_id"], frame["child_frame_id"])
+                 for message in topics["/tf_static"]["messages"] for frame in message["transforms"]],
+                [("p3at/base_link", "p3at/laser")], "frames at rest")
 
 
 @case

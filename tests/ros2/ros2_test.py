@@ -20,6 +20,8 @@ from common import (Skip, case, check, check_equal, check_in, clean_environment,
 READS = "rt/rfid/reads=tagfield_msgs::msg::dds_::TagReads_"
 TAGS = "rt/rfid/truth/tags=tagfield_msgs::msg::dds_::TagPositions_:transient_local"
 CLOCK = "rt/clock=rosgraph_msgs::msg::dds_::Clock_:best_effort"
+MAP = "rt/map=nav_msgs::msg::dds_::OccupancyGrid_:transient_local"
+ROBOT_SCAN = "rt/p3at/scan=sensor_msgs::msg::dds_::LaserScan_:best_effort"
 STATIC_TF = "rt/tf_static=tf2_msgs::msg::dds_::TFMessage_:transient_local"
 GRAPH = "ros_discovery_info=rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_:transient_local"
 DOMAIN = 7
@@ -143,6 +145,28 @@ def those_who_come_late_get_what_is_latched(context):
 
 
 @case
+def the_map_reaches_those_who_come_late(context):
+    lines = heard(context, [MAP, ROBOT_SCAN], f"{context.shipped('paper_warehouse_slam')} --set "
+                  "navigation.mapping.limit_s=2 --set duration_s=6 --set localization.method=hyperbola",
+                  before_s=-4.0)
+    maps = messages(lines, "rt/map")
+    check_equal(len(maps), 1, "maps")
+    for cdr in maps:
+        check_equal(cdr.header()[1], "map", "frame of the map")
+        cdr.stamp()
+        resolution, width, height = cdr.number("f"), cdr.number("I"), cdr.number("I")
+        check(abs(resolution - 0.05) < 1e-8, f"resolution {resolution}")
+        pose = [cdr.number("d") for _ in range(7)]
+        check_equal((pose[2], pose[3:]), (0.0, [0.0, 0.0, 0.0, 1.0]), "height and turn of the map")
+        check_equal(cdr.number("I"), width * height, "cells")
+        check_equal(cdr.at + width * height, len(cdr.data), "bytes of the message")
+        cells = struct.unpack(f"{width * height}b", cdr.data[cdr.at:])
+        check(-1 in cells and max(cells) > 64 and -1 <= min(cells), "cells of no map")
+    frames_of_scans = {cdr.header()[1] for cdr in messages(lines, "rt/p3at/scan")}
+    check_equal(frames_of_scans, {"p3at/laser"}, "frame of the scans")
+
+
+@case
 def it_is_a_node_of_the_graph(context):
     lines = heard(context, [GRAPH], f"{context.shipped('two_antennas')} --speed 15")
     users = [line["user_data"] for line in lines if line["kind"] == "participant"]
@@ -237,7 +261,7 @@ def a_robot_is_driven_from_another_dds(context):
     drive = f"sleep 4; {context.build / 'bin/ros2_driver'} {DOMAIN} 4 0.5 0"
     done = in_own_network(
         context, f"({listen}) & ({drive}) & sleep 1; {context.tagfield} run {scenario} --ros2 --domain "
-        f"{DOMAIN} --drive cart --no-page --out out > said.txt 2>&1; code=$?; wait; exit $code")
+        f"{DOMAIN} --drive cart --mcap run.mcap --no-page --out out > said.txt 2>&1; code=$?; wait; exit $code")
     said = (context.folder / "said.txt").read_text(encoding="utf-8")
     check_equal(done.returncode, 0, f"exit code ({said})")
     lines = [json.loads(line) for line in
@@ -259,9 +283,14 @@ def a_robot_is_driven_from_another_dds(context):
     limits = [cdr.number("f") for _ in range(7)]
     ranges = [cdr.number("f") for _ in range(cdr.number("I"))]
     check_equal(len(ranges), 720, "beams")
+    check_equal([round(limit, 6) for limit in limits[5:]], [0.3, 30.0], "nearest and farthest range")
     check(any(limits[5] <= value <= limits[6] for value in ranges), "no beam met anything")
     told_frames = {frame[:2] for cdr in messages(lines, "rt/tf") for frame in frames(cdr)}
     check_equal(told_frames, {("odom", "base_link"), ("base_link", "mast")}, "frames")
+    # In a file's last part topics stand uncompressed.
+    recorded = (context.folder / "run.mcap").read_bytes()
+    for topic in (b"/odom", b"/scan", b"/tf", b"/tf_static", b"/rfid/reads"):
+        check_in(struct.pack("<I", len(topic)) + topic, recorded, "the recording")
 
 
 @case

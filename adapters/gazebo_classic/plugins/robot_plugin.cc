@@ -13,9 +13,11 @@
 #include "adapters/gazebo_classic/conversions.h"
 #include "adapters/gazebo_classic/laser.h"
 #include "adapters/gazebo_classic/plugin_elements.h"
+#include "adapters/gazebo_classic/plugins/recording.h"
 #include "adapters/gazebo_classic/skid_steer.h"
 #include "adapters/ros1/robot_publisher.h"
 #include "adapters/ros1/ros_link.h"
+#include "adapters/ros2/robot_topics.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/motion/robot_parameters.h"
 
@@ -69,6 +71,9 @@ class Robot {
         wheels_(find_wheels()),
         ros_(RosLink::shared()),
         publisher_(ros_, names_of(parameters_)) {
+    if (const auto recording = shared_recording(world_)) {
+      recorded_.emplace(recording, names_of(parameters_));
+    }
     if (!parameters_.laser.empty()) expect_ray_sensor(*base_, parameters_.laser);
   }
 
@@ -126,6 +131,13 @@ class Robot {
     std::optional<RigidTransform> X_BL;
     if (laser_) X_BL = laser_->X_BL();
     publisher_.publish_fixed_frames(now, X_BL, run_->X_WO);
+    if (recorded_) recorded_->publish_fixed_frames(now, X_BL, run_->X_WO);
+  }
+
+  template <class Report>
+  void tell(const Report& report) {
+    publisher_.publish(report);
+    if (recorded_) recorded_->publish(report);
   }
 
   void read_laser(Time now) {
@@ -139,9 +151,9 @@ class Robot {
     }
     const std::optional<LaserReading> reading = laser_->read(run_->last, now);
     if (!reading) return;
-    publisher_.publish(ScanReport{reading->stamp, reading->first_angle_rad, reading->last_angle_rad,
-                                  reading->interval_s, reading->least_range_m,
-                                  reading->most_range_m, reading->ranges_m});
+    tell(ScanReport{reading->stamp, reading->first_angle_rad, reading->last_angle_rad,
+                    reading->interval_s, reading->least_range_m, reading->most_range_m,
+                    reading->ranges_m});
   }
 
   void report_motion(Time now) {
@@ -150,13 +162,12 @@ class Robot {
     const BodyVelocity velocity{
         (odometry.travel().forward - run_->reported_travel.forward) / seconds,
         (odometry.travel().turn - run_->reported_travel.turn) / seconds};
-    publisher_.publish(OdometryReport{now, odometry.pose(), odometry.covariance(), velocity,
-                                      velocity_variance(velocity, seconds)});
+    tell(OdometryReport{now, odometry.pose(), odometry.covariance(), velocity,
+                        velocity_variance(velocity, seconds)});
     run_->reported = now;
     run_->reported_travel = odometry.travel();
-    publisher_.publish(MotionReport{now, from_gazebo(base_->WorldPose()),
-                                    eigen(base_->RelativeLinearVel()),
-                                    eigen(base_->RelativeAngularVel())});
+    tell(MotionReport{now, from_gazebo(base_->WorldPose()), eigen(base_->RelativeLinearVel()),
+                      eigen(base_->RelativeAngularVel())});
   }
 
   /// Of the mean over `seconds`, as the wheels' noise makes it; with a little for a robot that
@@ -194,6 +205,7 @@ class Robot {
   SkidSteer wheels_;
   std::shared_ptr<RosLink> ros_;
   RobotPublisher publisher_;
+  std::optional<ros2::RobotTopics> recorded_;
   Duration odometry_interval_ = duration_from_seconds(1.0 / parameters_.odometry_rate_hz);
   std::optional<Laser> laser_;
   std::optional<Run> run_;

@@ -11,9 +11,11 @@
 #include <mutex>
 #include <utility>
 
+#include "adapters/gazebo_classic/plugins/recording.h"
 #include "adapters/gazebo_common/window_markers.h"
 #include "adapters/ros1/rfid_markers.h"
 #include "adapters/ros1/rfid_publisher.h"
+#include "adapters/ros2/ros2_outlet.h"
 
 namespace tagfield {
 namespace {
@@ -35,6 +37,10 @@ std::shared_ptr<RfidWorld> make_world(const gazebo::physics::WorldPtr& world) {
   attach(std::make_shared<RfidPublisher>(link), outlets);
   attach(std::make_shared<RfidMarkers>(link), outlets);
   attach(std::make_shared<WindowMarkers>(), outlets);
+  if (const auto recording = shared_recording(world)) {
+    attach(std::make_shared<ros2::Ros2Outlet>(recording), outlets);
+    attach(std::make_shared<ros2::Ros2Markers>(recording), outlets);
+  }
   const auto on_step = [link](Time now) { link->advance_clock(now); };
   const auto delete_and_report = [](RfidWorld* old) {
     report_cost(*old);

@@ -1,5 +1,6 @@
 /// @file
-/// The RFID world that all plugins of a Gazebo world share, with ROS and the window as listeners.
+/// The RFID world that all plugins of a Gazebo world share, with ROS, the window and recordings as
+/// listeners.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>

@@ -38,6 +38,20 @@ TEST(Cdr, GoldenBytesOfLists) {
   EXPECT_EQ(to_cdr(truth), expected);
 }
 
+TEST(Cdr, GoldenBytesOfAMap) {
+  nav_msgs::OccupancyGrid map;
+  map.header.frame_id = "map";
+  map.info = {{3, 4}, 0.5F, 3, 1, {}};
+  map.data = {-1, 0, 100};
+  const std::string expected = "\0\1\0\0\0\0\0\0\0\0\0\0\4\0\0\0map\0"s +  // header: 16
+                               "\3\0\0\0\4\0\0\0"s +                       // map_load_time
+                               "\0\0\0\x3f\3\0\0\0\1\0\0\0"s +  // resolution, width, height: 36
+                               "\0\0\0\0"s +                    // up to the next double
+                               std::string(54, '\0') + "\xf0\x3f"s +  // origin: not turned
+                               "\3\0\0\0\xff\0\x64"s;                 // cells
+  EXPECT_EQ(to_cdr(map), expected);
+}
+
 tagfield_msgs::TagReads drawn_reads() {
   tagfield_msgs::TagReads reads;
   const auto text = [] { return *rc::gen::container<std::string>(rc::gen::inRange('a', 'z')); };

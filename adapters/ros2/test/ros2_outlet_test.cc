@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/ros2/robot_topics.h"
 #include "adapters/ros2/ros2_robot.h"
+#include "adapters/ros2/tee_sink.h"
 
 namespace tagfield::ros2 {
 namespace {
@@ -62,7 +64,7 @@ constexpr Time at(double seconds) {
 
 /// An update with one read.
 void update(Ros2Outlet& outlet, const AntennaInfo& antenna, double seconds) {
-  const RigidTransform X_WA = from_translation({seconds, 2.0, 3.0});
+  const RigidTransform X_WA = from_translation({antenna.is_fixed ? 1.0 : seconds, 2.0, 3.0});
   outlet.on_pose(antenna, {at(seconds), antenna.name, X_WA, std::nullopt});
   outlet.on_antenna_pose(antenna, {at(seconds), antenna.name, X_WA, std::nullopt});
   outlet.on_distance({at(seconds), antenna.name, "tag", 4.5});
@@ -113,7 +115,9 @@ TEST(Ros2Outlet, FramesThatMoveAndThoseThatDont) {
   for (const double seconds : {1.0, 2.0}) {
     update(outlet, antenna_called("mobile", false), seconds);
     update(outlet, antenna_called("gate", true), seconds);
-    update(outlet, antenna_called("dock", true), seconds);
+    AntennaInfo dock = antenna_called("dock", true);
+    dock.parent_frame = "world";
+    update(outlet, dock, seconds);
   }
   const auto moving = kept->of<tf2_msgs::TFMessage>("/tf");
   ASSERT_EQ(moving.size(), 2U);
@@ -122,7 +126,8 @@ TEST(Ros2Outlet, FramesThatMoveAndThoseThatDont) {
   EXPECT_EQ(moving[1].transforms.at(0).transform.translation.x, 2.0);
   const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static");
   ASSERT_EQ(fixed.size(), 2U) << "one as each of them is known";
-  EXPECT_EQ(fixed[1].transforms.size(), 2U) << "the last one holds all";
+  ASSERT_EQ(fixed[1].transforms.size(), 2U) << "the last one holds all";
+  for (const auto& frame : fixed[1].transforms) EXPECT_EQ(frame.header.frame_id, "map");
   EXPECT_EQ(kept->delivery_of("/tf_static"), Delivery::kLatched);
 }
 
@@ -203,6 +208,114 @@ TEST(ScanMessage, SaysWhatABeamMetAsRep117Does) {
   EXPECT_EQ(message.ranges.at(2), -std::numeric_limits<float>::infinity());
   EXPECT_EQ(message.angle_max, 0.0F);
   EXPECT_NEAR(message.scan_time, 0.05, 1e-7);
+}
+
+TEST(Ros2Navigation, TellsTheMapOnceAndWhereEachScanWasTaken) {
+  const auto kept = std::make_shared<Kept>();
+  LaserParameters laser;
+  laser.X_RL = from_translation({0.15, 0.0, 0.3});
+  laser.rate_hz = 20.0;
+  Ros2Navigation navigation(kept, std::make_shared<Ros2Outlet>(kept), laser);
+  OccupancyGrid map;
+  map.resolution_m = 0.05;
+  map.width = 2;
+  map.height = 1;
+  map.origin = {-3.0, 4.0};
+  map.cells = {-1, 100};
+  navigation.on_map(map);
+  LaserScan scan;
+  scan.stamp = at(2.5);
+  scan.angle_step_rad = 0.5;
+  scan.most_range_m = 30.0;
+  scan.ranges_m = {2.5F};
+  navigation.on_scan("cart 1", {1.0, 2.0, M_PI / 2}, scan);
+  navigation.on_scan("cart 2", {}, scan);
+
+  EXPECT_EQ(kept->delivery_of("/map"), Delivery::kLatched);
+  const auto maps = kept->of<nav_msgs::OccupancyGrid>("/map");
+  ASSERT_EQ(maps.size(), 1U);
+  EXPECT_EQ(maps[0].header.frame_id, "map");
+  EXPECT_EQ(maps[0].info.resolution, 0.05F);
+  EXPECT_EQ(maps[0].info.width, 2U);
+  EXPECT_EQ(maps[0].info.height, 1U);
+  EXPECT_EQ(maps[0].info.origin.position.x, -3.0);
+  EXPECT_EQ(maps[0].info.origin.position.y, 4.0);
+  EXPECT_EQ(maps[0].info.origin.orientation.w, 1.0);
+  EXPECT_EQ(maps[0].data, (std::vector<std::int8_t>{-1, 100}));
+
+  const auto scans = kept->of<sensor_msgs::LaserScan>("/cart_1/scan");
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].header.frame_id, "cart 1/laser");
+  const auto frames = kept->of<tf2_msgs::TFMessage>("/tf");
+  ASSERT_EQ(frames.size(), 2U);
+  const geometry_msgs::TransformStamped& frame = frames[0].transforms.at(0);
+  EXPECT_EQ(frame.header.frame_id, "map");
+  EXPECT_EQ(frame.child_frame_id, "cart 1/base_link");
+  EXPECT_EQ(frame.header.stamp.nanosec, 500'000'000U);
+  EXPECT_EQ(frame.transform.translation.y, 2.0);
+  EXPECT_NEAR(frame.transform.rotation.z, std::sqrt(0.5), 1e-12);
+  const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static");
+  ASSERT_EQ(fixed.size(), 2U);
+  ASSERT_EQ(fixed[1].transforms.size(), 2U) << "a latched topic keeps its last message alone";
+  EXPECT_EQ(fixed[1].transforms[1].child_frame_id, "cart 2/laser");
+}
+
+TEST(RobotTopics, AreThoseOfItsNamespaceAndHangBelowTheMap) {
+  const auto kept = std::make_shared<Kept>();
+  RobotNames names;
+  names.name_space = "/hall/cart 1";
+  names.odom_parent = "world";
+  const RobotTopics topics(kept, names);
+  OdometryReport odometry;
+  odometry.stamp = at(1);
+  odometry.pose = {1.0, 2.0, M_PI / 2};
+  odometry.covariance << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  odometry.velocity = {0.5, 0.25};
+  odometry.velocity_variance = {0.1, 0.2};
+  topics.publish(odometry);
+  topics.publish(MotionReport{at(1), from_translation({1, 2, 3}), {4, 5, 6}, {7, 8, 9}});
+  topics.publish(ScanReport{at(1), -1.0, 1.0, 0.05, 0.1, 30.0, {1.0F, 2.0F, 3.0F}});
+  topics.publish_fixed_frames(at(1), from_translation({0.2, 0, 0}), from_translation({5, 0, 0}));
+
+  const auto told = kept->of<nav_msgs::Odometry>("/hall/cart_1/odom").at(0);
+  EXPECT_EQ(told.header.frame_id, "odom");
+  EXPECT_EQ(told.child_frame_id, "base_link");
+  EXPECT_EQ(told.twist.twist.linear.x, 0.5);
+  // Of x, y and yaw, which are the first two and the sixth of six.
+  const auto& covariance = told.pose.covariance;
+  EXPECT_EQ((std::array{covariance[0], covariance[1], covariance[5]}), (std::array{1.0, 2.0, 3.0}));
+  EXPECT_EQ((std::array{covariance[30], covariance[31], covariance[35]}),
+            (std::array{7.0, 8.0, 9.0}));
+  EXPECT_EQ(told.twist.covariance[0], 0.1);
+  EXPECT_EQ(told.twist.covariance[35], 0.2);
+  const auto truth = kept->of<nav_msgs::Odometry>("/hall/cart_1/ground_truth/odom").at(0);
+  EXPECT_EQ(truth.header.frame_id, "map");
+  EXPECT_EQ(truth.pose.pose.position.z, 3.0);
+  EXPECT_EQ(truth.twist.twist.angular.x, 7.0);
+  const auto scan = kept->of<sensor_msgs::LaserScan>("/hall/cart_1/scan").at(0);
+  EXPECT_EQ(scan.angle_increment, 1.0F);
+  EXPECT_EQ(scan.ranges, (std::vector<float>{1.0F, 2.0F, 3.0F}));
+  const auto fixed = kept->of<tf2_msgs::TFMessage>("/tf_static").at(0).transforms;
+  ASSERT_EQ(fixed.size(), 2U);
+  EXPECT_EQ(fixed[0].child_frame_id, "laser");
+  EXPECT_EQ(fixed[1].header.frame_id, "map");
+  EXPECT_EQ(fixed[1].transform.translation.x, 5.0);
+}
+
+TEST(TeeSink, EachSinkGetsAllUnderItsOwnNumbers) {
+  const auto one = std::make_shared<Kept>();
+  const auto other = std::make_shared<Kept>();
+  const Publisher<rosgraph_msgs::Clock> before(*other, {"/before"});
+  TeeSink tee({one, other});
+  const Publisher<rosgraph_msgs::Clock> clock(tee, {"/clock"});
+  const Publisher<tf2_msgs::TFMessage> frames(tee, {"/tf"});
+  clock.publish(at(1), {{1, 0}});
+  frames.publish(at(1), {});
+  for (const auto& kept : {one, other}) {
+    ASSERT_EQ(kept->of<rosgraph_msgs::Clock>("/clock").size(), 1U);
+    EXPECT_EQ(kept->of<rosgraph_msgs::Clock>("/clock")[0].clock.sec, 1);
+    EXPECT_EQ(kept->of<tf2_msgs::TFMessage>("/tf").size(), 1U);
+  }
 }
 
 TEST(TopicToken, IsOneThatRos2Takes) {

@@ -11,6 +11,12 @@ TEST(Ros2Types, HashesOfKnownTypesAreThoseOfRos2) {
             "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a");
   EXPECT_EQ(type_of(rosgraph_msgs::Clock{}).hash,
             "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564");
+  EXPECT_EQ(type_of(nav_msgs::OccupancyGrid{}).hash,
+            "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7");
+  EXPECT_EQ(type_of(nav_msgs::Odometry{}).hash,
+            "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0");
+  EXPECT_EQ(type_of(sensor_msgs::LaserScan{}).hash,
+            "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828");
 }
 
 // A change of these is a change of the messages: recordings and nodes of before don't fit any more.

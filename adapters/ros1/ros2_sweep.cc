@@ -1,15 +1,15 @@
 // In C++17, as all that includes messages of ROS 1: what is read here goes the same way as theirs.
-#include "adapters/ros1/mcap_sweep.h"
+#include "adapters/ros1/ros2_sweep.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
+#include <memory>
 #include <string_view>
+#include <vector>
 
-#include "adapters/mcap/mcap_reader.h"
 #include "adapters/ros1/bag_messages.h"
 #include "adapters/ros2/ros2_messages.h"
+#include "adapters/rosbag2/recording_files.h"
 
 namespace tagfield {
 namespace {
@@ -131,47 +131,65 @@ bool ends_in(const std::string& text, std::string_view end) {
          std::string_view(text).substr(text.size() - end.size()) == end;
 }
 
-/// How the messages of a channel are taken; null for those that are not looked at.
-Take take_of(const McapChannel& channel) {
-  if (!channel.schema || channel.message_encoding != "cdr") return nullptr;
-  const std::string& type = channel.schema->name;
-  const std::string name = last_name(channel.topic);
+/// How the messages of a topic are taken; null for those that are not looked at.
+Take take_of(const RecordedTopic& topic) {
+  if (topic.encoding != "cdr") return nullptr;
+  const std::string& type = topic.type;
+  const std::string name = last_name(topic.name);
   if (type == "tagfield_msgs/msg/TagReads") return take_as<ros2::tagfield_msgs::TagReads>;
   if (type == "tagfield_msgs/msg/AntennaTruth") return take_as<ros2::tagfield_msgs::AntennaTruth>;
   if (type == "tagfield_msgs/msg/TagPositions") return take_as<ros2::tagfield_msgs::TagPositions>;
-  if (type == "nav_msgs/msg/Odometry" && ends_in(channel.topic, "ground_truth/odom")) {
+  if (type == "nav_msgs/msg/Odometry" && ends_in(topic.name, "ground_truth/odom")) {
     return take_as<ros2::nav_msgs::Odometry>;
   }
   const bool is_tf = type == "tf2_msgs/msg/TFMessage" && (name == "tf" || name == "tf_static");
   return is_tf ? take_as<ros2::tf2_msgs::TFMessage> : nullptr;
 }
 
+/// Goes through one file after another.
+class Ros2Sweep {
+ public:
+  explicit Ros2Sweep(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void take_file(const std::string& path, const std::function<void(double)>& on_progress) {
+    const std::unique_ptr<RecordedFile> file = open_recorded_file(path, diagnostics_);
+    std::vector<Take> takes;
+    for (const RecordedTopic& topic : file->topics()) {
+      takes.push_back(take_of(topic));
+      has_reads_ = has_reads_ || takes.back() == &take_as<ros2::tagfield_msgs::TagReads>;
+    }
+    std::vector<std::size_t> numbers(takes.size(), 0);
+    file->read([&](std::size_t topic, std::string_view bytes, double share) {
+      const MessagePlace place{path, file->topics()[topic].name, ++numbers[topic]};
+      if (takes[topic] != nullptr) takes[topic](bytes, place, content_, diagnostics_);
+      on_progress(share);
+    });
+  }
+  [[nodiscard]] bool has_reads() const { return has_reads_; }
+  [[nodiscard]] BagContent content() { return std::move(content_); }
+
+ private:
+  Diagnostics& diagnostics_;
+  BagContent content_;
+  bool has_reads_ = false;
+};
+
 }  // namespace
 
-BagContent sweep_mcap(const std::string& path, const std::function<void(double share)>& on_progress,
+BagContent sweep_ros2(const std::string& path, const std::function<void(double share)>& on_progress,
                       Diagnostics& diagnostics) {
-  McapReader reader(path, diagnostics);
-  std::map<McapChannelId, Take> takes;
-  double all = 0.0;
-  bool has_reads = false;
-  for (const auto& [id, channel] : reader.channels()) {
-    takes[id] = take_of(channel);
-    has_reads = has_reads || takes[id] == &take_as<ros2::tagfield_msgs::TagReads>;
-    all += static_cast<double>(reader.message_count(id));
+  const std::vector<std::string> files = files_of_recording(path, diagnostics);
+  Ros2Sweep sweep(diagnostics);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    sweep.take_file(files[i], [&](double share) {
+      const double done = static_cast<double>(i) + share;
+      if (on_progress) on_progress(done / static_cast<double>(files.size()));
+    });
   }
-  if (!has_reads) fail({path, 0}, "has no reads: no topic of type tagfield_msgs/msg/TagReads");
-  BagContent content;
-  std::map<McapChannelId, std::size_t> numbers;
-  double done = 0.0;
-  reader.read([&](const McapMessage& message) {
-    const MessagePlace place{path, reader.channels().at(message.channel).topic,
-                             ++numbers[message.channel]};
-    if (const Take take = takes.at(message.channel)) {
-      take(message.bytes, place, content, diagnostics);
-    }
-    if (on_progress) on_progress(++done / all);
-  });
-  return content;
+  if (!sweep.has_reads()) {
+    fail({path, 0}, "has no reads: no topic of type tagfield_msgs/msg/TagReads");
+  }
+  return sweep.content();
 }
 
 }  // namespace tagfield

@@ -1,0 +1,46 @@
+/// @file
+/// Maps and laser scans as ROS 2 messages, and those of robots that find their way by themselves.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "adapters/ros2/ros2_outlet.h"
+#include "tagfield/laser/simulated_laser.h"
+#include "tagfield/simulator/navigation_listener.h"
+
+namespace tagfield::ros2 {
+
+/// +inf where a beam met nothing, -inf where it met something too near (REP-117).
+sensor_msgs::LaserScan scan_message(const LaserScan& scan, const std::string& frame,
+                                    double rate_hz);
+
+/// In the map's frame, as of time 0.
+nav_msgs::OccupancyGrid grid_message(const OccupancyGrid& grid);
+
+/// Tells of robots that find their way by themselves: /map once, latched; of each robot
+/// /ROBOT/scan, in /tf its frame ROBOT/base_link in the map at the scans' stamps, as it believes,
+/// and in /tf_static ROBOT/laser on it.
+class Ros2Navigation : public NavigationListener {
+ public:
+  /// `outlet` tells the frames.
+  Ros2Navigation(std::shared_ptr<MessageSink> sink, std::shared_ptr<Ros2Outlet> outlet,
+                 const LaserParameters& laser);
+
+  void on_map(const OccupancyGrid& map) override;
+  void on_scan(const std::string& robot, const PlanarPose& pose_M, const LaserScan& scan) override;
+
+ private:
+  using Scans = Publisher<sensor_msgs::LaserScan>;
+
+  const Scans& scans_of(const std::string& robot);
+
+  std::shared_ptr<MessageSink> sink_;
+  std::shared_ptr<Ros2Outlet> outlet_;
+  LaserParameters laser_;
+  Publisher<nav_msgs::OccupancyGrid> map_;
+  std::map<std::string, Scans> scans_;  ///< By robot.
+};
+
+}  // namespace tagfield::ros2

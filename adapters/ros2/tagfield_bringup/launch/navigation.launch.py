@@ -1,0 +1,57 @@
+"""Nav2 drives the robot of a scenario to goals (RViz: 2D Goal Pose).
+
+    ros2 launch tagfield_bringup navigation.launch.py scenario:=scenarios/paper_warehouse_slam.yaml
+    ros2 launch tagfield_bringup navigation.launch.py scenario:=… map:=runs/paper_warehouse_slam/map.yaml
+
+Without a map slam_toolbox makes one on the way; with one amcl localizes the robot on it. The
+arguments of drive.launch.py go with it, too.
+"""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution, PythonExpression
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def share(*path):
+    return PathJoinSubstitution([FindPackageShare("tagfield_bringup"), *path])
+
+
+def include(name):
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(share("launch", name)))
+
+
+def managed(manager, nodes, *parameters):
+    """Nodes (package, executable), which is their name too, and who brings them up in this order."""
+    started = [Node(package=package, executable=name, name=name, output="screen",
+                    parameters=[share("params", "nav2.yaml"), *parameters])
+               for package, name in nodes]
+    names = [name for _, name in nodes]
+    return [*started, Node(
+        package="nav2_lifecycle_manager", executable="lifecycle_manager", name=manager, output="screen",
+        parameters=[{"use_sim_time": True, "autostart": True, "node_names": names}])]
+
+
+def generate_launch_description():
+    chosen = LaunchConfiguration("map")
+    on_map = GroupAction(
+        [include("drive.launch.py"),
+         *managed("lifecycle_manager_localization",
+                  [("nav2_map_server", "map_server"), ("nav2_amcl", "amcl")],
+                  {"yaml_filename": chosen})],
+        condition=IfCondition(PythonExpression(["'", chosen, "' != ''"])))
+    mapping = GroupAction(
+        [include("slam.launch.py")],
+        condition=IfCondition(PythonExpression(["'", chosen, "' == ''"])))
+    # Not through nav2_bringup's launch file: what that starts, and wants to be told, differs from
+    # one distribution to the next.
+    navigation = managed("lifecycle_manager_navigation",
+                         [("nav2_controller", "controller_server"), ("nav2_planner", "planner_server"),
+                          ("nav2_behaviors", "behavior_server"),
+                          ("nav2_bt_navigator", "bt_navigator")])
+    return LaunchDescription([
+        DeclareLaunchArgument("map", default_value="", description="Map's YAML file, or none"),
+        on_map, mapping, *navigation])

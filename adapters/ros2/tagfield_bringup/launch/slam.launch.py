@@ -1,0 +1,28 @@
+"""slam_toolbox maps the world of a scenario, whose robot somebody drives.
+
+    ros2 launch tagfield_bringup slam.launch.py scenario:=scenarios/paper_warehouse_slam.yaml
+
+The arguments of drive.launch.py go with it, too.
+"""
+
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def share(package, *path):
+    return PathJoinSubstitution([FindPackageShare(package), *path])
+
+
+def include(package, name, **arguments):
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(share(package, "launch", name)),
+                                    launch_arguments=arguments.items())
+
+
+def generate_launch_description():
+    # slam_toolbox's own launch file knows whether its node has a life cycle, as from Jazzy on.
+    slam = include("slam_toolbox", "online_async_launch.py", use_sim_time="true",
+                   slam_params_file=share("tagfield_bringup", "params", "slam_toolbox.yaml"))
+    return LaunchDescription([include("tagfield_bringup", "drive.launch.py"), slam])

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "adapters/rosbag2/internal/database.h"
+#include "adapters/rosbag2/recorded_file.h"
+
+namespace tagfield {
+namespace {
+
+using rosbag2_internal::Database;
+using rosbag2_internal::Rows;
+
+class RecordedDatabase : public RecordedFile {
+ public:
+  RecordedDatabase(const std::string& path, Diagnostics& diagnostics)
+      : path_(path), diagnostics_(diagnostics), database_(path) {
+    for (const char* table : {"topics", "messages"}) {
+      if (!database_.has_table(table)) {
+        fail({path_, 0},
+             fmt::format("is no database of rosbag2, or a broken one: no table '{}'", table));
+      }
+    }
+    read_topics();
+  }
+
+  [[nodiscard]] const std::vector<RecordedTopic>& topics() const override { return topics_; }
+  void read(const Tell& tell) override;
+
+ private:
+  void read_topics();
+  void warn(const std::string& message) { diagnostics_.warn({path_, 0}, message); }
+  [[nodiscard]] bool is_too_much(std::uint64_t rows, std::uint64_t bytes);
+
+  std::string path_;
+  Diagnostics& diagnostics_;
+  Database database_;
+  std::vector<RecordedTopic> topics_;
+  std::map<std::int64_t, std::size_t> indexes_;  ///< By the topics' numbers in the file.
+};
+
+void RecordedDatabase::read_topics() {
+  Rows rows = database_.rows("SELECT id, name, type, serialization_format FROM topics NOT INDEXED");
+  while (rows.next()) {
+    if (!indexes_.emplace(rows.number(0), topics_.size()).second) continue;
+    topics_.push_back(
+        {std::string(rows.bytes(1)), std::string(rows.bytes(2)), std::string(rows.bytes(3))});
+  }
+  if (rows.is_broken()) warn(fmt::format("its topics are broken ({})", database_.complaint()));
+}
+
+/// Pages that are told of twice could make a small file an endless one.
+bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes) {
+  if (rows <= database_.size() && bytes <= database_.size()) return false;
+  warn("is broken: it has more messages than it has room for; the rest is left out");
+  return true;
+}
+
+void RecordedDatabase::read(const Tell& tell) {
+  // In the order of the table, which is that of recording. An index may be broken for itself.
+  Rows rows = database_.rows("SELECT topic_id, data FROM messages NOT INDEXED");
+  std::uint64_t count = 0;
+  std::uint64_t bytes = 0;
+  while (rows.next()) {
+    const std::string_view data = rows.bytes(1);
+    bytes += data.size();
+    if (is_too_much(++count, bytes)) return;
+    const auto topic = indexes_.find(rows.number(0));
+    if (topic == indexes_.end() || !rows.is_blob(1)) {
+      warn("messages without bytes, or of a topic that is not there, are left out");
+      continue;
+    }
+    tell(topic->second, data, static_cast<double>(bytes) / static_cast<double>(database_.size()));
+  }
+  if (!rows.is_broken()) return;
+  warn(fmt::format("is cut off or broken after {} messages ({}); those are used", count,
+                   database_.complaint()));
+}
+
+}  // namespace
+
+std::unique_ptr<RecordedFile> open_recorded_database(const std::string& path,
+                                                     Diagnostics& diagnostics) {
+  return std::make_unique<RecordedDatabase>(path, diagnostics);
+}
+
+}  // namespace tagfield
