@@ -69,7 +69,8 @@ int calibrate_command(const CalibrateArguments& arguments) {
   print_warnings(diagnostics);
   if (calibration.antennas.empty()) {
     fail({arguments.reads, 0}, "nothing to calibrate by: expected at least 30 reads of tags of " +
-                                   arguments.tags + " by an antenna of " + arguments.poses);
+                                   arguments.tags + " by an antenna of " + arguments.poses +
+                                   ", whose phases go by their distances");
   }
   calibration.name = "calibration by " + std::filesystem::path(arguments.reads).filename().string();
   write_text_file(arguments.out, to_yaml(calibration));

@@ -12,6 +12,7 @@
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
@@ -209,6 +210,20 @@ Fit fine_fit(const AntennaData& data, const CalibrationOptions& options) {
   return best;
 }
 
+/// Against random phases (random_phases.h), both signs being as likely before.
+double evidence_of(const AntennaData& data, const CalibrationOptions& options,
+                   const std::vector<ReadStretch>& stretches, const Fit& fit) {
+  const Normal normal = normal_at({data, stretches, options, fit.sign, fit.noise_rad}, fit.theta);
+  double evidence = evidence_of_residuals(normal.residuals, fit.noise_rad, kLeastNoise);
+  for (const ReadStretch& stretch : stretches) {
+    evidence += evidence_of_offset(stretch.size(), fit.noise_rad);
+  }
+  const Vector4 prior = prior_weights(options);
+  const Eigen::LDLT<Matrix4> after(normal.matrix);
+  evidence += 0.5 * (prior.array().log().sum() - after.vectorD().array().log().sum());
+  return evidence - 0.5 * fit.theta.dot(prior.cwiseProduct(fit.theta)) - std::log(2.0);
+}
+
 struct TagOffset {
   double frequency_hz = 0.0;
   double offset_rad = 0.0;
@@ -256,10 +271,15 @@ double scatter_of(const std::vector<TagOffset>& by_tag) {
   return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-AntennaCalibration calibration_of(const AntennaData& data, const CalibrationOptions& options,
-                                  bool half_turns) {
+/// None where random phases would do as well.
+std::optional<AntennaCalibration> calibration_of(const AntennaData& data,
+                                                 const CalibrationOptions& options,
+                                                 bool half_turns) {
   const double whole = duration_of(data) + 1.0;
   Fit fit = fine_fit(data, options);
+  if (!(evidence_of(data, options, stretches_of(data, whole, false), fit) >= kLeastEvidence)) {
+    return std::nullopt;
+  }
   AntennaCalibration result;
   result.tag_scatter_rad =
       scatter_of(offsets_of(data, options, stretches_of(data, whole, false), fit));
@@ -349,12 +369,19 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
         "antenna '{}': {} reads of tags at known places, at least {} are needed to calibrate it",
         antenna, one.samples.size(), kFewestReads));
   }
-  std::vector<AntennaCalibration> results(usable.size());
+  std::vector<std::optional<AntennaCalibration>> results(usable.size());
   parallel_for(usable.size(), threads, [&](std::size_t i) {
     results[i] = calibration_of(*usable[i], options, calibration.half_turns);
   });
   for (std::size_t i = 0; i < usable.size(); ++i) {
-    calibration.antennas[usable[i]->name] = std::move(results[i]);
+    if (results[i]) {
+      calibration.antennas[usable[i]->name] = std::move(*results[i]);
+      continue;
+    }
+    diagnostics.warn(fmt::format(
+        "antenna '{}' is not calibrated: random phases would fit its {} reads as well; are tags, "
+        "poses and stamps those of these reads?",
+        usable[i]->name, usable[i]->samples.size()));
   }
   return calibration;
 }

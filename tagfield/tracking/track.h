@@ -38,6 +38,9 @@ struct Track {
   double rms_rad = 0.0;            ///< Rms of the phases that the track leaves unexplained.
   /// Quality: length of the mean of e^(j·residual), 1 for a perfect track, near 0 for none.
   double coherence = 0.0;
+  /// Logarithm of the Bayes factor of this motion against phases that are random: how many times
+  /// likelier the reads are if the tag went such a way, counted over all the ways it may have gone.
+  double log_evidence = 0.0;
   double log_likelihood = 0.0;  ///< To compare tracks of the same tag, up to a constant.
   /// Root of the horizontal covariance's trace where the tag came nearest to an antenna [m].
   double expected_error_m = 0.0;

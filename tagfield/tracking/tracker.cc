@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/fit/random_phases.h"
 #include "tagfield/tracking/internal/line_search.h"
 #include "tagfield/tracking/internal/particle_track.h"
 #include "tagfield/tracking/internal/pass.h"
@@ -41,7 +42,11 @@ Track smoothed(const Pass& pass, const TrackingOptions& options, const LineHypot
     SmootherStart start = start_from(pass, options, hypothesis, 4.0);
     start.covariance += process_noise(options, 0.25 * duration_of(pass)) -
                         process_noise(options, duration_of(pass));
-    return particle_track(pass, options, start);
+    Track track = particle_track(pass, options, start);
+    track.log_evidence =
+        smooth(pass, options, Linearization::kTaylor, start_from(pass, options, hypothesis))
+            .log_evidence;
+    return track;
   }
   const SmootherStart start = start_from(pass, options, hypothesis);
   return smooth(
@@ -125,6 +130,12 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
     return not_tracked(result, fmt::format("the best track explains too little of the phases "
                                            "(coherence {:.2f}, at least {} is asked for)",
                                            best.coherence, options.min_coherence));
+  }
+  if (!(best.log_evidence >= kLeastEvidence)) {
+    return not_tracked(result,
+                       fmt::format("random phases would look like a track as well: {} reads "
+                                   "in {} groups of one antenna and channel are too few",
+                                   pass.reads.size(), pass.groups));
   }
   if (best.expected_error_m > options.max_expected_error_m) {
     return not_tracked(

@@ -176,6 +176,28 @@ TEST(Calibrate, WhatIsNotObservableStaysAsItWas) {
   EXPECT_NEAR(found.time_offset_s.value, 0.0, 1e-6);
 }
 
+/// With every phase drawn anew.
+Recorded at_random(Recorded recorded, unsigned seed) {
+  Rng rng(seed);
+  for (TagRead& read : recorded.reads) {
+    read.phase_rad = std::uniform_real_distribution<double>(0.0, kTwoPi)(rng);
+  }
+  return recorded;
+}
+
+TEST(Calibrate, RandomPhasesCalibrateNothing) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    Drive drive;
+    drive.duration_s = seed % 2 == 0 ? 5.0 : 20.0;
+    const Recorded recorded = at_random(record(drive, known_tags(), seed), seed);
+    Diagnostics diagnostics;
+    const Calibration calibration =
+        calibrate(recorded.reads, recorded.poses, recorded.tags, {}, 1, diagnostics);
+    EXPECT_TRUE(calibration.antennas.empty()) << "seed " << seed;
+    EXPECT_FALSE(diagnostics.warnings().empty());
+  }
+}
+
 TEST(Calibrate, TooFewReadsAreAWarning) {
   Recorded recorded = record({}, known_tags(), 5);
   recorded.reads.resize(10);

@@ -1,6 +1,7 @@
 #include "tagfield/tracking/internal/smoother.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 
 namespace tagfield {
@@ -21,8 +23,10 @@ constexpr int kPassesBefore = 3;          ///< Any is looked for, so that the tr
 constexpr int kMostJumps = 4;             ///< Times that they are looked for.
 constexpr double kNearest = 1e-3;         ///< [m]
 constexpr double kLeastNoise = 0.02;      ///< [rad]
-constexpr std::size_t kJumpSpan = 6;      ///< Reads before and after that tell a jump.
-constexpr double kLeastJump = 0.8;        ///< [rad]
+/// Directions in which less than this part of the most is known are not known at all.
+constexpr double kUnknown = 1e-9;
+constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after that tell a jump.
+constexpr double kLeastJump = 0.8;    ///< [rad]
 
 /// Which entry of the state holds a read's offset, and whether it begins anew there.
 struct Slots {
@@ -289,6 +293,49 @@ std::size_t count_fresh(const Slots& slots) {
   return static_cast<std::size_t>(std::count(slots.fresh.begin(), slots.fresh.end(), 1));
 }
 
+/// Logarithm of the density of a motion before any read: what is known of it, and in all other
+/// directions even over what the options allow.
+double log_prior(const Pass& pass, const TrackingOptions& options, const Vector6d& motion) {
+  const MotionPrior prior = motion_prior(pass, options);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> known(
+      Matrix6d(prior.rows.transpose() * prior.rows));
+  double log_density = -0.5 * (prior.rows * motion - prior.values).squaredNorm();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double weight = known.eigenvalues()(i);
+    if (weight > kUnknown * known.eigenvalues()(5)) {
+      log_density += 0.5 * std::log(weight / kTwoPi);
+      continue;
+    }
+    const double of_place = known.eigenvectors().col(i).head<3>().squaredNorm();
+    log_density -= of_place * std::log(2.0 * options.reach_m) +
+                   (1.0 - of_place) * std::log(2.0 * options.max_speed_m_s);
+  }
+  return log_density;
+}
+
+/// The filter's evidence is that of its start, which reads have narrowed already; here it becomes
+/// that of all that may have been. An offset may be anywhere in a turn, a jump at any read, and the
+/// noise anywhere between the least that is believed and phases as good as random.
+double evidence_of(const Input& input, const Slots& slots, const Forward& forward,
+                   const Smoothed& smoothed) {
+  const auto count = static_cast<double>(input.pass.reads.size());
+  double log_evidence = forward.log_likelihood + 0.5 * count * std::log(kTwoPi);
+  log_evidence += 0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastNoise));
+  const Slots before = slots_of(input.pass);
+  for (std::size_t i = 0; i < slots.fresh.size(); ++i) {
+    if (slots.fresh[i] == 0 || input.pass.reads[i].offset_known) continue;
+    log_evidence += 0.5 * std::log(kAnyOffset / kTwoPi);
+    if (before.fresh[i] == 0) log_evidence -= std::log(count);
+  }
+  const Vector6d at_start = smoothed.mean.front().head<6>();
+  const Eigen::LDLT<Matrix6d> start(input.start.covariance);
+  const Vector6d off = at_start - input.start.mean;
+  Vector6d motion = at_start;
+  motion.head<3>() -= input.pass.reads.front().t_s * at_start.tail<3>();
+  return log_evidence + log_prior(input.pass, input.options, motion) + 3.0 * std::log(kTwoPi) +
+         0.5 * start.vectorD().array().log().sum() + 0.5 * off.dot(start.solve(off));
+}
+
 Track track_of(const Pass& pass, const Forward& forward, const Smoothed& smoothed,
                const std::vector<double>& residuals) {
   Track track;
@@ -385,7 +432,9 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
       smoothed = {};  // Its offsets know nothing of the jump.
     }
   }
-  return track_of(pass, forward, smoothed, residuals);
+  Track track = track_of(pass, forward, smoothed, residuals);
+  track.log_evidence = evidence_of(input, slots, forward, smoothed);
+  return track;
 }
 
 }  // namespace tagfield

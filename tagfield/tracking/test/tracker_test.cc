@@ -268,6 +268,40 @@ TEST(Tracker, SaysWhyNotAndGoesOnWithTheOthers) {
   EXPECT_EQ(by_tag["tag10"].verdict, TrackVerdict::kTracked) << by_tag["tag10"].reason;
 }
 
+/// Pieces of passes, of which every phase is drawn anew where `at_random`.
+std::vector<TagRead> pieces(int tags, double seconds, bool at_random) {
+  made::Rng rng(5);
+  std::vector<TagRead> reads;
+  for (int i = 0; i < tags; ++i) {
+    const double begin = made::uniform(rng, -2.0, 2.0 - seconds);
+    made::read_motion({}, "tag" + std::to_string(100 + i),
+                      made::straight({0, 0, kBeltHeight}, {1, 0, 0}), begin, begin + seconds, rng,
+                      reads);
+  }
+  for (TagRead& read : reads) {
+    if (at_random) read.phase_rad = made::uniform(rng, 0.0, kTwoPi);
+  }
+  return reads;
+}
+
+int claims(const std::vector<TagTrack>& tracks) {
+  return static_cast<int>(std::count_if(tracks.begin(), tracks.end(), [](const TagTrack& track) {
+    return track.verdict != TrackVerdict::kNotTracked;
+  }));
+}
+
+// A piece of half a second has 14 or 15 reads: without a lane a motion through random phases is
+// found for most.
+TEST(Tracker, RandomPhasesMakeNoTracks) {
+  TrackingOptions free;
+  for (const double seconds : {0.5, 1.0}) {
+    const std::vector<TagRead> reads = pieces(40, seconds, true);
+    EXPECT_LE(claims(tracks_of({}, reads, belt_options())), 1) << seconds << " s, with a lane";
+    EXPECT_LE(claims(tracks_of({}, reads, free)), 1) << seconds << " s, without";
+  }
+  EXPECT_GE(claims(tracks_of({}, pieces(20, 0.8, false), belt_options())), 19) << "of true phases";
+}
+
 TEST(Tracker, OfTwoPassesTheLongerIsFollowed) {
   const made::Gate gate;
   Belt belt = belt_of(5, 1.0, gate, 1);
