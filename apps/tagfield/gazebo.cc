@@ -8,6 +8,7 @@
 #include "adapters/gazebo_classic/world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/shared_folder.h"
 #include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -26,14 +27,6 @@ struct GazeboArguments {
   std::optional<double> real_time;
   std::string keep_out;
 };
-
-/// The folder with Tagfield's own models: installed beside the program, or in the source tree.
-fs::path models_folder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share/tagfield/models";
-  return fs::is_directory(installed, error) ? installed : fs::path(TAGFIELD_MODELS);
-}
 
 /// Where a robot must not drive although its laser sees nothing there, as a map.
 void write_keep_out(const std::string& path, const Scenario& scenario, const Scene& scene,
@@ -62,7 +55,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   // What stands in the world stays there, and is not to be added.
   const Scenario scenario = load_scenario(arguments.scenario, overrides);
   GazeboWorldOptions options;
-  options.robot_model = (models_folder() / "p3at/model.sdf").string();
+  options.robot_model = (shared_folder("models") / "p3at/model.sdf").string();
   options.real_time = arguments.real_time;
   const std::string text = gazebo_world(scenario, loaded.scene, options, diagnostics);
   if (!arguments.keep_out.empty()) {
@@ -73,7 +66,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
                                              : fs::path(arguments.out);
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
-  folders.push_back(models_folder().string());
+  folders.push_back(shared_folder("models").string());
   fmt::print("world: {}\nGAZEBO_MODEL_PATH={}\n", out.string(), fmt::join(folders, ":"));
   return kExitOk;
 }

@@ -9,14 +9,17 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/scan/scan_field.h"
 
 namespace tagfield {
 namespace {
 
 /// Methods that may be chosen.
-constexpr const char* kChosen[] = {"joint", "ml", "sar", "trilateration", "landmarc"};
+constexpr const char* kChosen[] = {"joint", "ml", "sar", "scan", "trilateration", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
+constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
+constexpr double kShortScan = 3.0;      ///< [m]
 constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
 /// Misfit of the joint estimate over the noise: 0.7 to 0.9 with all sorts of pose errors, 2.6
 /// to 3.7 in a hall with reflections (docs/estimators.md).
@@ -36,6 +39,8 @@ struct Look {
   double stretches = 0.0;
   double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
   double noise_m = 0.0;  ///< Of one read.
+  double samples = 0.0;  ///< All that there are.
+  bool is_short_scan = false;
 };
 
 /// Of one read [m], from the differences of neighbours, which slow errors leave alone.
@@ -55,8 +60,13 @@ Look look_at(const LocalizationProblem& problem, const std::string& tag,
              const SamplesOfTag& samples) {
   const UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   Look look;
+  look.samples = static_cast<double>(count_reads(samples));
   look.reads = static_cast<double>(fit.reads_followed);
   look.stretches = static_cast<double>(fit.stretches);
+  const bool is_short = std::all_of(samples.begin(), samples.end(), [](const auto& entry) {
+    return extent_of(entry.second) <= kShortScan;
+  });
+  look.is_short_scan = is_short && scan_field(problem, tag, samples).why_not.empty();
   if (!fit.why_not.empty()) return look;
   const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
   look.noise_m = noise_of(fit, errors);
@@ -72,6 +82,20 @@ std::vector<const SamplesByTag::value_type*> some_tags(const LocalizationProblem
   const std::size_t count = std::min(kLooks, all.size());
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
+}
+
+void add_scans(const std::vector<Look>& looks, DataTraits& traits) {
+  double all = 0.0;
+  double scans = 0.0;
+  double unexplained = 0.0;
+  for (const Look& look : looks) {
+    all += look.samples;
+    if (!look.is_short_scan) continue;
+    scans += look.samples;
+    if (look.misfit < 0.0 || look.misfit > kReflected) unexplained += look.samples;
+  }
+  traits.short_scans = all > 0.0 ? scans / all : 0.0;
+  traits.unexplained = scans > 0.0 ? unexplained / scans : 0.0;
 }
 
 void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
@@ -131,6 +155,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   double stretches = 0.0;
   std::vector<double> misfits;
   std::vector<double> noises;
+  add_scans(looks, traits);
   for (const Look& look : looks) {
     reads += look.reads;
     stretches += look.stretches;
@@ -151,6 +176,11 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   }
   if (!traits.antennas_move) {
     return {"trilateration", "the antennas stand still: only signal strength tells distances"};
+  }
+  if (traits.short_scans >= kMost && traits.unexplained >= kMost) {
+    return {"scan", fmt::format("a short straight scan, and no place explains {:.0f} % of its "
+                                "phases but for noise, as reflections make it",
+                                100.0 * traits.unexplained)};
   }
   if (traits.reads_a_stretch < kShortStretch) {
     return {"sar", fmt::format("the phase can be followed over {:.0f} reads in the mean only, with "

@@ -10,9 +10,12 @@ namespace tagfield {
 
 /// What of the data decides.
 struct DataTraits {
-  bool antennas_move = false;    ///< Any.
-  bool has_phase = false;        ///< Some tag has as many phases as a fit needs.
-  bool pose_is_exact = false;    ///< The pose error is known to be 0.
+  bool antennas_move = false;  ///< Any.
+  bool has_phase = false;      ///< Some tag has as many phases as a fit needs.
+  bool pose_is_exact = false;  ///< The pose error is known to be 0.
+  double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
+  double unexplained =
+      0.0;  ///< and of those the share that no place fits within 3 times the noise.
   std::size_t channels = 0;      ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median
