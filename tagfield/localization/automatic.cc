@@ -39,7 +39,7 @@ struct Look {
   double stretches = 0.0;
   double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
   double noise_m = 0.0;  ///< Of one read.
-  double samples = 0.0;  ///< All that there are.
+  double samples = 0.0;  ///< All that there are, of a tag that might be located.
   bool is_short_scan = false;
 };
 
@@ -60,7 +60,7 @@ Look look_at(const LocalizationProblem& problem, const std::string& tag,
              const SamplesOfTag& samples) {
   const UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   Look look;
-  look.samples = static_cast<double>(count_reads(samples));
+  if (why_hopeless(samples).empty()) look.samples = static_cast<double>(count_reads(samples));
   look.reads = static_cast<double>(fit.reads_followed);
   look.stretches = static_cast<double>(fit.stretches);
   const bool is_short = std::all_of(samples.begin(), samples.end(), [](const auto& entry) {
