@@ -10,6 +10,7 @@
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
+#include "tagfield/localization/plausibility.h"
 #include "tagfield/localization/scan/scan.h"
 #include "tagfield/localization/signal_strength/landmarc.h"
 #include "tagfield/localization/signal_strength/trilateration.h"
@@ -23,6 +24,14 @@ WayLine way_of(const SamplesOfTag& samples) {
     for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
   }
   return way_line(places);
+}
+
+/// Of those that come with Tagfield; one's own are left alone.
+bool is_by_phase(const std::string& method) {
+  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",       "joint",
+                                      "sar",       "dah",           "particle", "scan"};
+  return std::any_of(std::begin(kByPhase), std::end(kByPhase),
+                     [&](const char* name) { return method == name; });
 }
 
 void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
@@ -55,6 +64,10 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
   const Method method = configured(find_method(options.methods, options.method), options.settings);
   const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
   LocalizationResult result = method.locate(problem, options.threads, diagnostics);
+  if (is_by_phase(result.method)) {
+    refuse_chance(problem, result);
+    refuse_wrong_sign(problem, result, diagnostics);
+  }
   keep_within_area(problem, result.estimates);
   return result;
 }

@@ -35,6 +35,19 @@ double side_of(TagSide side, const Eigen::Vector2d& along, const Eigen::Vector2d
   return 0.0;
 }
 
+/// Those of the first one's place: nearer than it is certain, or than 3 cm.
+void drop_repeats(std::vector<Candidate>& candidates) {
+  constexpr double kSame = 0.03;
+  if (candidates.empty()) return;
+  const Candidate first = candidates.front();
+  const double apart = std::max(kSame, first.expected_error_m);
+  candidates.erase(std::remove_if(candidates.begin() + 1, candidates.end(),
+                                  [&](const Candidate& other) {
+                                    return (other.p_WT - first.p_WT).norm() < apart;
+                                  }),
+                   candidates.end());
+}
+
 }  // namespace
 
 TagSide tag_side(const std::string& word) {
@@ -75,6 +88,7 @@ void keep_within(const TagArea& area, const WayLine& way, double most_error_m,
                                   }),
                    candidates.end());
   if (candidates.size() == before) return;
+  drop_repeats(candidates);
   if (candidates.empty() || candidates.front().expected_error_m > most_error_m) {
     candidates.clear();
     estimate.verdict = Verdict::kNotLocated;

@@ -195,6 +195,11 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
   scan.line = line_of(series);
   scan.wavenumber = kTwoPi / lambda;
   scan.up_m = plane_height(problem, tag) - series.front().p_WA.z();
+  if (extent_of(series) > kLongestScan) {
+    scan.why_not = fmt::format("the scan is {:.1f} m long, at most {:.1f} m are looked at as one",
+                               extent_of(series), kLongestScan);
+    return scan;
+  }
   const double strays = straying(scan.line, series);
   if (strays > kStraight * lambda) {
     scan.why_not = fmt::format("the antenna's way is not straight: it strays by {:.2f} m", strays);

@@ -31,6 +31,9 @@ struct ScanField {
   double samples = 0.0;     ///< So many independent ones the field has at most.
 };
 
+/// A longer one sees too many reflections for one second path [m].
+inline constexpr double kLongestScan = 3.0;
+
 /// Of the antenna with most places on a straight way. Reads within λ/20 of the way are one place.
 /// Channels have an offset each, at which they agree best. Along the places the phase is followed;
 /// of several stretches without longer gaps than λ/4 the longest counts.
