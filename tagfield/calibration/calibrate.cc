@@ -353,7 +353,17 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
   parallel_for(usable.size(), threads, [&](std::size_t i) {
     results[i] = calibration_of(*usable[i], options, calibration.half_turns);
   });
+  // Phases of any value are left with two radians or so by any fit.
+  constexpr double kMostNoise = 1.0;
   for (std::size_t i = 0; i < usable.size(); ++i) {
+    const double noise = results[i].noise_rad * (calibration.half_turns ? 2.0 : 1.0);
+    if (noise > kMostNoise) {
+      diagnostics.warn(fmt::format(
+          "antenna '{}': the phases fit the tags' places with {:.1f} rad of noise at best, which "
+          "tells nothing: are the places, the poses and the tags those of these reads?",
+          usable[i]->name, noise));
+      continue;
+    }
     calibration.antennas[usable[i]->name] = std::move(results[i]);
   }
   return calibration;
