@@ -66,6 +66,8 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
   LocalizationResult result = method.locate(problem, options.threads, diagnostics);
   if (is_by_phase(result.method)) {
     refuse_chance(problem, result);
+    refuse_mixtures(problem, result);
+    span_mirror_images(problem, result);
     refuse_wrong_sign(problem, result, diagnostics);
   }
   keep_within_area(problem, result.estimates);

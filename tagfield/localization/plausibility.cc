@@ -1,5 +1,7 @@
 #include "tagfield/localization/plausibility.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +10,7 @@
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
+#include "tagfield/localization/tag_fit.h"
 
 namespace tagfield {
 namespace {
@@ -96,6 +99,25 @@ void refuse(TagEstimate& estimate, const std::string& why) {
   estimate = not_located(std::move(estimate), why);
 }
 
+/// Calls it for each tag with a place that was not given, with its samples.
+template <typename Call>
+void for_each_place(const LocalizationProblem& problem, LocalizationResult& result,
+                    const Call& call) {
+  for (TagEstimate& estimate : result.estimates) {
+    const auto samples = problem.samples.find(estimate.tag);
+    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
+    if (problem.reference_tags.count(estimate.tag) == 0) call(samples->second, estimate);
+  }
+}
+
+std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {
+  std::vector<Eigen::Vector2d> places;
+  for (const auto& [antenna, series] : samples) {
+    for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
+  }
+  return places;
+}
+
 }  // namespace
 
 double log_chance(const std::vector<double>& reads, double sum, double places) {
@@ -111,16 +133,57 @@ double log_chance(const std::vector<double>& reads, double sum, double places) {
 }
 
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result) {
-  for (TagEstimate& estimate : result.estimates) {
-    const auto samples = problem.samples.find(estimate.tag);
-    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double chance =
-        least_log_chance(problem, estimate.tag, samples->second, estimate.candidates.front().p_WT);
+        least_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
     if (chance > std::log(kMostChance)) {
       refuse(estimate, "the phases say nothing: chance fits them as well");
     }
-  }
+  });
+}
+
+void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result) {
+  constexpr double kMostElsewhere = 0.25;
+  constexpr double kFits = 0.5;  // [rad]
+  if (!result.corrected_poses.empty()) return;
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const TagPhases phases = coherent_reads(problem, samples);
+    if (phases.size() == 0) return;
+    const HeightModel height = height_model(problem, estimate.tag, phases);
+    const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+    const Eigen::ArrayXd errors =
+        residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
+    const OutlierMixture mixture = outlier_mixture(errors * phases.wavenumber);
+    const double certain = std::log(static_cast<double>(phases.size()));
+    if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
+      refuse(estimate, fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads "
+                                   "belong elsewhere",
+                                   100.0 * mixture.share));
+    }
+  });
+}
+
+void span_mirror_images(const LocalizationProblem& problem, LocalizationResult& result) {
+  constexpr double kNear = 0.05;      // [m]
+  constexpr double kStraight = 0.05;  // [m]
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    if (estimate.verdict != Verdict::kLocated) return;
+    const std::vector<Eigen::Vector2d> places = places_of(samples);
+    const WayLine way = way_line(places);
+    const Eigen::Vector2d across(-way.along.y(), way.along.x());
+    const bool is_straight = std::all_of(places.begin(), places.end(), [&](const auto& place) {
+      return std::abs(across.dot(place - way.middle)) < kStraight;
+    });
+    Candidate& best = estimate.candidates.front();
+    const double away = across.dot(best.p_WT.head<2>() - way.middle);
+    if (!is_straight || std::abs(away) > kNear) return;
+    // One of two places 2·away apart, either as likely, less the one that is given.
+    const double variance = 2.0 * away * away;
+    if (best.covariance) {
+      best.covariance->topLeftCorner<2, 2>() += variance * across * across.transpose();
+    }
+    best.expected_error_m = std::hypot(best.expected_error_m, std::sqrt(variance));
+  });
 }
 
 void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& result,

@@ -18,6 +18,15 @@ double log_chance(const std::vector<double>& reads, double sum, double places);
 /// any length none fits better.
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result);
 
+/// Refuses tags of which over a quarter of the phases belong nowhere, while the others fit: those
+/// are of another tag, or at other times of another place. Not of methods that correct poses, whose
+/// residuals are not those of the believed ones.
+void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result);
+
+/// Tags within 5 cm of a straight way's line: the mirror image beyond it is as likely and so near
+/// that methods take both for one place, so the covariance gets what spans both.
+void span_mirror_images(const LocalizationProblem& problem, LocalizationResult& result);
+
 /// Where most of some tags' phases fit a place much better with the other sign: warns, and refuses
 /// all places.
 void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& result,

@@ -68,6 +68,45 @@ TEST(Plausibility, NoMethodPlacesRandomPhases) {
   }
 }
 
+TEST(Plausibility, TwoTagsUnderOneNameAreNone) {
+  Rng rng(4);
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Hall hall = made::hall(path, path, 12, {}, rng);
+  for (int i = 0; i < 12; i += 2) {
+    auto& mixed = hall.problem.samples["t" + std::to_string(i)]["a"];
+    for (const PhaseSample& of_other : hall.problem.samples["t" + std::to_string(i + 1)]["a"]) {
+      for (PhaseSample& sample : mixed) {
+        if (sample.stamp == of_other.stamp && made::uniform(rng, 0.0, 1.0) < 0.5) sample = of_other;
+      }
+    }
+    hall.problem.samples.erase("t" + std::to_string(i + 1));
+  }
+  Diagnostics diagnostics;
+  LocalizationResult result =
+      find_method(built_in_methods(), "sar").locate(hall.problem, 2, diagnostics);
+  refuse_mixtures(hall.problem, result);
+  for (const TagEstimate& estimate : result.estimates) {
+    EXPECT_NE(estimate.verdict, Verdict::kLocated) << estimate.tag;
+  }
+}
+
+TEST(Plausibility, ATagOnAStraightWaysLineMayBeOnEitherSide) {
+  Rng rng(5);
+  const made::Path path = made::straight(6.0, 0.02);
+  LocalizationProblem problem;
+  const Eigen::Vector3d tag(3.0, 0.012, 0.4);
+  problem.samples["t"]["a"] = made::read_along(path, tag, {}, rng);
+  problem.pose_error = PoseErrorModel{};
+  Diagnostics diagnostics;
+  LocalizationResult result = find_method(built_in_methods(), "ml").locate(problem, 1, diagnostics);
+  span_mirror_images(problem, result);
+  TagEstimate& estimate = result.estimates.front();
+  if (estimate.verdict != Verdict::kLocated) return;
+  const double error = (estimate.candidates.front().p_WT - tag).norm();
+  EXPECT_LT(error, 5.0 * estimate.candidates.front().expected_error_m);
+  EXPECT_GT(estimate.candidates.front().expected_error_m, 0.01);
+}
+
 TEST(Plausibility, SaysThatTheSignIsWrong) {
   Rng rng(3);
   const made::Path path = made::s_curve(8.0, 0.02);
