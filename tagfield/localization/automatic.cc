@@ -161,7 +161,9 @@ LocateFunction among(const std::vector<Method>& methods) {
   return [methods](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
     DataTraits traits = traits_of(given, threads);
     LocalizationProblem cleaned;
-    if (traits.has_outliers) {
+    // Amid reflections phases jump where the field fades: those are no outliers.
+    const bool is_bent = choose_method(traits, given.reference_tags.size()).method == "scan";
+    if (traits.has_outliers && !is_bent) {
       cleaned = without_outliers(given, threads, diagnostics);
       traits = traits_of(cleaned, threads);
     }
