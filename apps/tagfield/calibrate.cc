@@ -7,10 +7,8 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "tagfield/files/files.h"
-#include "tagfield/files/poses_csv.h"
-#include "tagfield/files/reads_csv.h"
-#include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_places_csv.h"
 #include "tagfield/scenario/calibration_profile.h"
 
@@ -20,6 +18,7 @@ namespace {
 struct CalibrateArguments {
   std::string reads;
   std::string poses;
+  std::string format;  ///< How other people's tables are to be read, or "".
   std::string tags;
   std::string out;
   CalibrationOptions options;
@@ -60,9 +59,8 @@ std::string table_of(const Calibration& calibration) {
 
 int calibrate_command(const CalibrateArguments& arguments) {
   Diagnostics diagnostics;
-  finish_commit(std::filesystem::path(arguments.reads).parent_path());
-  const std::vector<TagRead> reads = read_reads_csv(arguments.reads);
-  const std::vector<AntennaPose> poses = read_poses_csv(arguments.poses);
+  const auto [reads, poses] =
+      read_tables("calibrate", arguments.reads, arguments.poses, arguments.format);
   const auto tags = read_tag_places_csv(arguments.tags);
   Calibration calibration =
       calibrate(reads, poses, tags, arguments.options, arguments.threads, diagnostics);
@@ -90,10 +88,10 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
       ->add_option("READS", arguments->reads,
                    "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm")
       ->required();
-  command
-      ->add_option("--poses", arguments->poses,
-                   "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw)")
-      ->required();
+  command->add_option(
+      "--poses", arguments->poses,
+      "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw)");
+  add_format_option(*command, arguments->format);
   command->add_option("--tags", arguments->tags, "Tags at known places (CSV: tag,x_m,y_m,z_m)")
       ->required();
   command->add_option("--out", arguments->out, "Profile to write (YAML)")->required();

@@ -9,6 +9,7 @@
 #include "adapters/gazebo_world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/shared_folder.h"
 #include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -29,14 +30,6 @@ struct GazeboArguments {
   bool gz = false;
   GzSimOptions gz_options;
 };
-
-/// The folder with Tagfield's own models: installed beside the program, or in the source tree.
-fs::path models_folder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share/tagfield/models";
-  return fs::is_directory(installed, error) ? installed : fs::path(TAGFIELD_MODELS);
-}
 
 /// Where a robot must not drive although its laser sees nothing there, as a map.
 void write_keep_out(const std::string& path, const Scenario& scenario, const Scene& scene,
@@ -70,7 +63,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   // What stands in the world stays there, and is not to be added.
   const Scenario scenario = load_scenario(arguments.scenario, overrides);
   GazeboWorldOptions options;
-  options.robot_model = (models_folder() / "p3at/model.sdf").string();
+  options.robot_model = (shared_folder("models") / "p3at/model.sdf").string();
   options.real_time = arguments.real_time;
   std::string text = gazebo_world(scenario, loaded.scene, options, diagnostics);
   if (arguments.gz) {
@@ -83,7 +76,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   const fs::path out = out_of(arguments);
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
-  folders.push_back(models_folder().string());
+  folders.push_back(shared_folder("models").string());
   const char* const variable = arguments.gz ? "GZ_SIM_RESOURCE_PATH" : "GAZEBO_MODEL_PATH";
   fmt::print("world: {}\n{}={}\n", out.string(), variable, fmt::join(folders, ":"));
   return kExitOk;

@@ -8,6 +8,7 @@
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/localize_known.h"
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"
@@ -277,9 +278,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "With CSV, the poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw). With a "
                       "bag: true, tf, odometry (tf without a map), or auto (default): the true "
                       "ones and tf beside them, else tf");
-  command->add_option("--format", arguments->format,
-                      "Form of other people's CSV (YAML, as profiles/datasets/llrp_log.yaml); "
-                      "docs/datasets.md");
+  add_format_option(*command, arguments->format);
   command->add_option("--frame", arguments->frame,
                       "With a bag: fixed frame of tf (default: the first of map, world, odom that "
                       "can express the antennas)");

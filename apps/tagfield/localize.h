@@ -22,6 +22,8 @@ struct LocalizeArguments {
   std::optional<double> frequency_hz;
   std::string heights_file;          ///< CSV, or "".
   std::string height_side;           ///< "above", "below", or "".
+  std::string side;                  ///< Of the way, on which tags are, or "".
+  std::vector<double> box;           ///< X0 Y0 X1 Y1 in which tags are, or empty.
   std::string references_file;       ///< CSV, or "".
   std::vector<std::string> offsets;  ///< "RAD" or "ANTENNA=RAD".
   std::optional<double> pose_sigma_m;

@@ -63,6 +63,17 @@ std::vector<KnownOffset> offsets_of(const std::vector<std::string>& words,
   return named;
 }
 
+/// Where tags can be; corners of the box in any order.
+TagArea area_of(const LocalizeArguments& arguments) {
+  TagArea area;
+  if (!arguments.side.empty()) area.side = tag_side(arguments.side);
+  if (arguments.box.empty()) return area;
+  const Eigen::Vector2d one(arguments.box[0], arguments.box[1]);
+  const Eigen::Vector2d other(arguments.box[2], arguments.box[3]);
+  area.box = Eigen::AlignedBox2d(one.cwiseMin(other), one.cwiseMax(other));
+  return area;
+}
+
 }  // namespace
 
 void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
@@ -79,6 +90,16 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "antennas")
       ->check(CLI::IsMember({"above", "below"}))
       ->excludes(of_all);
+  command
+      .add_option("--side", arguments.side,
+                  "Side of the antennas' way on which tags are: left or right as one goes, or +x, "
+                  "-x, +y, -y")
+      ->check(CLI::IsMember({"left", "right", "+x", "-x", "+y", "-y"}));
+  command
+      .add_option("--box", arguments.box,
+                  "Box in which tags are, seen from above: X0 Y0 X1 Y1 [m, world]")
+      ->expected(4)
+      ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--reference", arguments.references_file,
                      "Tags at known places (CSV: tag,x_m,y_m,z_m)");
   command
@@ -109,6 +130,7 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
   if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty()) {
     known.heights = heights_of(arguments);
   }
+  known.area = area_of(arguments);
   if (!arguments.references_file.empty()) {
     known.reference_tags = read_tag_places_csv(arguments.references_file);
   }

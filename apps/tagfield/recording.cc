@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "adapters/ros1/bag_recording.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
-#include "tagfield/files/poses_csv.h"
-#include "tagfield/files/reads_csv.h"
-#include "tagfield/files/staged_folder.h"
-#include "tagfield/scenario/dataset_format.h"
 
 namespace tagfield {
 namespace {
@@ -93,47 +89,14 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
                                           frame, bag.truth_frame));
 }
 
-std::vector<AntennaPose> dataset_poses(const LocalizeArguments& arguments, const DatasetForm& form,
-                                       std::vector<AntennaPose> own) {
-  if (arguments.poses.empty()) {
-    if (!own.empty()) return own;
-    throw Error(
-        fmt::format("localize: tables in the format {} have no antenna places: they need "
-                    "--poses FILE",
-                    arguments.format));
-  }
-  if (!own.empty()) {
-    throw Error(
-        fmt::format("localize: tables in the format {} have the antennas' places, so "
-                    "--poses is one too many",
-                    arguments.format));
-  }
-  return form.poses ? read_dataset_poses_csv(arguments.poses, *form.poses)
-                    : read_poses_csv(arguments.poses);
-}
-
-/// From a table in a form of its own.
-RecordingToLocalize dataset_recording(const LocalizeArguments& arguments) {
-  const DatasetForm form = read_dataset_form(arguments.format);
-  Dataset dataset = read_dataset_csv(arguments.recording, form);
-  RecordingToLocalize recording;
-  recording.reads = std::move(dataset.reads);
-  recording.poses = {"given", dataset_poses(arguments, form, std::move(dataset.poses))};
-  recording.path_length_m = longest_path(recording.poses.poses);
-  return recording;
-}
-
 }  // namespace
 
 RecordingToLocalize csv_recording(const LocalizeArguments& arguments) {
-  if (!arguments.format.empty()) return dataset_recording(arguments);
-  if (arguments.poses.empty()) {
-    throw Error("localize: reads as CSV need --poses FILE, the poses of their antennas");
-  }
+  ReadsAndPoses tables =
+      read_tables("localize", arguments.recording, arguments.poses, arguments.format);
   RecordingToLocalize recording;
-  finish_commit(std::filesystem::path(arguments.recording).parent_path());
-  recording.reads = read_reads_csv(arguments.recording);
-  recording.poses = {"given", read_poses_csv(arguments.poses)};
+  recording.reads = std::move(tables.reads);
+  recording.poses = {"given", std::move(tables.poses)};
   recording.path_length_m = longest_path(recording.poses.poses);
   return recording;
 }

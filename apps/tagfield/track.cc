@@ -5,6 +5,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/base/range_check.h"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 struct TrackArguments {
   std::string input;     ///< Reads as CSV, or a scenario.
   std::string poses;     ///< CSV; "" with a scenario.
+  std::string format;    ///< How other people's tables are to be read, or "".
   std::string scenario;  ///< Besides reads, or "".
   std::vector<std::string> settings;
   std::optional<std::string> method;
@@ -83,8 +85,10 @@ ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
 }
 
 void refuse_options_of_reads(const TrackArguments& arguments) {
-  if (!arguments.poses.empty() || !arguments.scenario.empty()) {
-    throw Error("track: --poses and --scenario go with reads, not with a scenario in their place");
+  if (!arguments.poses.empty() || !arguments.scenario.empty() || !arguments.format.empty()) {
+    throw Error(
+        "track: --poses, --scenario and --format go with reads, not with a scenario in their "
+        "place");
   }
   if (arguments.tag_height_m || !arguments.heights_file.empty()) {
     throw Error(
@@ -137,9 +141,6 @@ Truth truth_beside(const std::string& reads) {
 }
 
 Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
-  if (arguments.poses.empty()) {
-    throw Error("track: reads as CSV need --poses FILE, the poses of their antennas");
-  }
   if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
   TrackingSpec spec;
   KnownBeforehand known;
@@ -158,9 +159,9 @@ Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
   }
   std::vector<TrackingRun> runs(1);
   runs[0].seed = arguments.seed.value_or(1);
-  finish_commit(std::filesystem::path(arguments.input).parent_path());
-  runs[0].reads = read_reads_csv(arguments.input);
-  runs[0].believed_poses = read_poses_csv(arguments.poses);
+  ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
+  runs[0].reads = std::move(tables.reads);
+  runs[0].believed_poses = std::move(tables.poses);
   runs[0].truth = truth_beside(arguments.input);
   if (!arguments.calibration.empty()) {
     apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
@@ -289,6 +290,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
   command->add_option("--poses", arguments->poses,
                       "With reads, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,"
                       "qw; one row for one at rest)");
+  add_format_option(*command, arguments->format);
   command->add_option("--scenario", arguments->scenario,
                       "With reads, a scenario whose 'tracking' and heights are to be used");
   command->add_option("--set", arguments->settings, "Replace a value of the scenario")

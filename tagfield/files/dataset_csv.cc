@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -202,9 +203,13 @@ class PoseList {
   std::vector<AntennaPose> poses_;
 };
 
-}  // namespace
+/// A dataset under way, over its tables.
+struct Gathered {
+  std::vector<TagRead> reads;
+  PoseList poses;
+};
 
-Dataset read_dataset_csv(const std::string& path, const DatasetForm& form) {
+void add_table(const std::string& path, const DatasetForm& form, Gathered& all) {
   const CsvTable table = read_csv(path, form.csv);
   const StampReader stamp(table, form.stamp);
   const AntennaReader antenna(table, form.antenna);
@@ -215,23 +220,72 @@ Dataset read_dataset_csv(const std::string& path, const DatasetForm& form) {
   std::optional<PositionReader> position;
   if (form.position) position.emplace(table, *form.position);
   const double turn = form.phase.falls ? -form.phase.radians : form.phase.radians;
-  Dataset dataset;
-  PoseList poses;
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const CsvRow& row = table.rows[i];
+  for (const CsvRow& row : table.rows) {
     TagRead read;
-    read.stamp = stamp.read(row, i);
+    read.stamp = stamp.read(row, all.reads.size());
     read.antenna = antenna.read(row);
     read.tag = without_spaces(table.text(row, tag));
     read.frequency_hz = frequency.read(row);
     read.phase_rad = wrap_to_two_pi(turn * table.number(row, phase));
     read.rssi_dbm = rssi ? form.decibels * table.number(row, *rssi) : kUnknownRssi;
-    if (position) poses.add(read.stamp, read.antenna, position->read(row));
-    dataset.reads.push_back(std::move(read));
+    if (position) all.poses.add(read.stamp, read.antenna, position->read(row));
+    all.reads.push_back(std::move(read));
   }
-  for (const auto& [name, place] : form.antennas) poses.add(Time{}, name, place);
-  dataset.poses = poses.take();
-  return dataset;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Where the number that begins at `at` ends.
+std::size_t digits_end(const std::string& text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return at;
+}
+
+/// Whether `a` comes before `b`, numbers in them by value: "9.csv" before "10.csv".
+bool in_natural_order(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const std::size_t end_a = digits_end(a, i);
+    const std::size_t end_b = digits_end(b, j);
+    const std::size_t first_a = std::min(a.find_first_not_of('0', i), end_a);
+    const std::size_t first_b = std::min(b.find_first_not_of('0', j), end_b);
+    if (end_a - first_a != end_b - first_b) return end_a - first_a < end_b - first_b;
+    const int order = a.compare(first_a, end_a - first_a, b, first_b, end_b - first_b);
+    if (order != 0) return order < 0;
+    i = end_a;
+    j = end_b;
+  }
+  return i == a.size() && j < b.size();
+}
+
+/// The file itself, or the tables of a folder.
+std::vector<std::string> tables_of(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(path)) return {path};
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
+  }
+  if (names.empty()) fail({path, 0}, "is a folder without tables, expected *.csv in it");
+  std::sort(names.begin(), names.end());
+  std::stable_sort(names.begin(), names.end(), in_natural_order);
+  for (std::string& name : names) name = (fs::path(path) / name).string();
+  return names;
+}
+
+}  // namespace
+
+Dataset read_dataset_csv(const std::string& path, const DatasetForm& form) {
+  Gathered all;
+  for (const std::string& table : tables_of(path)) add_table(table, form, all);
+  for (const auto& [name, place] : form.antennas) all.poses.add(Time{}, name, place);
+  return {std::move(all.reads), all.poses.take()};
 }
 
 std::vector<AntennaPose> read_dataset_poses_csv(const std::string& path,

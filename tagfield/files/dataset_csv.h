@@ -81,7 +81,9 @@ struct Dataset {
   std::vector<AntennaPose> poses;  ///< One a stamp and antenna, without turning.
 };
 
-/// Reads a table of reads, with the antennas' places where it has any. Throws Error "FILE:LINE: …".
+/// Reads a table of reads, with the antennas' places where it has any; or all tables (*.csv) of a
+/// folder, one after the other in the order of their names, in which numbers go by value. Throws
+/// Error "FILE:LINE: …".
 Dataset read_dataset_csv(const std::string& path, const DatasetForm& form);
 
 /// Reads a table of antenna poses. Throws Error "FILE:LINE: …".

@@ -4,20 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/outliers.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/scan/scan_field.h"
 
 namespace tagfield {
 namespace {
 
 /// Methods that may be chosen.
-constexpr const char* kChosen[] = {"joint", "ml", "sar", "trilateration", "landmarc"};
+constexpr const char* kChosen[] = {"joint", "ml", "sar", "scan", "trilateration", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
-constexpr double kReflected = 3.0;      ///< A misfit so many times the noise is not noise.
+constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
+/// So many reads that are worth one are no noise: noise alone leaves 1 to 1.5, reflections 5 and
+/// more over decimetres.
+constexpr double kSlow = 3.0;
+constexpr double kReflected = 3.0;  ///< A misfit so many times the noise is not noise.
 /// Misfit of the joint estimate over the noise: 0.7 to 0.9 with all sorts of pose errors, 2.6
 /// to 3.7 in a hall with reflections (docs/estimators.md).
 constexpr double kLeftOver = 1.6;
@@ -36,6 +43,10 @@ struct Look {
   double stretches = 0.0;
   double misfit = -1.0;  ///< Over the noise; negative where there is no fit.
   double noise_m = 0.0;  ///< Of one read.
+  double samples = 0.0;  ///< All that there are, of a tag that might be located.
+  bool is_short_scan = false;
+  bool has_outliers = false;
+  double reads_worth_one = 1.0;  ///< By the correlation of what the brightest place leaves.
 };
 
 /// Of one read [m], from the differences of neighbours, which slow errors leave alone.
@@ -51,12 +62,24 @@ double noise_of(const UnwrappedFit& fit, const Eigen::ArrayXd& errors) {
   return std::max(std::sqrt(0.5 * differences / std::max(count, 1.0)), 1e-6);
 }
 
+void look_at_brightest(const LocalizationProblem& problem, const std::string& tag,
+                       const SamplesOfTag& samples, Look& look) {
+  look.is_short_scan = scan_field(problem, tag, samples).why_not.empty();
+  const BrightestPlace there = brightest_place(problem, tag, samples);
+  if (there.residuals_rad.size() == 0) return;
+  look.reads_worth_one = there.reads_worth_one;
+  look.has_outliers =
+      has_outliers(outlier_mixture(less_neighbours(there.phases, there.residuals_rad)));
+}
+
 Look look_at(const LocalizationProblem& problem, const std::string& tag,
              const SamplesOfTag& samples) {
   const UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   Look look;
+  if (why_hopeless(samples).empty()) look.samples = static_cast<double>(count_reads(samples));
   look.reads = static_cast<double>(fit.reads_followed);
   look.stretches = static_cast<double>(fit.stretches);
+  look_at_brightest(problem, tag, samples, look);
   if (!fit.why_not.empty()) return look;
   const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
   look.noise_m = noise_of(fit, errors);
@@ -72,6 +95,23 @@ std::vector<const SamplesByTag::value_type*> some_tags(const LocalizationProblem
   const std::size_t count = std::min(kLooks, all.size());
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
+}
+
+void add_scans(const std::vector<Look>& looks, DataTraits& traits) {
+  double all = 0.0;
+  double scans = 0.0;
+  double unexplained = 0.0;
+  double spoilt = 0.0;
+  for (const Look& look : looks) {
+    all += look.samples;
+    if (look.has_outliers) spoilt += look.samples;
+    if (!look.is_short_scan) continue;
+    scans += look.samples;
+    if (look.reads_worth_one > kSlow) unexplained += look.samples;
+  }
+  traits.short_scans = all > 0.0 ? scans / all : 0.0;
+  traits.has_outliers = spoilt > kMost * all;
+  traits.unexplained = scans > 0.0 ? unexplained / scans : 0.0;
 }
 
 void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
@@ -95,10 +135,39 @@ double misfit_left(const LocalizationResult& result, double noise_m) {
   return noise_m > 0.0 ? lesser_median(std::move(misfits)) / noise_m : 0.0;
 }
 
+LocalizationProblem without_outliers(const LocalizationProblem& given, int threads,
+                                     Diagnostics& diagnostics) {
+  LocalizationProblem cleaned = given;
+  std::vector<SamplesByTag::value_type*> tags;
+  std::size_t all = 0;
+  for (auto& entry : cleaned.samples) {
+    tags.push_back(&entry);
+    all += count_reads(entry.second);
+  }
+  std::vector<std::size_t> removed(tags.size());
+  parallel_for(tags.size(), threads, [&](std::size_t i) {
+    removed[i] = remove_outliers(given, tags[i]->first, tags[i]->second);
+  });
+  const double share =
+      static_cast<double>(std::accumulate(removed.begin(), removed.end(), std::size_t{0})) /
+      static_cast<double>(std::max<std::size_t>(all, 1));
+  diagnostics.warn(
+      fmt::format("{:.1f} % of the phases belong nowhere and are left out", 100.0 * share));
+  return cleaned;
+}
+
 /// Chooses among these and runs the chosen one.
 LocateFunction among(const std::vector<Method>& methods) {
-  return [methods](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
-    const DataTraits traits = traits_of(problem, threads);
+  return [methods](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
+    DataTraits traits = traits_of(given, threads);
+    LocalizationProblem cleaned;
+    // Amid reflections phases jump where the field fades: those are no outliers.
+    const bool is_bent = choose_method(traits, given.reference_tags.size()).method == "scan";
+    if (traits.has_outliers && !is_bent) {
+      cleaned = without_outliers(given, threads, diagnostics);
+      traits = traits_of(cleaned, threads);
+    }
+    const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
     Choice choice = choose_method(traits, problem.reference_tags.size());
     LocalizationResult result =
         find_method(methods, choice.method).locate(problem, threads, diagnostics);
@@ -131,6 +200,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   double stretches = 0.0;
   std::vector<double> misfits;
   std::vector<double> noises;
+  add_scans(looks, traits);
   for (const Look& look : looks) {
     reads += look.reads;
     stretches += look.stretches;
@@ -151,6 +221,11 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   }
   if (!traits.antennas_move) {
     return {"trilateration", "the antennas stand still: only signal strength tells distances"};
+  }
+  if (traits.short_scans >= kMost && traits.unexplained >= kMost) {
+    return {"scan", fmt::format("a short straight scan, and {:.0f} % of its phases are "
+                                "bent, as by reflections",
+                                100.0 * traits.unexplained)};
   }
   if (traits.reads_a_stretch < kShortStretch) {
     return {"sar", fmt::format("the phase can be followed over {:.0f} reads in the mean only, with "

@@ -10,15 +10,18 @@ namespace tagfield {
 
 /// What of the data decides.
 struct DataTraits {
-  bool antennas_move = false;    ///< Any.
-  bool has_phase = false;        ///< Some tag has as many phases as a fit needs.
-  bool pose_is_exact = false;    ///< The pose error is known to be 0.
-  std::size_t channels = 0;      ///< Carriers.
+  bool antennas_move = false;  ///< Any.
+  bool has_phase = false;      ///< Some tag has as many phases as a fit needs.
+  bool pose_is_exact = false;  ///< The pose error is known to be 0.
+  double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
+  double unexplained = 0.0;  ///< and of those the share whose misfit at the best place is no noise.
+  std::size_t channels = 0;  ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median
   /// over tags; 1 where reads are but noisy. Reflections and pose errors make it greater.
   double misfit = 0.0;
-  double noise_m = 0.0;  ///< Of one read, the median over tags.
+  double noise_m = 0.0;       ///< Of one read, the median over tags.
+  bool has_outliers = false;  ///< Most tags that might be located have some.
 };
 
 /// Looks at up to 20 tags.

@@ -1,5 +1,7 @@
 #include "tagfield/localization/locate.h"
 
+#include <algorithm>
+
 #include "tagfield/localization/automatic.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
@@ -8,16 +10,49 @@
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
+#include "tagfield/localization/plausibility.h"
+#include "tagfield/localization/scan/scan.h"
 #include "tagfield/localization/signal_strength/landmarc.h"
 #include "tagfield/localization/signal_strength/trilateration.h"
 
 namespace tagfield {
+namespace {
+
+WayLine way_of(const SamplesOfTag& samples) {
+  std::vector<Eigen::Vector2d> places;
+  for (const auto& [antenna, series] : samples) {
+    for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
+  }
+  return way_line(places);
+}
+
+/// Of those that come with Tagfield; one's own are left alone.
+bool is_by_phase(const std::string& method) {
+  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",       "joint",
+                                      "sar",       "dah",           "particle", "scan"};
+  return std::any_of(std::begin(kByPhase), std::end(kByPhase),
+                     [&](const char* name) { return method == name; });
+}
+
+void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
+  if (!problem.area.side && !problem.area.box) return;
+  for (TagEstimate& estimate : estimates) {
+    const auto samples = problem.samples.find(estimate.tag);
+    if (samples == problem.samples.end() || estimate.candidates.empty()) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    const double most =
+        std::max(problem.limits.max_expected_error_m, estimate.candidates.front().expected_error_m);
+    keep_within(problem.area, way_of(samples->second), most, estimate);
+  }
+}
+
+}  // namespace
 
 std::vector<Method> built_in_methods() {
   std::vector<Method> methods = {
-      hyperbola_method(), least_squares_method(), maximum_likelihood_method(),
-      joint_method(),     sar_method(),           dah_method(),
-      particle_method(),  trilateration_method(), landmarc_method(),
+      hyperbola_method(),     least_squares_method(), maximum_likelihood_method(), joint_method(),
+      sar_method(),           dah_method(),           particle_method(),           scan_method(),
+      trilateration_method(), landmarc_method(),
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;
@@ -28,7 +63,15 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
                                const LocalizationOptions& options, Diagnostics& diagnostics) {
   const Method method = configured(find_method(options.methods, options.method), options.settings);
   const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
-  return method.locate(problem, options.threads, diagnostics);
+  LocalizationResult result = method.locate(problem, options.threads, diagnostics);
+  if (is_by_phase(result.method)) {
+    refuse_chance(problem, result);
+    refuse_mixtures(problem, result);
+    span_mirror_images(problem, result);
+    refuse_wrong_sign(problem, result, diagnostics);
+  }
+  keep_within_area(problem, result.estimates);
+  return result;
 }
 
 }  // namespace tagfield

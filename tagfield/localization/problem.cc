@@ -6,6 +6,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/stops.h"
 
 namespace tagfield {
 namespace {
@@ -112,6 +113,8 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
     }
     double_phases(problem.samples);
   }
+  merge_stops(problem.samples);
+  problem.area = known.area;
   problem.heights = known.heights;
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;

@@ -12,6 +12,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/tag_area.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
@@ -67,6 +68,7 @@ struct LocalizationProblem {
   std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
   std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
+  TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
 };
 
@@ -79,12 +81,14 @@ struct KnownBeforehand {
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
   /// Whether phases are known but for half a turn; where not told, the reads tell it.
   std::optional<bool> half_turns;
+  TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
 };
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
-/// takes known offsets out and doubles phases with half turns. Reads without a pose are left out
-/// with a warning. Throws Error on what is known beforehand where it is not finite or out of range.
+/// takes known offsets out, doubles phases with half turns and merges reads at stops (stops.h).
+/// Reads without a pose are left out with a warning. Throws Error on what is known beforehand where
+/// it is not finite or out of range.
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,
                                  const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics);

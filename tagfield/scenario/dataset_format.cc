@@ -1,6 +1,7 @@
 #include "tagfield/scenario/dataset_format.h"
 
 #include "tagfield/base/units.h"
+#include "tagfield/reader/channel_plan.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
 
@@ -78,17 +79,31 @@ PhaseForm phase_of(YamlMap map) {
   return form;
 }
 
+std::vector<double> carriers_of(const YamlValue& channels) {
+  std::vector<double> carriers_hz = channels.numbers(1);
+  for (const double hertz : carriers_hz) {
+    if (!(hertz > 0.0)) channels.fail("must be over 0");
+  }
+  return carriers_hz;
+}
+
+/// A region's channels by name.
+std::vector<double> plan_of(const YamlValue& name) {
+  try {
+    return known_plan(name.text()).carriers_hz;
+  } catch (const Error& error) {
+    name.fail(error.what());
+  }
+}
+
 FrequencyForm frequency_of(YamlMap map) {
   FrequencyForm form;
   if (!map.has("column")) {
     form.hertz = map.at("hz").number(NumberRange::kPositive);
-  } else if (map.has("channels_hz")) {
+  } else if (map.has("channels_hz") || map.has("channels")) {
     form.column = column_of(map);
-    const YamlValue channels = map.at("channels_hz");
-    form.channels_hz = channels.numbers(1);
-    for (const double hertz : form.channels_hz) {
-      if (!(hertz > 0.0)) channels.fail("must be over 0");
-    }
+    form.channels_hz =
+        map.has("channels") ? plan_of(map.at("channels")) : carriers_of(map.at("channels_hz"));
     form.first_channel =
         static_cast<int>(map.number("first_channel", 1.0, NumberRange::kNotNegative));
   } else {

@@ -5,6 +5,7 @@ real readers: other clocks, gaps, repeats, disorder, several carriers.
 The reads are made here, by eq. 3 of the paper along an S, so that the places are known.
 """
 
+import cmath
 import math
 import random
 import resource
@@ -413,6 +414,77 @@ def bad_numbers_name_file_and_line(context):
         check_in("reads.csv:9: ", result.err, f"column {column} {bad!r}")
         check(not (context.folder / "bad").exists() or not any((context.folder / "bad").iterdir()),
               "something was written")
+
+
+# --- Other people's tables ------------------------------------------------------------------------
+
+def adarf_folder(context, tags):
+    """A folder of tables as AdaRF's experiments have them: 50 stops of 2 cm, 8 channels, a byte order
+    mark, no clock. Each tag's field comes by an echo, too."""
+    noise = random.Random(9)
+    offsets = [noise.uniform(0, 2 * math.pi) for _ in range(8)]
+    for stop in range(50):
+        rows = ["epc,antennaIndex,frequency,time,RSSI,phase,dopplerShift,velocity,x,y,z,angle"]
+        x = 0.02 * stop
+        for tag, (at, away) in tags.items():
+            for channel, offset in enumerate(offsets):
+                carrier = 920.625e6 + 0.5e6 * channel
+                k = 2 * math.pi * carrier / SPEED_OF_LIGHT
+                direct = math.hypot(at - x, away)
+                echo = math.hypot(at + 0.4 - x, away + 0.5)
+                field = (cmath.rect(1 / direct, k * direct) + cmath.rect(0.3 / echo, k * echo))**2
+                for _ in range(3):
+                    phase = (cmath.phase(field) + offset + noise.gauss(0, 0.03)) % (2 * math.pi)
+                    rssi = -45 + 20 * math.log10(abs(field))
+                    rows.append(f"{tag},1,{carrier:.0f},0,{rssi:.1f},{phase:.6f},0,0,{x},1.63,0,0")
+        context.write(f"scan/{stop}.csv", "\ufeff" + "\n".join(rows) + "\n")
+
+
+RAIL_TAGS = {"a1": (0.3, 0.6), "b2": (0.5, 0.6), "c3": (0.7, 0.6)}
+
+
+@case
+def a_folder_of_stops_amid_echoes(context):
+    adarf_folder(context, RAIL_TAGS)
+    told = context.run_well("localize", "scan", "--format", "adarf", "--side=+y", "--out", "out")
+    check_in("method: scan", told.out, "what was chosen")
+    rows = {row["tag"]: row for row in read_csv(context.folder / "out/estimates.csv")}
+    for tag, (x, away) in RAIL_TAGS.items():
+        if check_equal(rows[tag]["verdict"], "located", f"verdict on {tag} ({rows[tag]['reason']})"):
+            error = math.dist((x, 1.63 + away), position(rows[tag])[:2])
+            check(error < 0.12, f"{tag}: {error:.3f} m off")
+            check(error < 5 * float(rows[tag]["expected_error_m"]), f"{tag}: expected too little")
+
+
+@case
+def sides_and_boxes_choose_between_mirror_images(context):
+    adarf_folder(context, RAIL_TAGS)
+    both = ("localize", "scan", "--format", "adarf", "--out", "out")
+    for more, verdict in (((), "ambiguous"), (("--side", "left"), "located"),
+                          (("--side=-y",), "located"),
+                          (("--box", "0", "1.7", "1", "3"), "located"),
+                          (("--box", "5", "5", "6", "6"), "not_located")):
+        context.run_well(*both, *more)
+        rows = read_csv(context.folder / "out/estimates.csv")
+        check_equal({row["verdict"] for row in rows}, {verdict}, f"verdicts with {more}")
+        if verdict == "located":
+            sign = 1 if float(rows[0]["y_m"]) > 1.63 else -1
+            check_equal(sign, -1 if "--side=-y" in more else 1, f"side with {more}")
+
+
+@case
+def formats_by_name_in_track_and_calibrate(context):
+    adarf_folder(context, RAIL_TAGS)
+    context.write("tags.csv", "tag,x_m,y_m,z_m\n" + "".join(
+        f"{tag},{x},{1.63 + away},0\n" for tag, (x, away) in RAIL_TAGS.items()))
+    context.run_well("calibrate", "scan", "--format", "adarf", "--tags", "tags.csv", "--out",
+                     "profile.yaml")
+    check((context.folder / "profile.yaml").exists(), "no profile was written")
+    context.run_well("track", "scan", "--format", "adarf", "--out", "tracked")
+    check_equal(len(read_csv(context.folder / "tracked/verdicts.csv")), 3, "tags tracked or not")
+    result = context.run("localize", "scan", "--format", "adraf", "--out", "out")
+    check_equal(result.code, 2, "exit code on an unknown format")
+    check_in("did you mean 'adarf'", result.err, "the complaint")
 
 
 if __name__ == "__main__":

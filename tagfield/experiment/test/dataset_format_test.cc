@@ -245,5 +245,42 @@ TEST(DatasetFormat, AllShippedFormsCanBeRead) {
   EXPECT_GE(count, 4u);
 }
 
+TEST(DatasetFormat, AFolderOfTablesGoesByTheNumbersInItsNames) {
+  const fs::path folder = fs::path(testing::TempDir()) / "stops";
+  fs::create_directories(folder);
+  for (const int stop : {10, 2, 1}) {
+    std::ofstream(folder / fmt::format("{}.csv", stop))
+        << "epc,antennaIndex,frequency,time,RSSI,phase,dopplerShift,velocity,x,y,z,angle\n"
+        << fmt::format("a,1,920625000,0,-45,1.5,0,0,{},1.63,0,0\n", 0.02 * stop);
+  }
+  const Dataset dataset = read_dataset_csv(folder.string(), read_dataset_form(shipped("adarf")));
+  ASSERT_EQ(dataset.reads.size(), 3U);
+  ASSERT_EQ(dataset.poses.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double stops[] = {1.0, 2.0, 10.0};
+    EXPECT_DOUBLE_EQ(dataset.poses[i].X_WA.translation.x(), 0.02 * stops[i]);
+    EXPECT_EQ(dataset.reads[i].stamp, time_from_seconds(0.001 * static_cast<double>(i)));
+  }
+  fs::create_directories(folder / "none");
+  EXPECT_THROW(read_dataset_csv((folder / "none").string(), read_dataset_form(shipped("adarf"))),
+               Error);
+}
+
+TEST(DatasetFormat, ChannelsByTheNameOfTheirPlan) {
+  const std::string text =
+      "stamp: {rows_apart_s: 0.01}\ntag: {column: t}\nantenna: {name: a}\n"
+      "phase: {column: p, unit: steps_4096}\nfrequency: {column: c, channels: NAME, "
+      "first_channel: 1}\n";
+  const auto form_of = [&](const std::string& name) {
+    std::string named = text;
+    named.replace(named.find("NAME"), 4, name);
+    return read_dataset_form(written("plan.yaml", named));
+  };
+  EXPECT_EQ(form_of("fcc").frequency.channels_hz.size(), 50U);
+  EXPECT_DOUBLE_EQ(form_of("fcc").frequency.channels_hz.front(), 902.75e6);
+  EXPECT_EQ(form_of("etsi_low").frequency.channels_hz.size(), 4U);
+  EXPECT_THROW(form_of("fccc"), Error);
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -1,5 +1,9 @@
 #include "tagfield/localization/joint/joint.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "tagfield/localization/joint/internal/joint_state.h"
 #include "tagfield/localization/judgement.h"
 
@@ -18,7 +22,85 @@ TagEstimate estimate_of(const JointState& state, const JointCovariance& covarian
   return estimate;
 }
 
-LocalizationResult locate_jointly(const LocalizationProblem& problem, int threads) {
+/// What the estimated error of the poses says of them.
+struct PoseCheck {
+  double rms_m = 0.0;      ///< Of the error.
+  double late_s = 0.0;     ///< The lateness that explains most of it,
+  double explained = 0.0;  ///< and the share of its variance that it does.
+};
+
+PoseCheck check_of(const LocalizationProblem& problem, const std::vector<AntennaPose>& corrected) {
+  Eigen::Vector2d mean_error = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean_velocity = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  double squares = 0.0;
+  double errors = 0.0;
+  double velocities = 0.0;
+  double both = 0.0;
+  std::map<std::string, std::size_t> at;
+  for (const AntennaPose& pose : corrected) {
+    const Trajectory& believed = problem.tracks.at(pose.antenna).X_WA;
+    const std::size_t i = at[pose.antenna]++;
+    if (i == 0 || i + 1 >= believed.size()) continue;
+    const double seconds = to_seconds(believed[i + 1].stamp) - to_seconds(believed[i - 1].stamp);
+    if (seconds <= 0.0) continue;
+    const Eigen::Vector2d error = (believed[i].X_WB.translation - pose.X_WA.translation).head<2>();
+    const Eigen::Vector2d velocity =
+        (believed[i + 1].X_WB.translation - believed[i - 1].X_WB.translation).head<2>() / seconds;
+    count += 1.0;
+    mean_error += error;
+    mean_velocity += velocity;
+    squares += error.squaredNorm();
+    velocities += velocity.squaredNorm();
+    both += error.dot(velocity);
+  }
+  PoseCheck check;
+  if (count < 2.0) return check;
+  // The mean of the error is not told by the reads: it shifts all tags alike.
+  errors = squares - mean_error.squaredNorm() / count;
+  velocities -= mean_velocity.squaredNorm() / count;
+  both -= mean_error.dot(mean_velocity) / count;
+  check.rms_m = std::sqrt(squares / count);
+  if (errors <= 0.0 || velocities <= 0.0) return check;
+  check.late_s = both / velocities;
+  check.explained = both * both / (errors * velocities);
+  return check;
+}
+
+/// Why poses whose error nothing was known of can't be those of the reads; empty if they can.
+std::string why_other_poses(const PoseCheck& check, double lambda) {
+  // Of a drive with ten independent errors or so, chance explains as much once in a thousand.
+  constexpr double kExplained = 0.7;
+  constexpr double kLeast = 0.02;  // [m]
+  if (check.rms_m > 0.5 * lambda) {
+    return fmt::format(
+        "the poses seem to be off by {:.2f} m, over half a wavelength, which reads "
+        "can't put right: are they of this run?",
+        check.rms_m);
+  }
+  if (check.explained > kExplained && check.rms_m > kLeast) {
+    return fmt::format(
+        "the poses' error goes along the way, as if stamps of reads were {:.2f} s "
+        "{} against those of poses",
+        std::abs(check.late_s), check.late_s > 0.0 ? "late" : "early");
+  }
+  return "";
+}
+
+void refuse_other_poses(const LocalizationProblem& problem, double lambda,
+                        LocalizationResult& result, Diagnostics& diagnostics) {
+  const std::string why = why_other_poses(check_of(problem, result.corrected_poses), lambda);
+  if (why.empty()) return;
+  diagnostics.warn(why);
+  for (TagEstimate& estimate : result.estimates) {
+    const bool is_known = problem.reference_tags.count(estimate.tag) > 0;
+    if (is_known || estimate.verdict == Verdict::kNotLocated) continue;
+    estimate = not_located(std::move(estimate), why);
+  }
+}
+
+LocalizationResult locate_jointly(const LocalizationProblem& problem, int threads,
+                                  Diagnostics& diagnostics) {
   LocalizationResult result;
   result.method = "joint";
   JointState state = begin_jointly(problem, threads);
@@ -42,6 +124,10 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
                                    : reference_estimate(tag, known->second));
   }
   result.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
+  if (!problem.pose_error && !state.system.tags.empty()) {
+    const double lambda = 2.0 * longest_cycle(state.system.tags.front().phases);
+    refuse_other_poses(problem, lambda, result, diagnostics);
+  }
   return result;
 }
 
@@ -49,8 +135,8 @@ LocalizationResult locate_jointly(const LocalizationProblem& problem, int thread
 
 Method joint_method() {
   return {"joint", "all tags and the pose error together, from unwrapped, then wrapped phase",
-          [](const LocalizationProblem& problem, int threads, Diagnostics&) {
-            return locate_jointly(problem, threads);
+          [](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
+            return locate_jointly(problem, threads, diagnostics);
           }};
 }
 

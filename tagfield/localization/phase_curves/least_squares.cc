@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tagfield/localization/holograms/hologram.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/phase_following.h"
 #include "tagfield/localization/phase_curves/place_search.h"
@@ -28,6 +29,15 @@ std::vector<std::string> antennas_of(const TagPhases& phases) {
   std::set<std::string> names;
   for (const TagPhases::Span& span : phases.spans) names.insert(span.antenna);
   return {names.begin(), names.end()};
+}
+
+/// Where hyperbolae meet nowhere, as of short straight stretches: the brightest places, followed
+/// phases taken for wrapped ones.
+std::vector<Eigen::Vector2d> by_waves(const PlaceSearch& search, double height) {
+  std::vector<Eigen::Vector2d> places =
+      search_plane(search.phases, height, SearchOptions{}, coherent_brightness);
+  for (Eigen::Vector2d& place : places) place = refine(search.phases, height, place);
+  return places;
 }
 
 TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
@@ -57,6 +67,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   result.why_not = why_too_few(search);
   if (!result.why_not.empty()) return result;
   search_places(search, kStride, kMostHyperbolae);
+  if (search.minima.empty()) search.minima = by_waves(search, height);
   if (search.minima.empty()) {
     result.why_not = "no place explains the phase";
     return result;

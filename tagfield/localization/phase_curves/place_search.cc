@@ -50,6 +50,15 @@ std::vector<Eigen::Vector2d> find_minima(PlaceSearch& search) {
   return ranked();
 }
 
+/// Channel after channel, each in order of time: a reader that comes back to a channel goes on
+/// there, however many others it was on in between.
+std::vector<PhaseSample> by_channel(std::vector<PhaseSample> series) {
+  std::stable_sort(series.begin(), series.end(), [](const PhaseSample& a, const PhaseSample& b) {
+    return a.frequency_hz < b.frequency_hz;
+  });
+  return series;
+}
+
 }  // namespace
 
 PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follow& follow) {
@@ -58,7 +67,7 @@ PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follo
   std::vector<std::string> antennas;
   for (const auto& [antenna, series] : samples) {
     if (extent_of(series) < kStillExtent) continue;
-    for (PhaseSegment& segment : follow(series)) {
+    for (PhaseSegment& segment : follow(by_channel(series))) {
       if (segment.samples.size() < 2) continue;
       search.segments.push_back(std::move(segment));
       antennas.push_back(antenna);

@@ -1,0 +1,76 @@
+#include "apps/tagfield/foreign_tables.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "apps/tagfield/shared_folder.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/spelling.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/staged_folder.h"
+#include "tagfield/scenario/dataset_format.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file of a format that is told by its name, as "adarf".
+std::string format_file(const std::string& command, const std::string& format) {
+  const fs::path path(format);
+  if (path.has_extension() || path.has_parent_path() || fs::exists(path)) return format;
+  const fs::path folder = shared_folder("profiles") / "datasets";
+  const fs::path file = folder / (format + ".yaml");
+  if (fs::exists(file)) return file.string();
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    names.push_back(entry.path().stem().string());
+  }
+  throw Error(fmt::format("{}: --format: there is no format '{}' in {}{}", command, format,
+                          folder.string(), suggestion(format, names)));
+}
+
+std::vector<AntennaPose> poses_of(const std::string& command, const std::string& poses,
+                                  const std::string& format, const DatasetForm& form,
+                                  std::vector<AntennaPose> own) {
+  if (poses.empty() && own.empty()) {
+    throw Error(
+        fmt::format("{}: tables in the format {} have no antenna places: they need --poses FILE",
+                    command, format));
+  }
+  if (poses.empty()) return own;
+  if (!own.empty()) {
+    throw Error(fmt::format(
+        "{}: tables in the format {} have the antennas' places, so --poses is one too many",
+        command, format));
+  }
+  return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
+}
+
+}  // namespace
+
+void add_format_option(CLI::App& command, std::string& format) {
+  command.add_option("--format", format,
+                     "Form of other people's CSV: a name of profiles/datasets, as adarf or "
+                     "llrp_log, or a file (YAML); docs/datasets.md");
+}
+
+ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
+                          const std::string& poses, const std::string& format) {
+  if (!format.empty()) {
+    const DatasetForm form = read_dataset_form(format_file(command, format));
+    Dataset dataset = read_dataset_csv(reads, form);
+    return {std::move(dataset.reads),
+            poses_of(command, poses, format, form, std::move(dataset.poses))};
+  }
+  if (poses.empty()) {
+    throw Error(command + ": reads as CSV need --poses FILE, the poses of their antennas");
+  }
+  finish_commit(fs::path(reads).parent_path());
+  return {read_reads_csv(reads), read_poses_csv(poses)};
+}
+
+}  // namespace tagfield

@@ -1,0 +1,29 @@
+/// @file
+/// Reads and poses as tables, in the project's own form or in other people's (docs/datasets.md).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "tagfield/poses/trajectory.h"
+#include "tagfield/stream/tag_read.h"
+
+namespace tagfield {
+
+struct ReadsAndPoses {
+  std::vector<TagRead> reads;
+  std::vector<AntennaPose> poses;
+};
+
+/// `reads`: a table, or with a format a folder of tables too. `poses`: a table, or "" where the
+/// format has the antennas' places. `format`: a file, the name of one in profiles/datasets, or ""
+/// for the project's own form. Throws Error where poses are missing or one too many; `command`
+/// begins that line.
+ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
+                          const std::string& poses, const std::string& format);
+
+/// Adds `--format`.
+void add_format_option(CLI::App& command, std::string& format);
+
+}  // namespace tagfield

@@ -1,0 +1,211 @@
+#!/usr/bin/python3
+"""Nothing from nothing: how often the real commands claim what can't be so.
+
+    benchmarks/false_claims.py [--tagfield build/release/bin/tagfield] [--cases 1000] [--seed 1]
+                               [--methods auto,hyperbola,…] [--conditions "random phases;wrong sign"]
+
+Each case is a tag whose reads can't locate it, or only wrongly. A claim is a place that is located;
+it is false where there is none, or where it is off by over five times its expected error. Prints the
+claims and the false ones of each condition and method; ends with 1 where more than one in a hundred
+is false. `track` and `calibrate` are tried on the conditions that begin with their names.
+"""
+
+import argparse
+import csv
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+import made_tables as made
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+METHODS = "auto,hyperbola,least_squares,ml,joint,sar,dah,particle,scan"
+BATCH = 50  # Tags in one run.
+
+
+def curve(rate=15.0, speed=0.3):
+    """An S of 8 m."""
+    return [(i / rate, (speed * i / rate, 0.7 * math.sin(speed * i / rate)))
+            for i in range(int(8 / speed * rate))]
+
+
+def beside(rng):
+    return rng.uniform(1.0, 7.0), rng.choice((-1, 1)) * rng.uniform(1.5, 3.0)
+
+
+def tag_on(way, visit, rng, place=None, **how):
+    place = place or beside(rng)
+    return made.read_tag(visit(way, rng), place, rng, **how), place
+
+
+def nothing(change, visit=made.one_channel, way=curve):
+    """Of reads changed like that no place is true."""
+    def make(rng):
+        rows, _ = tag_on(way(), visit, rng)
+        return change(rows, rng), None
+    return make
+
+
+def random_phases(rows, rng):
+    return made.with_phase(rows, lambda _: rng.uniform(0, made.TURN))
+
+
+def constant_phases(rows, rng):
+    value = rng.uniform(0, made.TURN)
+    return made.with_phase(rows, lambda _: value)
+
+
+def two_tags(rng):
+    """The reads of another tag under this one's EPC, every other one."""
+    first, place = tag_on(curve(), made.one_channel, rng)
+    second, _ = tag_on(curve(), made.one_channel, rng)
+    return [row for i, (a, b) in enumerate(zip(first, second)) for row in (a if i % 2 else b,)], None
+
+
+def late(by):
+    def make(rng):
+        rows, place = tag_on(curve(), made.one_channel, rng)
+        return [(t + by, *row) for t, *row in rows], place
+    return make
+
+
+def moving(rng):
+    speed, heading = rng.uniform(0.02, 0.3), rng.uniform(0, made.TURN)
+    rows, _ = tag_on(curve(), made.one_channel, rng,
+                     velocity=(speed * math.cos(heading), speed * math.sin(heading)))
+    return rows, None
+
+
+def on_the_line(rng):
+    """Ahead of, on, or behind a straight path, a few centimetres beside it at most."""
+    place = rng.uniform(-1.0, 7.0), rng.gauss(0, 0.03)
+    return tag_on(made.straight(), made.one_channel, rng, place)
+
+
+def wrong_sign(rng):
+    rows, place = tag_on(curve(), made.one_channel, rng)
+    return made.with_phase(rows, lambda phase: -phase), None
+
+
+def other_run(rng):
+    """The poses are those of another drive: the same times, another curve."""
+    rows, _ = tag_on(curve(), made.one_channel, rng)
+    return rows, None
+
+
+#: Name: what makes a tag's reads and its place (None where none is true), and the poses if not the
+#: reads' own.
+CONDITIONS = {
+    "random phases": (nothing(random_phases), None),
+    "random phases, hopping": (nothing(random_phases, made.hopping), None),
+    "random phases on a rail": (nothing(random_phases, way=made.rail), None),
+    "constant phases": (nothing(constant_phases), None),
+    "two tags of one EPC": (two_tags, None),
+    "stamps 0.2 s late": (late(0.2), curve),
+    "stamps 1 s late": (late(1.0), curve),
+    "wrong sign": (wrong_sign, None),
+    "slow tags": (moving, None),
+    "on the line of a straight path": (on_the_line, None),
+    "poses of another run": (other_run, lambda: [(t, (x, -y / 2 + 0.1 * x)) for t, (x, y) in curve()]),
+}
+
+
+def is_false(row, place):
+    if place is None:
+        return True
+    error = math.dist((float(row["x_m"]), float(row["y_m"])), place)
+    return error > 5 * float(row["expected_error_m"])
+
+
+def localize_condition(name, method, options):
+    """Claims, false ones, cases."""
+    make, poses = CONDITIONS[name]
+    rng = random.Random(f"{options.seed} {name}")
+    claims = false = 0
+    for _ in range(0, options.cases, BATCH):
+        tags, places = {}, {}
+        for i in range(BATCH):
+            tags[f"t{i}"], places[f"t{i}"] = make(rng)
+        with tempfile.TemporaryDirectory() as folder:
+            made.write(folder, tags, poses and poses())
+            found, _ = made.localize(options.tagfield, folder, "--method", method)
+        for tag, rows in found.items():
+            if rows[0]["verdict"] == "located":
+                claims += 1
+                false += is_false(rows[0], places[tag])
+    return claims, false, options.cases
+
+
+def track_random(options):
+    """Random phases past two antennas at rest."""
+    rng = random.Random(f"{options.seed} track")
+    claims = 0
+    for _ in range(0, options.cases, BATCH):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            visits = [(i / 30, (0.0, 0.0), 866.9e6) for i in range(150)]
+            made.write(folder, {f"t{i}": random_phases(made.read_tag(visits, (2, 1), rng), rng)
+                                for i in range(BATCH)}, [(0.0, (0.0, 0.0))])
+            subprocess.run([options.tagfield, "track", folder / "reads.csv", "--poses",
+                            folder / "poses.csv", "--lane", "0", "1.5", "0", "--tag-height", "0",
+                            "--out", folder / "out"], check=True, capture_output=True)
+            with open(folder / "out/verdicts.csv", encoding="utf-8") as file:
+                claims += sum(row["verdict"] == "tracked" for row in csv.DictReader(file))
+    return claims, claims, options.cases
+
+
+def calibrate_random(options):
+    """Random phases of five reference tags; a case is an antenna."""
+    rng = random.Random(f"{options.seed} calibrate")
+    claims = 0
+    cases = max(options.cases // 10, 1)
+    for _ in range(cases):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            places = {f"t{i}": beside(rng) for i in range(5)}
+            made.write(folder, {tag: random_phases(made.read_tag(
+                made.one_channel(curve(), rng), place, rng), rng) for tag, place in places.items()})
+            (folder / "tags.csv").write_text("tag,x_m,y_m,z_m\n" + "".join(
+                f"{tag},{x},{y},0\n" for tag, (x, y) in places.items()), encoding="utf-8")
+            result = subprocess.run(
+                [options.tagfield, "calibrate", folder / "reads.csv", "--poses",
+                 folder / "poses.csv", "--tags", folder / "tags.csv", "--out",
+                 folder / "profile.yaml"], capture_output=True, check=False)
+            claims += result.returncode == 0
+    return claims, claims, cases
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tagfield", default=str(ROOT / "build/release/bin/tagfield"))
+    parser.add_argument("--cases", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--methods", default=METHODS)
+    parser.add_argument("--conditions", default="")
+    options = parser.parse_args()
+    wanted = [word.strip() for word in options.conditions.split(";") if word]
+    failed = False
+
+    def tell(label, outcome):
+        nonlocal failed
+        claims, false, cases = outcome
+        failed = failed or false > 0.01 * cases
+        print(f"{label:<48} {claims:>5} claims of {cases}, {false} false", flush=True)
+
+    for name in CONDITIONS:
+        for method in options.methods.split(","):
+            if not wanted or name in wanted:
+                tell(f"{name}: {method}", localize_condition(name, method, options))
+    if not wanted or "track random phases" in wanted:
+        tell("track random phases", track_random(options))
+    if not wanted or "calibrate random phases" in wanted:
+        tell("calibrate random phases", calibrate_random(options))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

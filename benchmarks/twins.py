@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+"""Synthetic twins of real data: reads made from the equations, located by the real command, and
+judged by the bound of that very data.
+
+    benchmarks/twins.py [--tagfield build/release/bin/tagfield] [--tags 40] [--seed 1]
+                        [--method auto] [--conditions rail sequential,…] [--pose-sigma 0]
+
+For each condition: how many tags were located, the root mean square of error over the Cramer-Rao
+bound's deviation (of outliers: of the reads that are none), and how many are off by over five times
+what was expected. Of N tags the ratio of an efficient estimator is 1 ± 1/sqrt(2 N) or so.
+"""
+
+import argparse
+import math
+import pathlib
+import random
+import sys
+import tempfile
+
+import made_tables as made
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SIGMA = 0.1
+
+
+def plain(rows, _rng):
+    return rows, rows
+
+
+def lost_to_outliers(share):
+    def change(rows, rng):
+        clean = [row for row in rows if rng.random() >= share]
+        kept = {id(row) for row in clean}
+        return [row if id(row) in kept else row[:3] + (rng.uniform(0, made.TURN), row[4])
+                for row in rows], clean
+    return change
+
+
+def turned(rows, rng):
+    return made.half_turns(rows, rng), rows
+
+
+def stepped(rows, _rng):
+    return made.stepped(rows), rows
+
+
+#: Name: the way, the visits along it, what is done to the reads.
+CONDITIONS = {
+    "one channel": (made.one_channel, plain),
+    "sequential": (made.sequential, plain),
+    "interleaved": (made.interleaved, plain),
+    "all channels at each stop": (made.all_at_each, plain),
+    "hopping": (made.hopping, plain),
+    "half turns": (made.one_channel, turned),
+    "outliers 2 %": (made.one_channel, lost_to_outliers(0.02)),
+    "outliers 5 %": (made.one_channel, lost_to_outliers(0.05)),
+    "4096 steps": (made.one_channel, stepped),
+}
+WAYS = {"circle": made.circle, "rail": lambda: made.rail(stops=100, step=0.01)}
+
+
+def place_beside(way, rng):
+    if way == "rail":
+        return rng.uniform(0.2, 0.8), rng.uniform(0.5, 0.9)
+    angle, away = rng.uniform(0, made.TURN), rng.uniform(2.3, 4.0)
+    return away * math.cos(angle), away * math.sin(angle)
+
+
+def run(program, way, name, options):
+    """Errors over the bound's deviation, errors over the expected one, and the method's name."""
+    visit, change = CONDITIONS[name]
+    rng = random.Random(f"{options.seed} {way} {name}")
+    tags, bounds, places = {}, {}, {}
+    for i in range(options.tags):
+        tag = f"t{i}"
+        visits = visit(WAYS[way](), rng)
+        places[tag] = place_beside(way, rng)
+        rows, telling = change(made.read_tag(visits, places[tag], rng, SIGMA), rng)
+        tags[tag] = rows
+        bounds[tag] = math.sqrt(made.bound_trace(telling, places[tag], SIGMA))
+    area = ["--side=+y"] if way == "rail" else []
+    sigma = [] if options.pose_sigma is None else ["--pose-sigma", str(options.pose_sigma)]
+    with tempfile.TemporaryDirectory() as folder:
+        made.write(folder, tags)
+        found, said = made.localize(program, folder, "--method", options.method, *area, *sigma)
+    ratios, honest = [], []
+    for tag, rows in found.items():
+        if rows[0]["verdict"] != "located":
+            continue
+        error = math.dist((float(rows[0]["x_m"]), float(rows[0]["y_m"])), places[tag])
+        ratios.append(error / bounds[tag])
+        honest.append(error / float(rows[0]["expected_error_m"]))
+    chosen = next((line.split()[1].rstrip(",") for line in said.splitlines()
+                   if line.startswith("method:")), options.method)
+    return ratios, honest, chosen
+
+
+def rms(values):
+    return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tagfield", default=str(ROOT / "build/release/bin/tagfield"))
+    parser.add_argument("--tags", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--method", default="auto")
+    parser.add_argument("--pose-sigma", type=float)
+    parser.add_argument("--conditions", default="")
+    options = parser.parse_args()
+    wanted = [word for word in options.conditions.split(",") if word]
+    for way in WAYS:
+        for name in CONDITIONS:
+            label = f"{way} {name}"
+            if wanted and label not in wanted:
+                continue
+            ratios, honest, chosen = run(options.tagfield, way, name, options)
+            wrong = sum(value > 5 for value in honest)
+            print(f"{label:<34} {chosen:<6} {len(ratios):>3} of {options.tags:<3} "
+                  f"{rms(ratios):6.2f} x the bound, error/expected {rms(honest):5.2f}, "
+                  f"over 5 times {wrong}", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

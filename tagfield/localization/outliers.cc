@@ -1,0 +1,140 @@
+#include "tagfield/localization/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tagfield/base/units.h"
+#include "tagfield/fit/circular_mean.h"
+#include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/holograms/hologram.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/residuals.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLeastSigma = 1e-3;  ///< [rad]
+constexpr double kMostOutliers = 0.2;
+
+/// Density of wrapped normal noise, of a deviation well under half a turn.
+Eigen::ArrayXd normal_density(const Eigen::ArrayXd& angles, double sigma) {
+  return (-0.5 * (angles / sigma).square()).exp() / (sigma * std::sqrt(kTwoPi));
+}
+
+double root_mean_square(const Eigen::ArrayXd& angles) {
+  return std::max(std::sqrt(angles.square().mean()), kLeastSigma);
+}
+
+double median_deviation(const Eigen::ArrayXd& angles) {
+  std::vector<double> sizes(angles.data(), angles.data() + angles.size());
+  for (double& size : sizes) size = std::abs(size);
+  const auto half = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), half, sizes.end());
+  return std::max(*half / 0.6745, kLeastSigma);
+}
+
+/// The brightest of the places found, climbed to; the search's own order is of coarser sums.
+PlaceVector brightest_of(const TagPhases& phases, const HeightModel& height,
+                         const std::vector<PlaceVector>& places) {
+  const std::vector<Aperture> whole = apertures(phases, kWholeAperture);
+  PlaceVector best = places.front();
+  double most = -1.0;
+  for (const PlaceVector& place : places) {
+    const PlaceVector top = climb(phases, whole, height, place);
+    const double light = coherence(phases, whole, height, top);
+    if (light > most) best = top;
+    most = std::max(most, light);
+  }
+  return best;
+}
+
+}  // namespace
+
+BrightestPlace brightest_place(const LocalizationProblem& problem, const std::string& tag,
+                               const SamplesOfTag& samples) {
+  BrightestPlace result;
+  if (!why_hopeless(samples).empty()) return result;
+  result.phases = coherent_reads(problem, samples);
+  if (!too_few(result.phases).empty()) return result;
+  const HeightModel height = height_model(problem, tag, result.phases);
+  const auto places = search_places(result.phases, height, SearchOptions{}, coherent_brightness);
+  if (places.empty()) return result;
+  const PlaceVector place = brightest_of(result.phases, height, places);
+  const Eigen::ArrayXd errors =
+      residuals_of(result.phases, height, {place, offsets_at(result.phases, height, place), 0.0});
+  result.residuals_rad = errors * result.phases.wavenumber;
+  result.reads_worth_one = correlation_factor(result.phases.spans, errors);
+  return result;
+}
+
+OutlierMixture outlier_mixture(const Eigen::ArrayXd& angles) {
+  constexpr int kRounds = 30;
+  OutlierMixture mixture;
+  mixture.sigma_rad = median_deviation(angles);
+  mixture.share = 0.05;
+  Eigen::ArrayXd of_noise;
+  for (int round = 0; round < kRounds; ++round) {
+    of_noise = (1.0 - mixture.share) * normal_density(angles, mixture.sigma_rad);
+    mixture.probability = 1.0 - of_noise / (of_noise + mixture.share / kTwoPi);
+    const Eigen::ArrayXd weights = 1.0 - mixture.probability;
+    const double sum = std::max(weights.sum(), 1e-9);
+    mixture.sigma_rad = std::max(std::sqrt((weights * angles.square()).sum() / sum), kLeastSigma);
+    mixture.share = std::clamp(mixture.probability.mean(), 1e-6, 1.0);
+  }
+  const Eigen::ArrayXd alone = normal_density(angles, root_mean_square(angles));
+  mixture.evidence = ((of_noise + mixture.share / kTwoPi).log() - alone.max(1e-300).log()).sum();
+  return mixture;
+}
+
+Eigen::ArrayXd less_neighbours(const TagPhases& phases, const Eigen::ArrayXd& residuals_rad) {
+  constexpr Eigen::Index kNeighbours = 4;
+  Eigen::ArrayXd less = residuals_rad;
+  for (const TagPhases::Span& span : phases.spans) {
+    if (span.count <= kNeighbours) continue;
+    const Eigen::Index end = span.begin + span.count;
+    for (Eigen::Index i = span.begin; i < end; ++i) {
+      CircularMean mean;
+      const Eigen::Index from = std::max(span.begin, i - kNeighbours);
+      for (Eigen::Index j = from; j < std::min(end, i + kNeighbours + 1); ++j) {
+        if (j != i) mean.add(residuals_rad[j]);
+      }
+      less[i] = wrap_to_pi(residuals_rad[i] - mean.value());
+    }
+  }
+  return less;
+}
+
+bool has_outliers(const OutlierMixture& mixture) {
+  return mixture.share < kMostOutliers &&
+         mixture.evidence > std::log(static_cast<double>(mixture.probability.size()));
+}
+
+std::size_t remove_outliers(const LocalizationProblem& problem, const std::string& tag,
+                            SamplesOfTag& samples) {
+  const BrightestPlace there = brightest_place(problem, tag, samples);
+  if (there.residuals_rad.size() == 0) return 0;
+  const OutlierMixture mixture =
+      outlier_mixture(less_neighbours(there.phases, there.residuals_rad));
+  if (!has_outliers(mixture)) return 0;
+  std::map<std::string, std::set<double>> stamps;
+  for (const TagPhases::Span& span : there.phases.spans) {
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      if (mixture.probability[i] > 0.5) stamps[span.antenna].insert(there.phases.time_s[i]);
+    }
+  }
+  std::size_t removed = 0;
+  for (auto& [antenna, series] : samples) {
+    const std::set<double>& of_antenna = stamps[antenna];
+    const auto kept = std::remove_if(series.begin(), series.end(), [&](const PhaseSample& sample) {
+      return of_antenna.count(to_seconds(sample.stamp)) > 0;
+    });
+    removed += static_cast<std::size_t>(series.end() - kept);
+    series.erase(kept, series.end());
+  }
+  return removed;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,211 @@
+#include "tagfield/localization/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tagfield/base/units.h"
+#include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/outliers.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kMostChance = 1e-4;
+constexpr double kReach = 12.0;  ///< Places are looked for within this [m].
+
+/// ln E e^(λ·2|cos(θ/2)|) over all θ, by the midpoint rule.
+double log_mean_of_two(double lambda) {
+  constexpr int kSteps = 64;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double angle = 0.5 * kPi * (i + 0.5) / kSteps;
+    sum += std::exp(2.0 * lambda * (std::cos(angle) - 1.0));
+  }
+  return 2.0 * lambda + std::log(sum / kSteps);
+}
+
+/// ln E e^(λ|S|) of n waves of any phase; of Rayleigh's law with σ² = n/2 that is
+/// ln(1 + a √(π/2) e^(a²/2) (1 + erf(a/√2))), a = λσ.
+double log_mean(double n, double lambda) {
+  if (n < 1.5) return lambda * n;
+  if (n < 2.5) return log_mean_of_two(lambda);
+  const double a = lambda * std::sqrt(0.5 * n);
+  const double tail = a * std::sqrt(kPi / 2.0) * (1.0 + std::erf(a / std::sqrt(2.0)));
+  return 0.5 * a * a + std::log(std::exp(-0.5 * a * a) + tail);
+}
+
+/// Different places within reach: λ/4 apart, phases have turned by up to half a turn.
+double places_within_reach(const TagPhases& phases) {
+  const double width = 2.0 * kReach + std::max(phases.x.maxCoeff() - phases.x.minCoeff(),
+                                               phases.y.maxCoeff() - phases.y.minCoeff());
+  return std::pow(width / (0.5 * longest_cycle(phases)), 2);
+}
+
+double log_chance_at(const TagPhases& phases, const HeightModel& height, const PlaceVector& place,
+                     double length) {
+  std::vector<double> reads;
+  const std::vector<Aperture> pieces = apertures(phases, length);
+  for (const Aperture& piece : pieces) reads.push_back(static_cast<double>(piece.count));
+  return log_chance(reads, coherence(phases, pieces, height, place), places_within_reach(phases));
+}
+
+/// The least over apertures: pose errors and reflections spoil long ones.
+double least_log_chance(const LocalizationProblem& problem, const std::string& tag,
+                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
+  const TagPhases phases = coherent_reads(problem, samples);
+  if (phases.size() == 0) return 0.0;
+  const HeightModel height = height_model(problem, tag, phases);
+  const PlaceVector place = to_unknowns(height, p_WT);
+  const double lambda = 2.0 * longest_cycle(phases);
+  double least = 0.0;
+  for (const double length : {1.5 * lambda, 4.5 * lambda, 13.5 * lambda, kWholeAperture}) {
+    least = std::min(least, log_chance_at(phases, height, place, length));
+  }
+  return least;
+}
+
+/// How many waves add up where most of them do, of all.
+double best_share(const LocalizationProblem& problem, const std::string& tag,
+                  const SamplesOfTag& samples) {
+  const BrightestPlace there = brightest_place(problem, tag, samples);
+  return there.residuals_rad.size() == 0 ? 0.0 : there.residuals_rad.cos().mean();
+}
+
+SamplesOfTag with_other_sign(SamplesOfTag samples) {
+  for (auto& [antenna, series] : samples) {
+    for (PhaseSample& sample : series) sample.phase_rad = wrap_to_two_pi(-sample.phase_rad);
+  }
+  return samples;
+}
+
+/// Tags with phases to tell the sign by: the first few that might be located.
+std::vector<const SamplesByTag::value_type*> telling_tags(const LocalizationProblem& problem) {
+  constexpr std::size_t kEnough = 3;
+  std::vector<const SamplesByTag::value_type*> telling;
+  for (const auto& entry : problem.samples) {
+    if (problem.reference_tags.count(entry.first) > 0) continue;
+    if (why_hopeless(entry.second).empty()) telling.push_back(&entry);
+    if (telling.size() == kEnough) break;
+  }
+  return telling;
+}
+
+void refuse(TagEstimate& estimate, const std::string& why) {
+  estimate = not_located(std::move(estimate), why);
+}
+
+/// Calls it for each tag with a place that was not given, with its samples.
+template <typename Call>
+void for_each_place(const LocalizationProblem& problem, LocalizationResult& result,
+                    const Call& call) {
+  for (TagEstimate& estimate : result.estimates) {
+    const auto samples = problem.samples.find(estimate.tag);
+    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
+    if (problem.reference_tags.count(estimate.tag) == 0) call(samples->second, estimate);
+  }
+}
+
+std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {
+  std::vector<Eigen::Vector2d> places;
+  for (const auto& [antenna, series] : samples) {
+    for (const PhaseSample& sample : series) places.emplace_back(sample.p_WA.head<2>());
+  }
+  return places;
+}
+
+}  // namespace
+
+double log_chance(const std::vector<double>& reads, double sum, double places) {
+  std::map<double, double> groups;  // How many are of so many reads.
+  for (const double n : reads) groups[n] += 1.0;
+  double least = 0.0;
+  for (double lambda = 0.02; lambda < 40.0; lambda *= 1.25) {
+    double bound = -lambda * sum;
+    for (const auto& [n, count] : groups) bound += count * log_mean(n, lambda);
+    least = std::min(least, bound);
+  }
+  return std::log(places) + least;
+}
+
+void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result) {
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const double chance =
+        least_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
+    if (chance > std::log(kMostChance)) {
+      refuse(estimate, "the phases say nothing: chance fits them as well");
+    }
+  });
+}
+
+void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result) {
+  constexpr double kMostElsewhere = 0.25;
+  constexpr double kFits = 0.5;  // [rad]
+  if (!result.corrected_poses.empty()) return;
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const TagPhases phases = coherent_reads(problem, samples);
+    if (phases.size() == 0) return;
+    const HeightModel height = height_model(problem, estimate.tag, phases);
+    const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+    const Eigen::ArrayXd errors =
+        residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
+    const OutlierMixture mixture = outlier_mixture(errors * phases.wavenumber);
+    const double certain = std::log(static_cast<double>(phases.size()));
+    if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
+      refuse(estimate, fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads "
+                                   "belong elsewhere",
+                                   100.0 * mixture.share));
+    }
+  });
+}
+
+void span_mirror_images(const LocalizationProblem& problem, LocalizationResult& result) {
+  constexpr double kNear = 0.05;      // [m]
+  constexpr double kStraight = 0.05;  // [m]
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    if (estimate.verdict != Verdict::kLocated) return;
+    const std::vector<Eigen::Vector2d> places = places_of(samples);
+    const WayLine way = way_line(places);
+    const Eigen::Vector2d across(-way.along.y(), way.along.x());
+    const bool is_straight = std::all_of(places.begin(), places.end(), [&](const auto& place) {
+      return std::abs(across.dot(place - way.middle)) < kStraight;
+    });
+    Candidate& best = estimate.candidates.front();
+    const double away = across.dot(best.p_WT.head<2>() - way.middle);
+    if (!is_straight || std::abs(away) > kNear) return;
+    // One of two places 2·away apart, either as likely, less the one that is given.
+    const double variance = 2.0 * away * away;
+    if (best.covariance) {
+      best.covariance->topLeftCorner<2, 2>() += variance * across * across.transpose();
+    }
+    best.expected_error_m = std::hypot(best.expected_error_m, std::sqrt(variance));
+  });
+}
+
+void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& result,
+                       Diagnostics& diagnostics) {
+  // A phase that fits with one sign leaves a radian or so of deviation with the other.
+  constexpr double kBetter = 0.1;
+  std::size_t wrong = 0;
+  const auto telling = telling_tags(problem);
+  for (const auto* entry : telling) {
+    const double as_told = best_share(problem, entry->first, entry->second);
+    const double other = best_share(problem, entry->first, with_other_sign(entry->second));
+    if (other > as_told + kBetter && other > 0.5) ++wrong;
+  }
+  if (wrong == 0 || 2 * wrong <= telling.size()) return;
+  diagnostics.warn(
+      "the phases fit places with the other sign only: they fall with distance (a dataset's "
+      "profile "
+      "says so by falls_with_distance: true), or antennas are mixed up");
+  for (TagEstimate& estimate : result.estimates) {
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    refuse(estimate, "the phase falls with distance, where it should grow");
+  }
+}
+
+}  // namespace tagfield

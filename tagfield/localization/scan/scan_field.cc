@@ -1,0 +1,219 @@
+#include "tagfield/localization/scan/scan_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+
+#include "tagfield/base/units.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+/// A way is straight that strays from its line by less than this part of a wavelength.
+constexpr double kStraight = 1.0 / 8.0;
+constexpr double kPlace = 1.0 / 20.0;  ///< Reads so near together are of one place [λ].
+constexpr double kGap = 1.0 / 4.0;     ///< Over longer gaps phases are not followed [λ].
+constexpr double kShortest = 1.0;      ///< Shorter scans tell directions at best [λ].
+
+ScanLine line_of(const std::vector<PhaseSample>& series) {
+  ScanLine line;
+  for (const PhaseSample& sample : series) {
+    line.middle += sample.p_WA.head<2>() / static_cast<double>(series.size());
+  }
+  const auto furthest = [&](const Eigen::Vector2d& from) -> Eigen::Vector2d {
+    return std::max_element(series.begin(), series.end(),
+                            [&](const PhaseSample& a, const PhaseSample& b) {
+                              return (a.p_WA.head<2>() - from).norm() <
+                                     (b.p_WA.head<2>() - from).norm();
+                            })
+        ->p_WA.head<2>();
+  };
+  const Eigen::Vector2d begin = series.front().p_WA.head<2>();
+  const Eigen::Vector2d end = furthest(begin);
+  if ((end - begin).norm() > 0.0) line.along = (end - begin).normalized();
+  line.middle = begin + line.along * line.along.dot(line.middle - begin);
+  return line;
+}
+
+/// How far from the line the way strays [m].
+double straying(const ScanLine& line, const std::vector<PhaseSample>& series) {
+  double most = 0.0;
+  for (const PhaseSample& sample : series) {
+    most = std::max(most, std::abs(line.left().dot(sample.p_WA.head<2>() - line.middle)));
+    most = std::max(most, std::abs(sample.p_WA.z() - series.front().p_WA.z()));
+  }
+  return most;
+}
+
+/// The sum of the reads of one channel at one place.
+struct Cell {
+  std::complex<double> waves = 0.0;
+  double decibels = 0.0;
+  double along_m = 0.0;
+  double reads = 0.0;
+};
+
+using Channel = std::map<int, Cell>;  ///< By place.
+
+std::map<double, Channel> channels_of(const ScanLine& line, double place_m,
+                                      const std::vector<PhaseSample>& series) {
+  std::map<double, Channel> channels;
+  for (const PhaseSample& sample : series) {
+    const double along = line.along.dot(sample.p_WA.head<2>() - line.middle);
+    const int place = static_cast<int>(std::lround(along / place_m));
+    Cell& cell = channels[sample.frequency_hz][place];
+    cell.waves += std::polar(1.0, sample.phase_rad);
+    cell.decibels += sample.rssi_dbm;
+    cell.along_m += along;
+    cell.reads += 1.0;
+  }
+  for (auto& [carrier, places] : channels) {
+    for (auto& [place, cell] : places) {
+      cell.waves /= std::max(std::abs(cell.waves), 1e-12);
+      cell.decibels /= cell.reads;
+      cell.along_m /= cell.reads;
+    }
+  }
+  return channels;
+}
+
+/// All channels as one, each turned so that it agrees best with the others.
+Channel in_agreement(const std::map<double, Channel>& channels) {
+  constexpr int kRounds = 4;
+  const auto longest = std::max_element(
+      channels.begin(), channels.end(),
+      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  Channel together = longest->second;
+  for (int round = 0; round < kRounds; ++round) {
+    Channel sum;
+    for (const auto& [carrier, places] : channels) {
+      std::complex<double> turn = 0.0;
+      for (const auto& [place, cell] : places) {
+        const auto other = together.find(place);
+        if (other != together.end()) turn += cell.waves * std::conj(other->second.waves);
+      }
+      if (std::abs(turn) < 1e-9) continue;
+      const std::complex<double> back = std::conj(turn) / std::abs(turn);
+      for (const auto& [place, cell] : places) {
+        Cell& all = sum[place];
+        all.waves += back * cell.waves;
+        all.decibels += cell.decibels;
+        all.along_m += cell.along_m;
+        all.reads += 1.0;
+      }
+    }
+    together = std::move(sum);
+  }
+  for (auto& [place, cell] : together) {
+    cell.decibels /= cell.reads;
+    cell.along_m /= cell.reads;
+  }
+  return together;
+}
+
+/// The longest stretch without a gap.
+std::vector<Cell> longest_stretch(const Channel& places, double gap_m) {
+  std::vector<Cell> longest;
+  std::vector<Cell> stretch;
+  for (const auto& [place, cell] : places) {
+    if (!stretch.empty() && cell.along_m - stretch.back().along_m > gap_m) stretch.clear();
+    stretch.push_back(cell);
+    if (stretch.size() > longest.size()) longest = stretch;
+  }
+  return longest;
+}
+
+/// Of a field that comes from anywhere: n² over the squares of its correlation, sin(kd)/(kd),
+/// summed over all pairs of places.
+double independent_samples(const ScanField& scan) {
+  double sum = 0.0;
+  for (const double a : scan.along_m) {
+    for (const double b : scan.along_m) {
+      const double x = scan.wavenumber * std::abs(a - b);
+      const double correlation = x > 1e-6 ? std::sin(x) / x : 1.0;
+      sum += correlation * correlation;
+    }
+  }
+  const auto count = static_cast<double>(scan.along_m.size());
+  return count * count / sum;
+}
+
+void fill(const std::vector<Cell>& cells, bool doubled, ScanField& scan) {
+  const auto count = static_cast<Eigen::Index>(cells.size());
+  scan.along_m.resize(count);
+  scan.field.resize(count);
+  const double ways = doubled ? 4.0 : 2.0;
+  double phase = std::arg(cells.front().waves);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Cell& cell = cells[static_cast<std::size_t>(i)];
+    phase += wrap_to_pi(std::arg(cell.waves) - phase);
+    scan.along_m[i] = cell.along_m;
+    // Without RSSI all places count alike.
+    const double amplitude =
+        cell.decibels > kNoRssi + 1.0 ? std::pow(10.0, cell.decibels / 40.0) : 1.0;
+    scan.field[i] = std::polar(amplitude, phase / ways);
+  }
+  scan.field /= std::sqrt(scan.field.abs2().sum());
+  scan.begin_m = scan.along_m[0];
+  scan.end_m = scan.along_m[count - 1];
+  scan.samples = independent_samples(scan);
+}
+
+double mean_carrier(const std::vector<PhaseSample>& series) {
+  double low = series.front().frequency_hz;
+  double high = low;
+  for (const PhaseSample& sample : series) {
+    low = std::min(low, sample.frequency_hz);
+    high = std::max(high, sample.frequency_hz);
+  }
+  return 0.5 * (low + high);
+}
+
+const std::vector<PhaseSample>* longest_series(const SamplesOfTag& samples) {
+  const std::vector<PhaseSample>* longest = nullptr;
+  for (const auto& [antenna, series] : samples) {
+    if (extent_of(series) < kStillExtent) continue;
+    if (longest == nullptr || series.size() > longest->size()) longest = &series;
+  }
+  return longest;
+}
+
+}  // namespace
+
+ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
+                     const SamplesOfTag& samples) {
+  ScanField scan;
+  scan.why_not = why_hopeless(samples);
+  if (!scan.why_not.empty()) return scan;
+  const std::vector<PhaseSample>& series = *longest_series(samples);
+  const double carrier = mean_carrier(series);
+  const double lambda = wavelength(carrier) * (problem.half_turns ? 2.0 : 1.0);
+  scan.line = line_of(series);
+  scan.wavenumber = kTwoPi / lambda;
+  scan.up_m = plane_height(problem, tag) - series.front().p_WA.z();
+  if (extent_of(series) > kLongestScan) {
+    scan.why_not = fmt::format("the scan is {:.1f} m long, at most {:.1f} m are looked at as one",
+                               extent_of(series), kLongestScan);
+    return scan;
+  }
+  const double strays = straying(scan.line, series);
+  if (strays > kStraight * lambda) {
+    scan.why_not = fmt::format("the antenna's way is not straight: it strays by {:.2f} m", strays);
+    return scan;
+  }
+  const Channel together = in_agreement(channels_of(scan.line, kPlace * lambda, series));
+  const std::vector<Cell> cells = longest_stretch(together, kGap * lambda);
+  if (cells.size() < kFewestReads ||
+      cells.back().along_m - cells.front().along_m < kShortest * lambda) {
+    scan.why_not = "the phase could not be followed over a wavelength of the antenna's way";
+    return scan;
+  }
+  fill(cells, problem.half_turns, scan);
+  return scan;
+}
+
+}  // namespace tagfield

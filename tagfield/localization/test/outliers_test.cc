@@ -1,0 +1,86 @@
+#include "tagfield/localization/outliers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tagfield/localization/locate.h"
+#include "tagfield/localization/test/problem_of.h"
+
+namespace tagfield {
+namespace {
+
+using made::Rng;
+
+Eigen::ArrayXd angles(int count, double sigma, double share, Rng& rng) {
+  Eigen::ArrayXd of(count);
+  for (double& angle : of) {
+    const bool is_outlier = made::uniform(rng, 0.0, 1.0) < share;
+    angle = is_outlier ? made::uniform(rng, -kPi, kPi) : made::normal(rng, sigma);
+  }
+  return of;
+}
+
+TEST(Outliers, MixtureFindsNoiseAndShare) {
+  Rng rng(1);
+  const OutlierMixture mixture = outlier_mixture(angles(20000, 0.1, 0.05, rng));
+  EXPECT_NEAR(mixture.sigma_rad, 0.1, 0.003);
+  EXPECT_NEAR(mixture.share, 0.05, 0.006);
+  EXPECT_TRUE(has_outliers(mixture));
+}
+
+TEST(Outliers, AreNotClaimedOfNoiseAlone) {
+  Rng rng(2);
+  int claims = 0;
+  for (int i = 0; i < 1000; ++i) {
+    claims += has_outliers(outlier_mixture(angles(200, 0.3, 0.0, rng))) ? 1 : 0;
+  }
+  EXPECT_LE(claims, 10);
+}
+
+TEST(Outliers, AreTakenOutAndOthersLeft) {
+  Rng rng(3);
+  const made::Path path = made::s_curve(10.0, 0.02);
+  made::Hall hall = made::hall(path, path, 1, {}, rng);
+  SamplesOfTag& samples = hall.problem.samples["t0"];
+  const std::size_t before = samples["a"].size();
+  std::size_t spoilt = 0;
+  for (PhaseSample& sample : samples["a"]) {
+    if (made::uniform(rng, 0.0, 1.0) > 0.05) continue;
+    sample.phase_rad = made::uniform(rng, 0.0, kTwoPi);
+    ++spoilt;
+  }
+  const std::size_t removed = remove_outliers(hall.problem, "t0", samples);
+  EXPECT_EQ(samples["a"].size() + removed, before);
+  // One in ten of any value is within 0.3 rad of the right one.
+  EXPECT_GT(static_cast<double>(removed), 0.75 * static_cast<double>(spoilt));
+  EXPECT_LT(static_cast<double>(removed), 1.2 * static_cast<double>(spoilt));
+}
+
+/// `auto` with one in 20 reads of any value errs as without them.
+TEST(Outliers, DoNotHurtTheAutomaticChoice) {
+  Rng rng(4);
+  const made::Path path = made::s_curve(12.0, 0.02);
+  made::Hall hall = made::hall(path, path, 12, {}, rng);
+  double errors[2] = {0.0, 0.0};
+  for (const int spoilt : {0, 1}) {
+    for (auto& [tag, samples] : hall.problem.samples) {
+      for (PhaseSample& sample : samples["a"]) {
+        if (spoilt == 1 && made::uniform(rng, 0.0, 1.0) < 0.05) {
+          sample.phase_rad = made::uniform(rng, 0.0, kTwoPi);
+        }
+      }
+    }
+    Diagnostics diagnostics;
+    const auto result =
+        find_method(built_in_methods(), "auto").locate(hall.problem, 2, diagnostics);
+    for (const TagEstimate& estimate : result.estimates) {
+      ASSERT_EQ(estimate.verdict, Verdict::kLocated) << estimate.reason;
+      errors[spoilt] += (estimate.candidates.front().p_WT - hall.truth[estimate.tag]).norm() / 12.0;
+    }
+  }
+  EXPECT_LT(errors[1], 1.5 * errors[0] + 1e-3);
+}
+
+}  // namespace
+}  // namespace tagfield

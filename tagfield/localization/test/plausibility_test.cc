@@ -1,0 +1,132 @@
+#include "tagfield/localization/plausibility.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "tagfield/localization/locate.h"
+#include "tagfield/localization/test/problem_of.h"
+
+namespace tagfield {
+namespace {
+
+using made::Rng;
+
+/// Σ|S_g| of waves of any phase.
+double random_sum(const std::vector<double>& reads, Rng& rng) {
+  double sum = 0.0;
+  for (const double n : reads) {
+    std::complex<double> waves = 0.0;
+    for (int i = 0; i < static_cast<int>(n); ++i) {
+      waves += std::polar(1.0, made::uniform(rng, 0.0, kTwoPi));
+    }
+    sum += std::abs(waves);
+  }
+  return sum;
+}
+
+TEST(Plausibility, ChanceIsBoundedFromAbove) {
+  Rng rng(1);
+  constexpr int kDraws = 20000;
+  for (const std::vector<double>& reads :
+       {std::vector<double>{100.0}, std::vector<double>(50, 7.0), std::vector<double>(30, 1.0)}) {
+    int beyond = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      beyond += log_chance(reads, random_sum(reads, rng), 1.0) < std::log(0.05) ? 1 : 0;
+    }
+    EXPECT_LE(beyond, 0.05 * kDraws) << reads.size();
+  }
+}
+
+TEST(Plausibility, FreeOffsetsCount) {
+  // A read each: all waves add up, whatever they are.
+  EXPECT_GE(log_chance(std::vector<double>(100, 1.0), 100.0, 1.0), 0.0);
+  // The same sum of one group is no chance.
+  EXPECT_LT(log_chance({100.0}, 100.0, 1e6), std::log(1e-20));
+}
+
+TEST(Plausibility, NoMethodPlacesRandomPhases) {
+  Rng rng(2);
+  const made::Path path = made::s_curve(6.0, 0.02);
+  made::Hall hall = made::hall(path, path, 40, {}, rng);
+  for (auto& [tag, samples] : hall.problem.samples) {
+    int i = 0;
+    for (PhaseSample& sample : samples["a"]) {
+      sample.phase_rad = made::uniform(rng, 0.0, kTwoPi);
+      sample.frequency_hz = 902.75e6 + 0.5e6 * (++i / 6 % 50);
+    }
+  }
+  for (const char* name : {"hyperbola", "ml", "sar"}) {
+    Diagnostics diagnostics;
+    LocalizationResult result =
+        find_method(built_in_methods(), name).locate(hall.problem, 2, diagnostics);
+    refuse_chance(hall.problem, result);
+    for (const TagEstimate& estimate : result.estimates) {
+      EXPECT_EQ(estimate.verdict, Verdict::kNotLocated) << name << " " << estimate.tag;
+    }
+  }
+}
+
+TEST(Plausibility, TwoTagsUnderOneNameAreNone) {
+  Rng rng(4);
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Hall hall = made::hall(path, path, 12, {}, rng);
+  for (int i = 0; i < 12; i += 2) {
+    auto& mixed = hall.problem.samples["t" + std::to_string(i)]["a"];
+    for (const PhaseSample& of_other : hall.problem.samples["t" + std::to_string(i + 1)]["a"]) {
+      for (PhaseSample& sample : mixed) {
+        if (sample.stamp == of_other.stamp && made::uniform(rng, 0.0, 1.0) < 0.5) sample = of_other;
+      }
+    }
+    hall.problem.samples.erase("t" + std::to_string(i + 1));
+  }
+  Diagnostics diagnostics;
+  LocalizationResult result =
+      find_method(built_in_methods(), "sar").locate(hall.problem, 2, diagnostics);
+  refuse_mixtures(hall.problem, result);
+  for (const TagEstimate& estimate : result.estimates) {
+    EXPECT_NE(estimate.verdict, Verdict::kLocated) << estimate.tag;
+  }
+}
+
+TEST(Plausibility, ATagOnAStraightWaysLineMayBeOnEitherSide) {
+  Rng rng(5);
+  const made::Path path = made::straight(6.0, 0.02);
+  LocalizationProblem problem;
+  const Eigen::Vector3d tag(3.0, 0.012, 0.4);
+  problem.samples["t"]["a"] = made::read_along(path, tag, {}, rng);
+  problem.pose_error = PoseErrorModel{};
+  Diagnostics diagnostics;
+  LocalizationResult result = find_method(built_in_methods(), "ml").locate(problem, 1, diagnostics);
+  span_mirror_images(problem, result);
+  TagEstimate& estimate = result.estimates.front();
+  if (estimate.verdict != Verdict::kLocated) return;
+  const double error = (estimate.candidates.front().p_WT - tag).norm();
+  EXPECT_LT(error, 5.0 * estimate.candidates.front().expected_error_m);
+  EXPECT_GT(estimate.candidates.front().expected_error_m, 0.01);
+}
+
+TEST(Plausibility, SaysThatTheSignIsWrong) {
+  Rng rng(3);
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Hall hall = made::hall(path, path, 6, {}, rng);
+  for (const bool turned : {false, true}) {
+    if (turned) {
+      for (auto& [tag, samples] : hall.problem.samples) {
+        for (PhaseSample& sample : samples["a"]) sample.phase_rad = kTwoPi - sample.phase_rad;
+      }
+    }
+    Diagnostics diagnostics;
+    LocalizationResult result =
+        find_method(built_in_methods(), "sar").locate(hall.problem, 2, diagnostics);
+    refuse_wrong_sign(hall.problem, result, diagnostics);
+    EXPECT_EQ(diagnostics.warnings().size(), turned ? 1U : 0U);
+    for (const TagEstimate& estimate : result.estimates) {
+      EXPECT_EQ(estimate.verdict == Verdict::kLocated, !turned) << estimate.reason;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tagfield
