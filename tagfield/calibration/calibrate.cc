@@ -373,8 +373,6 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
   parallel_for(usable.size(), threads, [&](std::size_t i) {
     results[i] = calibration_of(*usable[i], options, calibration.half_turns);
   });
-  // Phases of any value are left with two radians or so by any fit.
-  constexpr double kMostNoise = 1.0;
   for (std::size_t i = 0; i < usable.size(); ++i) {
     if (results[i]) {
       calibration.antennas[usable[i]->name] = std::move(*results[i]);
