@@ -50,6 +50,7 @@ double log_chance_at(const TagPhases& phases, const HeightModel& height, const P
                      double length) {
   std::vector<double> reads;
   const std::vector<Aperture> pieces = apertures(phases, length);
+  reads.reserve(pieces.size());
   for (const Aperture& piece : pieces) reads.push_back(static_cast<double>(piece.count));
   return log_chance(reads, coherence(phases, pieces, height, place), places_within_reach(phases));
 }
