@@ -156,6 +156,29 @@ LocalizationProblem without_outliers(const LocalizationProblem& given, int threa
   return cleaned;
 }
 
+/// Of the tags, how many the result places.
+std::size_t places_in(const LocalizationResult& result) {
+  return static_cast<std::size_t>(std::count_if(
+      result.estimates.begin(), result.estimates.end(),
+      [](const TagEstimate& estimate) { return estimate.verdict == Verdict::kLocated; }));
+}
+
+/// Short stretches may still be followed together with the pose's error, which adding up waves
+/// leaves in. Believed where it leaves no more than noise and places no fewer tags.
+void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& problem,
+                 const DataTraits& traits, int threads, Diagnostics& diagnostics, Choice& choice,
+                 LocalizationResult& result) {
+  Diagnostics of_joint;
+  LocalizationResult joint = find_method(methods, "joint").locate(problem, threads, of_joint);
+  if (places_in(joint) < std::max<std::size_t>(places_in(result), 1)) return;
+  if (misfit_left(joint, traits.noise_m) > kLeftOver) return;
+  for (const std::string& warning : of_joint.warnings()) diagnostics.warn(warning);
+  result = std::move(joint);
+  choice = {"joint", fmt::format("the pose is not exact, and with its error estimated the phases "
+                                 "can be followed, over {:.0f} reads in the mean",
+                                 traits.reads_a_stretch)};
+}
+
 /// Chooses among these and runs the chosen one.
 LocateFunction among(const std::vector<Method>& methods) {
   return [methods](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
@@ -177,6 +200,9 @@ LocateFunction among(const std::vector<Method>& methods) {
                                    "the noise, as reflections make it",
                                    misfit)};
       result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
+    }
+    if (choice.method == "sar" && misfit == 0.0 && !traits.pose_is_exact) {
+      try_jointly(methods, problem, traits, threads, diagnostics, choice, result);
     }
     result.why = choice.why;
     return result;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "tagfield/base/units.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/test/problem_of.h"
 #include "tagfield/localization/test/reflections.h"
@@ -66,6 +69,41 @@ TEST(Automatic, AddsUpWavesWhereTheCarrierHops) {
   EXPECT_EQ(traits.channels, 4U);
   EXPECT_LT(traits.reads_a_stretch, 6.0);
   EXPECT_EQ(choose_method(traits, 0).method, "sar");
+}
+
+/// On ten carriers 0.5 MHz apart, 8 reads each, with an offset of each; the true phases anew.
+void hop(const made::Path& path, made::Hall& hall, made::Rng& rng) {
+  for (auto& [tag, samples] : hall.problem.samples) {
+    for (PhaseSample& sample : samples["a"]) {
+      const double time = to_seconds(sample.stamp) - made::ReaderSetup{}.start_s;
+      const auto i = static_cast<std::size_t>(std::lround(time * made::kPathRate));
+      const auto channel = static_cast<double>(i / 8 * 7 % 10);
+      sample.frequency_hz = 902.75e6 + 0.5e6 * channel;
+      const double distance = (path.at(i) - hall.truth.at(tag)).norm();
+      sample.phase_rad = wrap_to_two_pi(2.0 * kTwoPi / wavelength(sample.frequency_hz) * distance +
+                                        2.1 * channel + made::normal(rng, 0.05));
+    }
+  }
+}
+
+TEST(Automatic, EstimatesThePoseErrorWhereTheCarrierHopsToo) {
+  made::Noise noise;
+  noise.pose_m = 0.01;
+  made::Rng rng(1);
+  const made::Path path = made::aisles(0.02);
+  made::Hall hall =
+      made::hall(path, made::believed(path, noise, made::kPathRate, rng), 8, noise, rng);
+  hop(path, hall, rng);
+  EXPECT_EQ(choice_for(hall.problem).method, "sar");  // At first sight.
+  Diagnostics diagnostics;
+  const LocalizationResult result =
+      find_method(built_in_methods(), "auto").locate(hall.problem, 2, diagnostics);
+  EXPECT_EQ(result.method, "joint") << result.why;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) continue;
+    const Candidate& place = estimate.candidates.front();
+    EXPECT_LT((place.p_WT - hall.truth.at(estimate.tag)).norm(), 0.1) << estimate.tag;
+  }
 }
 
 TEST(Automatic, GoesBySignalStrengthWhereAntennasStand) {
