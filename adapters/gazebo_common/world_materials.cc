@@ -32,7 +32,7 @@ bool truth_in(const RawParameter& parameter) {
 }
 
 std::string name_of(const sdf::ElementPtr& element) {
-  const std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
+  std::string name = element->HasAttribute("name") ? element->Get<std::string>("name") : "";
   if (name.empty()) throw Error(fmt::format("<{}> has no name=\"…\"", element->GetName()));
   return name;
 }

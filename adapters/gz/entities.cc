@@ -21,7 +21,7 @@ std::string scoped_name_of(Entity entity, const EntityComponentManager& ecm) {
   for (Entity above = parent_of(entity, ecm);
        above != gz_sim::kNullEntity && ecm.Component<components::World>(above) == nullptr;
        above = parent_of(above, ecm)) {
-    name = name_of(above, ecm) + "::" + name;
+    name.insert(0, name_of(above, ecm).append("::"));
   }
   return name;
 }

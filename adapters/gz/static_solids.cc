@@ -25,7 +25,7 @@ namespace components = gz_sim::components;
 
 /// Name of the script or "rgba(r, g, b, a)" of the colour that a visual wears; "" for neither.
 std::string look_of(const sdf::Material& material) {
-  const std::string script = material.ScriptName();
+  std::string script = material.ScriptName();
   if (!script.empty() && script != "__default__") return script;
   if (!material.Element() || !material.Element()->HasElement("diffuse")) return "";
   const auto color = material.Diffuse();

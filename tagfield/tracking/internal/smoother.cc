@@ -320,7 +320,8 @@ double evidence_of(const Input& input, const Slots& slots, const Forward& forwar
                    const Smoothed& smoothed) {
   const auto count = static_cast<double>(input.pass.reads.size());
   double log_evidence = forward.log_likelihood + 0.5 * count * std::log(kTwoPi);
-  log_evidence += 0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastNoise));
+  log_evidence +=
+      0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastNoise));
   const Slots before = slots_of(input.pass);
   for (std::size_t i = 0; i < slots.fresh.size(); ++i) {
     if (slots.fresh[i] == 0 || input.pass.reads[i].offset_known) continue;
