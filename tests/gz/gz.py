@@ -39,6 +39,14 @@ def environment(context):
     return env
 
 
+def require_server():
+    """Ends the test as skipped, with one line, where no server was built."""
+    build = pathlib.Path(sys.argv[sys.argv.index("--build") + 1])
+    if not (build / "bin/gz_test_server").exists():
+        print(f"skipped: {MISSING}")
+        sys.exit(77)
+
+
 def serve(context, world, script, before=()):
     """Runs the script in a server with the world's text, by a command that others stand before; gives
     all that it said."""

@@ -9,7 +9,7 @@ import subprocess
 
 from gz import (
     Skip, antenna, case, check, check_equal, check_in, check_near, errors, main,
-    model, read_csv, recorded, sensor, serve, tag, world)
+    model, read_csv, recorded, require_server, sensor, serve, tag, world)
 from hall import SECONDS, headless, reads_in, scenario
 
 
@@ -247,4 +247,5 @@ def a_world_of_gazebo_11_is_read_after_its_conversion(context):
 
 
 if __name__ == "__main__":
+    require_server()
     main()
