@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -48,27 +49,29 @@ bool truth_in(const RawParameter& parameter) {
   throw Error(fmt::format("<{}> is '{}', expected true or false", parameter.key, parameter.value));
 }
 
-/// Takes what is its own out of the plugin's elements.
-Settings take_settings(const sdf::ElementPtr& plugin) {
-  Settings settings;
-  std::vector<sdf::ElementPtr> own;
-  for (sdf::ElementPtr child = plugin->GetFirstElement(); child; child = child->GetNextElement()) {
-    const sdf::ParamPtr value = child->GetValue();
-    const RawParameter parameter{child->GetName(), value ? value->GetAsString() : "", {}};
-    if (parameter.key == "ros2") {
-      settings.ros2 = truth_in(parameter);
-    } else if (parameter.key == "domain") {
-      settings.domain = ros2::domain_in(parameter.value, "<domain>");
-    } else if (parameter.key == "clock") {
-      settings.clock = truth_in(parameter);
-    } else if (parameter.key == "mcap") {
-      settings.mcap = parameter.value;
-    } else {
-      continue;
+constexpr std::array<const char*, 4> kOwn = {"ros2", "domain", "clock", "mcap"};
+
+/// Takes what is its own out of the plugin's elements, so that materials are left.
+std::vector<RawParameter> take_own(const sdf::ElementPtr& plugin) {
+  std::vector<RawParameter> own;
+  for (const char* const key : kOwn) {
+    for (const sdf::ElementPtr& element : children(plugin, key)) {
+      const sdf::ParamPtr value = element->GetValue();
+      own.push_back({key, value ? value->GetAsString() : "", {}});
+      element->RemoveFromParent();
     }
-    own.push_back(child);
   }
-  for (const sdf::ElementPtr& element : own) element->RemoveFromParent();
+  return own;
+}
+
+Settings settings_in(const std::vector<RawParameter>& own) {
+  Settings settings;
+  for (const RawParameter& parameter : own) {
+    if (parameter.key == "ros2") settings.ros2 = truth_in(parameter);
+    if (parameter.key == "domain") settings.domain = ros2::domain_in(parameter.value, "<domain>");
+    if (parameter.key == "clock") settings.clock = truth_in(parameter);
+    if (parameter.key == "mcap") settings.mcap = parameter.value;
+  }
   return settings;
 }
 
@@ -104,8 +107,9 @@ class Rfid final : public gz_sim::System,
                  gz_sim::EntityComponentManager& /*ecm*/,
                  gz_sim::EventManager& /*events*/) override {
     const sdf::ElementPtr plugin = sdf->Clone();
-    Settings settings;
-    attempt("ROS 2 and MCAP stay off", [&] { settings = take_settings(plugin); });
+    const std::vector<RawParameter> own = take_own(plugin);
+    Settings settings{false, {}, false, ""};  // Of wrong ones none counts.
+    attempt("ROS 2 and MCAP stay off", [&] { settings = settings_in(own); });
     RadioWorldOptions materials;
     attempt("left out", [&] { materials = materials_of(plugin); });
     Outlets outlets;

@@ -171,7 +171,8 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
   Diagnostics of_joint;
   LocalizationResult joint = find_method(methods, "joint").locate(problem, threads, of_joint);
   if (places_in(joint) < std::max<std::size_t>(places_in(result), 1)) return;
-  if (misfit_left(joint, traits.noise_m) > kLeftOver) return;
+  // Of phases that nobody could follow there is no noise to hold it against.
+  if (!(traits.noise_m > 0.0) || misfit_left(joint, traits.noise_m) > kLeftOver) return;
   for (const std::string& warning : of_joint.warnings()) diagnostics.warn(warning);
   result = std::move(joint);
   choice = {"joint", fmt::format("the pose is not exact, and with its error estimated the phases "

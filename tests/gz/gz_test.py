@@ -104,6 +104,8 @@ def a_wrong_parameter_is_one_error_and_the_rest_goes_on(context):
                  "<domain> is '400', expected a whole number from 0 to 232"):
         check_equal(len([line for line in found if part in line]), 1, f"errors with {part!r}")
     check_equal(len(found), 5, f"errors, of {found}")
+    check("<mcap>" not in said and "<ros2>" not in said, "its own elements are taken for materials")
+    check(not (context.folder / "run.mcap").exists(), "a wrong domain was told, and it recorded")
     check("wall " in said, "the server did not live")
 
 
