@@ -72,6 +72,9 @@ Settings settings_in(const std::vector<RawParameter>& own) {
     if (parameter.key == "clock") settings.clock = truth_in(parameter);
     if (parameter.key == "mcap") settings.mcap = parameter.value;
   }
+  if (!settings.ros2 && (settings.domain || settings.clock)) {
+    tell_warning(fmt::format("{}: <domain> and <clock> have no effect without <ros2>", kPlace));
+  }
   return settings;
 }
 

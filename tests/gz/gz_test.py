@@ -114,8 +114,9 @@ def settings_without_effect_are_warned_of(context):
     said = serve(context, world(
         model("gate", "0 0 1 0 0 0", sensor("gate", "rfid_antenna", "<rnge>3</rnge>",
                                             "<topic>mine</topic>")),
-        settings="<made_off>metal</made_off>"), ["run 0.1"])
-    for part in ("rnge", "<topic> has no effect: reads are on /rfid/reads", "<made_off>"):
+        settings="<made_off>metal</made_off><clock>true</clock>"), ["run 0.1"])
+    for part in ("rnge", "<domain> and <clock> have no effect without <ros2>",
+                 "<topic> has no effect: reads are on /rfid/reads", "<made_off>"):
         check_in(part, said, "what the server said")
 
 
