@@ -17,7 +17,8 @@ namespace tagfield {
 namespace {
 
 /// Methods that may be chosen.
-constexpr const char* kChosen[] = {"joint", "ml", "sar", "scan", "trilateration", "landmarc"};
+constexpr const char* kChosen[] = {"joint",         "ml",      "sar", "robust", "scan",
+                                   "trilateration", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
@@ -102,15 +103,18 @@ void add_scans(const std::vector<Look>& looks, DataTraits& traits) {
   double scans = 0.0;
   double unexplained = 0.0;
   double spoilt = 0.0;
+  double bent = 0.0;
   for (const Look& look : looks) {
     all += look.samples;
     if (look.has_outliers) spoilt += look.samples;
+    if (look.reads_worth_one > kSlow) bent += look.samples;
     if (!look.is_short_scan) continue;
     scans += look.samples;
     if (look.reads_worth_one > kSlow) unexplained += look.samples;
   }
   traits.short_scans = all > 0.0 ? scans / all : 0.0;
   traits.has_outliers = spoilt > kMost * all;
+  traits.bent = all > 0.0 ? bent / all : 0.0;
   traits.unexplained = scans > 0.0 ? unexplained / scans : 0.0;
 }
 
@@ -186,7 +190,8 @@ LocateFunction among(const std::vector<Method>& methods) {
     DataTraits traits = traits_of(given, threads);
     LocalizationProblem cleaned;
     // Amid reflections phases jump where the field fades: those are no outliers.
-    const bool is_bent = choose_method(traits, given.reference_tags.size()).method == "scan";
+    const std::string first = choose_method(traits, given.reference_tags.size()).method;
+    const bool is_bent = first == "scan" || first == "robust";
     if (traits.has_outliers && !is_bent) {
       cleaned = without_outliers(given, threads, diagnostics);
       traits = traits_of(cleaned, threads);
@@ -197,12 +202,14 @@ LocateFunction among(const std::vector<Method>& methods) {
         find_method(methods, choice.method).locate(problem, threads, diagnostics);
     const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
     if (misfit > kLeftOver) {
-      choice = {"sar", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
-                                   "the noise, as reflections make it",
-                                   misfit)};
+      choice = {"robust",
+                fmt::format("even with the pose error estimated the misfit is {:.1f} times "
+                            "the noise, as reflections make it",
+                            misfit)};
       result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
     }
-    if (choice.method == "sar" && misfit == 0.0 && !traits.pose_is_exact) {
+    const bool is_by_waves = choice.method == "sar" || choice.method == "robust";
+    if (is_by_waves && misfit == 0.0 && !traits.pose_is_exact) {
       try_jointly(methods, problem, traits, threads, diagnostics, choice, result);
     }
     result.why = choice.why;
@@ -254,6 +261,10 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
                                 "bent, as by reflections",
                                 100.0 * traits.unexplained)};
   }
+  if (traits.reads_a_stretch < kShortStretch && traits.bent >= kMost) {
+    return {"robust",
+            fmt::format("{:.0f} % of the phases are bent, as by reflections", 100.0 * traits.bent)};
+  }
   if (traits.reads_a_stretch < kShortStretch) {
     return {"sar", fmt::format("the phase can be followed over {:.0f} reads in the mean only, with "
                                "{} channels: waves are added up without unwrapping",
@@ -263,9 +274,9 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
     return {"joint", "the pose is not exact: its error is estimated with the tags"};
   }
   if (traits.misfit > kReflected) {
-    return {"sar", fmt::format("with an exact pose the misfit is {:.1f} times the noise, as "
-                               "reflections make it",
-                               traits.misfit)};
+    return {"robust", fmt::format("with an exact pose the misfit is {:.1f} times the noise, as "
+                                  "reflections make it",
+                                  traits.misfit)};
   }
   return {"ml", "the pose is exact and the phase fits"};
 }

@@ -15,7 +15,8 @@ struct DataTraits {
   bool pose_is_exact = false;  ///< The pose error is known to be 0.
   double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
   double unexplained = 0.0;  ///< and of those the share whose misfit at the best place is no noise.
-  std::size_t channels = 0;  ///< Carriers.
+  double bent = 0.0;  ///< Share of all reads from tags whose misfit at the best place is no noise.
+  std::size_t channels = 0;      ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median
   /// over tags; 1 where reads are but noisy. Reflections and pose errors make it greater.
@@ -35,7 +36,7 @@ struct Choice {
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags);
 
 /// "auto": chooses among `methods` and runs the chosen one. Where "joint" leaves a misfit over 1.6
-/// times the noise, "sar" is taken after all.
+/// times the noise, "robust" is taken after all.
 Method automatic_method(const std::vector<Method>& methods);
 
 }  // namespace tagfield

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "tagfield/localization/aim.h"
 #include "tagfield/localization/automatic.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
+#include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/holograms/sar.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
@@ -28,8 +30,8 @@ WayLine way_of(const SamplesOfTag& samples) {
 
 /// Of those that come with Tagfield; one's own are left alone.
 bool is_by_phase(const std::string& method) {
-  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",       "joint",
-                                      "sar",       "dah",           "particle", "scan"};
+  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",       "joint", "sar",
+                                      "robust",    "dah",           "particle", "scan"};
   return std::any_of(std::begin(kByPhase), std::end(kByPhase),
                      [&](const char* name) { return method == name; });
 }
@@ -50,21 +52,20 @@ void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimat
 
 std::vector<Method> built_in_methods() {
   std::vector<Method> methods = {
-      hyperbola_method(),     least_squares_method(), maximum_likelihood_method(), joint_method(),
-      sar_method(),           dah_method(),           particle_method(),           scan_method(),
+      hyperbola_method(),     least_squares_method(), maximum_likelihood_method(),
+      joint_method(),         sar_method(),           robust_method(),
+      dah_method(),           particle_method(),      scan_method(),
       trilateration_method(), landmarc_method(),
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;
 }
 
-LocalizationResult locate_tags(const std::vector<TagRead>& reads,
-                               const std::vector<AntennaPose>& poses,
-                               const LocalizationOptions& options, Diagnostics& diagnostics) {
-  const Method method = configured(find_method(options.methods, options.method), options.settings);
-  const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
-  LocalizationResult result = method.locate(problem, options.threads, diagnostics);
+LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
+                                  int threads, Diagnostics& diagnostics) {
+  LocalizationResult result = method.locate(problem, threads, diagnostics);
   if (is_by_phase(result.method)) {
+    drop_places_behind(problem, result);
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);
     span_mirror_images(problem, result);
@@ -72,6 +73,14 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
   }
   keep_within_area(problem, result.estimates);
   return result;
+}
+
+LocalizationResult locate_tags(const std::vector<TagRead>& reads,
+                               const std::vector<AntennaPose>& poses,
+                               const LocalizationOptions& options, Diagnostics& diagnostics) {
+  const Method method = configured(find_method(options.methods, options.method), options.settings);
+  const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
+  return locate_problem(method, problem, options.threads, diagnostics);
 }
 
 }  // namespace tagfield

@@ -9,6 +9,7 @@
 #include "tagfield/experiment/internal/record.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/localization/bound.h"
+#include "tagfield/localization/locate.h"
 
 namespace tagfield {
 namespace {
@@ -67,7 +68,7 @@ MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
                      const Recording& recording, Given& given, Diagnostics& diagnostics) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const LocalizationResult result = method.method.locate(given.problem(), 1, diagnostics);
+  const LocalizationResult result = locate_problem(method.method, given.problem(), 1, diagnostics);
   MethodRun run;
   run.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   run.tags_given = given.problem().samples.size();

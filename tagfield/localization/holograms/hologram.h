@@ -13,13 +13,10 @@
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/holograms/grid_search.h"
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
-
-/// So many places are worked on at once.
-inline constexpr int kTile = 64;
-using Tile = Eigen::Array<float, kTile, 1>;
 
 /// A read in single precision, relative to `SearchReads::middle`.
 struct SearchRead {

@@ -1,0 +1,177 @@
+#include "tagfield/localization/aim.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+/// A read's strength, and where its antenna was and looked.
+struct AimedRead {
+  Eigen::Vector3d p_WA;
+  Eigen::Vector3d ahead_W;
+  double rssi_dbm = 0.0;
+};
+
+/// Of one antenna.
+struct AimedSeries {
+  std::vector<AimedRead> reads;
+  double independent = 0.0;  ///< So many of them, by their fading.
+};
+
+bool is_told(const BelievedTrack& track) {
+  return std::any_of(track.X_WA.begin(), track.X_WA.end(), [](const auto& stamped) {
+    return !stamped.X_WB.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
+  });
+}
+
+double independent_along(const LocalizationProblem& problem, const std::vector<AimedRead>& reads,
+                         double frequency_hz) {
+  constexpr std::size_t kEnough = 400;
+  std::vector<double> along;
+  double gone = 0.0;
+  const std::size_t stride = reads.size() / kEnough + 1;
+  for (std::size_t i = 0; i < reads.size(); i += stride) {
+    if (i > 0) gone += (reads[i].p_WA - reads[i - stride].p_WA).norm();
+    along.push_back(gone);
+  }
+  // Doubled phases are as of twice the carrier.
+  const double carrier = problem.half_turns ? 0.5 * frequency_hz : frequency_hz;
+  return independent_samples(along, wavelength(carrier));
+}
+
+std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,
+                                      const SamplesOfTag& samples) {
+  std::vector<AimedSeries> all;
+  for (const auto& [antenna, series] : samples) {
+    const auto track = problem.tracks.find(antenna);
+    if (track == problem.tracks.end() || !is_told(track->second)) continue;
+    AimedSeries aimed;
+    double frequency_hz = 0.0;
+    for (const PhaseSample& sample : series) {
+      if (sample.rssi_dbm <= kNoRssi) continue;
+      const RigidTransform X_WA = held_pose_at(track->second.X_WA, sample.stamp);
+      aimed.reads.push_back(
+          {sample.p_WA, X_WA.rotation * Eigen::Vector3d::UnitX(), sample.rssi_dbm});
+      frequency_hz = sample.frequency_hz;
+    }
+    if (aimed.reads.size() < kFewestReads) continue;
+    aimed.independent = independent_along(problem, aimed.reads, frequency_hz);
+    all.push_back(std::move(aimed));
+  }
+  return all;
+}
+
+/// The third of the reads that are nearest to a place, where the direct path rules, as numbers for
+/// the regression: x = cos θ, y = RSSI + 40 log₁₀ r.
+struct Nearest {
+  Eigen::ArrayXd x, y;
+  double independent = 0.0;
+  [[nodiscard]] double scatter() const { return (y - y.mean()).square().mean(); }
+};
+
+double farthest_of_nearest(const std::vector<AimedSeries>& all, const Eigen::Vector3d& p_WT) {
+  std::vector<double> ranges;
+  for (const AimedSeries& series : all) {
+    for (const AimedRead& read : series.reads) ranges.push_back((p_WT - read.p_WA).norm());
+  }
+  const auto third = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 3);
+  std::nth_element(ranges.begin(), third, ranges.end());
+  return *third;
+}
+
+Nearest nearest_of(const AimedSeries& series, const Eigen::Vector3d& p_WT, double farthest) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const AimedRead& read : series.reads) {
+    const Eigen::Vector3d way = p_WT - read.p_WA;
+    const double r = std::max(way.norm(), 0.01);
+    if (r > farthest) continue;
+    x.push_back(read.ahead_W.dot(way) / r);
+    y.push_back(read.rssi_dbm + 40.0 * std::log10(r));
+  }
+  const auto count = static_cast<Eigen::Index>(x.size());
+  const double share = static_cast<double>(count) / static_cast<double>(series.reads.size());
+  return {Eigen::Map<Eigen::ArrayXd>(x.data(), count), Eigen::Map<Eigen::ArrayXd>(y.data(), count),
+          share * series.independent};
+}
+
+/// Weighted sums of a regression about its means.
+struct Regression {
+  double weight = 0.0, x = 0.0, y = 0.0;  ///< Of antennas' means.
+  double xx = 0.0, xy = 0.0;              ///< Within antennas and of their means.
+};
+
+void add_within(const Nearest& of, double variance, Regression& sums) {
+  const double weight = of.independent / static_cast<double>(of.x.size()) / variance;
+  sums.xx += weight * (of.x - of.x.mean()).square().sum();
+  sums.xy += weight * ((of.x - of.x.mean()) * (of.y - of.y.mean())).sum();
+}
+
+/// Antennas' levels differ by cables and settings [dB²].
+constexpr double kLevelVariance = 9.0;
+
+double weight_of_mean(const Nearest& of, double variance) {
+  return 1.0 / (variance / of.independent + kLevelVariance);
+}
+
+/// B over its standard deviation: how clearly strength grows towards where the antennas look.
+double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d& p_WT) {
+  constexpr double kLeastVariance = 1.0;  // [dB²]
+  const double farthest = farthest_of_nearest(all, p_WT);
+  std::vector<Nearest> nearest;
+  for (const AimedSeries& series : all) {
+    nearest.push_back(nearest_of(series, p_WT, farthest));
+    if (nearest.back().x.size() < 2) nearest.pop_back();
+  }
+  double variance = kLeastVariance;
+  for (const Nearest& of : nearest) variance = std::max(variance, of.scatter());
+  Regression sums;
+  for (const Nearest& of : nearest) {
+    add_within(of, variance, sums);
+    const double weight = weight_of_mean(of, variance);
+    sums.weight += weight;
+    sums.x += weight * of.x.mean();
+    sums.y += weight * of.y.mean();
+  }
+  for (const Nearest& of : nearest) {
+    const double weight = weight_of_mean(of, variance);
+    const double apart = of.x.mean() - sums.x / sums.weight;
+    sums.xx += weight * apart * apart;
+    sums.xy += weight * apart * (of.y.mean() - sums.y / sums.weight);
+  }
+  return sums.xx > 0.0 ? sums.xy / std::sqrt(sums.xx) : 0.0;
+}
+
+void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
+  constexpr double kBehind = -2.33;  // One in a hundred.
+  std::vector<double> scores;
+  for (const Candidate& candidate : estimate.candidates) {
+    scores.push_back(forward_score(all, candidate.p_WT));
+  }
+  if (*std::max_element(scores.begin(), scores.end()) <= 0.0) return;
+  std::vector<Candidate> kept;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i] > kBehind) kept.push_back(estimate.candidates[i]);
+  }
+  estimate.candidates = std::move(kept);
+}
+
+}  // namespace
+
+void drop_places_behind(const LocalizationProblem& problem, LocalizationResult& result) {
+  for (TagEstimate& estimate : result.estimates) {
+    const auto samples = problem.samples.find(estimate.tag);
+    if (estimate.verdict != Verdict::kAmbiguous || samples == problem.samples.end()) continue;
+    const std::vector<AimedSeries> all = aimed_series(problem, samples->second);
+    if (all.empty()) continue;
+    drop_behind(all, estimate);
+    judge(problem.limits, estimate);
+  }
+}
+
+}  // namespace tagfield

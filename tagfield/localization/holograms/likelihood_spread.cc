@@ -1,0 +1,135 @@
+#include "tagfield/localization/holograms/likelihood_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tagfield {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFirstHalf = 0.45;  ///< Half of the first box's sides [m].
+constexpr double kDeviations = 4.5;  ///< Half of the next ones' sides.
+constexpr double kLeastHalf = 1e-4;  ///< [m]
+constexpr int kMostBoxes = 6;
+
+/// Cells of a box, an odd number along each axis.
+struct Box {
+  Vector3d middle;
+  Vector3d half;
+  Eigen::Array3i cells;
+  [[nodiscard]] Vector3d step() const {
+    return (2.0 * half.array() / (cells.cast<double>() - 1.0).max(1.0)).matrix();
+  }
+};
+
+std::vector<Vector3d> places_of(const Box& box) {
+  std::vector<Vector3d> places;
+  places.reserve(static_cast<std::size_t>(box.cells.prod()));
+  const Vector3d step = box.step();
+  const Eigen::Array3i about = (box.cells - 1) / 2;
+  for (int i = -about.x(); i <= about.x(); ++i) {
+    for (int j = -about.y(); j <= about.y(); ++j) {
+      for (int k = -about.z(); k <= about.z(); ++k) {
+        places.emplace_back(box.middle + Vector3d(i * step.x(), j * step.y(), k * step.z()));
+      }
+    }
+  }
+  return places;
+}
+
+std::vector<double> likelihoods(const LogLikelihood& likelihood,
+                                const std::vector<Vector3d>& places) {
+  std::vector<double> all(places.size());
+  for (std::size_t begin = 0; begin < places.size(); begin += kTile) {
+    const std::size_t count = std::min<std::size_t>(kTile, places.size() - begin);
+    Tile x = Tile::Zero();
+    Tile y = Tile::Zero();
+    Tile z = Tile::Zero();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      x[at] = static_cast<float>(places[begin + k].x());
+      y[at] = static_cast<float>(places[begin + k].y());
+      z[at] = static_cast<float>(places[begin + k].z());
+    }
+    const Tile values = likelihood(x, y, z);
+    for (std::size_t k = 0; k < count; ++k) {
+      all[begin + k] = static_cast<double>(values[static_cast<Eigen::Index>(k)]);
+    }
+  }
+  return all;
+}
+
+LikelihoodSpread over(const LogLikelihood& likelihood, const Box& box) {
+  const std::vector<Vector3d> places = places_of(box);
+  const std::vector<double> logs = likelihoods(likelihood, places);
+  LikelihoodSpread spread;
+  spread.log_peak = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double weight = std::exp(logs[i] - spread.log_peak);
+    const Vector3d apart = places[i] - box.middle;
+    sum += weight;
+    spread.mean += weight * apart;
+    squares += weight * apart * apart.transpose();
+  }
+  spread.mean /= sum;
+  spread.covariance = squares / sum - spread.mean * spread.mean.transpose();
+  const Vector3d step = box.step();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.cells[axis] > 1) spread.covariance(axis, axis) += step[axis] * step[axis] / 12.0;
+  }
+  spread.mean += box.middle;
+  double cell = 1.0;
+  for (int axis = 0; axis < 3; ++axis) cell *= box.cells[axis] > 1 ? step[axis] : 1.0;
+  spread.log_mass = spread.log_peak + std::log(sum * cell);
+  return spread;
+}
+
+}  // namespace
+
+LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const Vector3d& start,
+                                   bool level) {
+  // Fine enough for lobes of a twentieth of a wavelength, of which the first box has many.
+  const Eigen::Array3i first = level ? Eigen::Array3i(91, 91, 1) : Eigen::Array3i(31, 31, 15);
+  const Eigen::Array3i next = level ? Eigen::Array3i(31, 31, 1) : Eigen::Array3i(15, 15, 15);
+  Box box{start, {kFirstHalf, kFirstHalf, level ? 0.0 : kFirstHalf}, first};
+  LikelihoodSpread spread = over(likelihood, box);
+  for (int i = 1; i < kMostBoxes; ++i) {
+    const Vector3d deviation = spread.covariance.diagonal().cwiseSqrt();
+    const Vector3d half = (kDeviations * deviation).cwiseMax(kLeastHalf).cwiseMin(box.half);
+    if ((half.head<2>().array() > 0.4 * box.half.head<2>().array()).all()) break;
+    box = {spread.mean, half, next};
+    if (level) box.half.z() = 0.0;
+    spread = over(likelihood, box);
+  }
+  return spread;
+}
+
+std::vector<double> greatest_about(const LikelihoodSpread& spread, double deviations,
+                                   const std::vector<LogLikelihood>& all) {
+  constexpr double kLeast = 0.01;  // [m]
+  Vector3d half = deviations * spread.covariance.diagonal().cwiseSqrt();
+  Eigen::Array3i cells(31, 31, 1);
+  const bool level = half.z() <= 0.0;
+  if (!level) cells = {15, 15, 15};
+  for (int axis = 0; axis < (level ? 2 : 3); ++axis) half[axis] = std::max(half[axis], kLeast);
+  const std::vector<Vector3d> places = places_of({spread.mean, half, cells});
+  std::vector<double> greatest;
+  for (const LogLikelihood& one : all) {
+    const std::vector<double> logs = likelihoods(one, places);
+    greatest.push_back(*std::max_element(logs.begin(), logs.end()));
+  }
+  return greatest;
+}
+
+LogLikelihood tempered(const LogLikelihood& likelihood, double by) {
+  return [likelihood, factor = static_cast<float>(1.0 / by)](const Tile& x, const Tile& y,
+                                                             const Tile& z) -> Tile {
+    return factor * likelihood(x, y, z);
+  };
+}
+
+}  // namespace tagfield

@@ -1,0 +1,213 @@
+#include "tagfield/localization/holograms/robust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/holograms/likelihood_spread.h"
+#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/tag_fit.h"
+
+namespace tagfield {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFirstCell = 0.9;    ///< Of λ/2, by which phases turn once.
+constexpr std::size_t kMaxima = 24;   ///< On each plane.
+constexpr double kOnePlace = 0.45;    ///< Maxima nearer than this are of one place [m].
+constexpr double kLeastShare = 0.01;  ///< Of the probability, of a place that is named.
+constexpr double kPlanesApart = 0.7;  ///< Of unknown height [m].
+constexpr int kPlanes = 4;
+/// What stands within a wavelength of a tag shifts the place that its waves come from, along with
+/// it: standard deviation along each axis, fitted over five halls and held against seven others
+/// (docs/methods.md) [λ].
+constexpr double kShift = 0.025;
+/// Shorter stretches only show the search where to look.
+constexpr int kFirstLength = 1;
+
+/// What the steps of one tag share.
+struct Search {
+  TagPhases phases;
+  HeightModel height;
+  double wavelength = 0.0;  ///< Of the carrier [m].
+  double max_range_m = 0.0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  StretchedReads all;  ///< Places are relative to `middle` and `height.z`.
+};
+
+double wavelength_of(const LocalizationProblem& problem, const TagPhases& phases) {
+  return (problem.half_turns ? 4.0 : 2.0) * longest_cycle(phases);
+}
+
+/// The best places at a height, with the plane's height.
+std::vector<Vector3d> best_on_plane(const Search& search, const TagPhases& coarse, double z) {
+  const StretchedReads few = stretched_reads(coarse, search.wavelength, z, search.middle);
+  const auto level = [&](int first, int last) {
+    return [&few, choice = StretchChoice{first, last}](const Tile& x, const Tile& y) {
+      return stretch_likelihood(few, choice, x, y, Tile::Zero());
+    };
+  };
+  const Grid grid{search.middle, kFirstCell * longest_cycle(search.phases), search.max_range_m};
+  const auto within = [&](const Eigen::Vector2d& p) {
+    return in_reach(search.phases, {p.x(), p.y(), z}, search.max_range_m);
+  };
+  std::vector<Vector3d> places;
+  for (const GridMaximum& maximum :
+       search_grid(grid, within,
+                   {level(0, 0), level(1, 2), level(kFirstLength, kStretchLengths - 1)}, kMaxima)) {
+    places.emplace_back(maximum.p.x(), maximum.p.y(), z);
+  }
+  return places;
+}
+
+std::vector<Vector3d> best_places(const Search& search, std::size_t reads) {
+  const TagPhases coarse = thinned(search.phases, reads);
+  const bool known = search.height.kind == HeightModel::Kind::kKnown;
+  std::vector<Vector3d> places;
+  for (int plane = 0; plane < (known ? 1 : kPlanes); ++plane) {
+    const double z = search.height.z + search.height.side * kPlanesApart * plane;
+    for (const Vector3d& p : best_on_plane(search, coarse, z)) places.push_back(p);
+  }
+  return places;
+}
+
+Vector3d origin_of(const Search& search) {
+  return {search.middle.x(), search.middle.y(), search.height.z};
+}
+
+/// Of a part of the way, or of all.
+LogLikelihood likelihood_of(const Search& search, int part) {
+  return [&search, part](const Tile& x, const Tile& y, const Tile& z) {
+    return stretch_likelihood(search.all, {kFirstLength, kStretchLengths - 1, part}, x, y, z);
+  };
+}
+
+/// How much more the parts of the way disagree than chance lets them: twice the log-likelihood that
+/// a place for each part gains over one for all, of which chance makes one a degree of freedom.
+double disagreement(const Search& search, LikelihoodSpread spread) {
+  spread.mean -= origin_of(search);
+  constexpr double kDeviations = 6.0;
+  std::vector<LogLikelihood> parts;
+  for (int part = 0; part < kWayParts; ++part) parts.push_back(likelihood_of(search, part));
+  double gained = -spread.log_peak;
+  for (const double greatest : greatest_about(spread, kDeviations, parts)) gained += greatest;
+  const int unknowns = search.height.unknowns();
+  return 2.0 * gained / (unknowns * (kWayParts - 1));
+}
+
+/// How the likelihood, taken to the power of 1/`doubt`, spreads about `p`.
+LikelihoodSpread spread_about(const Search& search, const Vector3d& p, double doubt) {
+  const bool level = search.height.kind == HeightModel::Kind::kKnown;
+  const Vector3d origin = origin_of(search);
+  LikelihoodSpread spread =
+      likelihood_spread(tempered(likelihood_of(search, kWholeWay), doubt), p - origin, level);
+  spread.mean += origin;
+  return spread;
+}
+
+bool is_new(const std::vector<LikelihoodSpread>& all, const Vector3d& p) {
+  return std::all_of(all.begin(), all.end(), [&](const LikelihoodSpread& other) {
+    return (other.mean - p).head<2>().norm() > kOnePlace;
+  });
+}
+
+/// One for all places that are near each other, the most probable first.
+std::vector<LikelihoodSpread> distinct(const Search& search, const std::vector<Vector3d>& places,
+                                       double doubt) {
+  std::vector<LikelihoodSpread> all;
+  for (const Vector3d& p : places) {
+    if (is_new(all, p)) all.push_back(spread_about(search, p, doubt));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.log_mass > b.log_mass; });
+  std::vector<LikelihoodSpread> kept;
+  for (const LikelihoodSpread& one : all) {
+    if (is_new(kept, one.mean)) kept.push_back(one);
+  }
+  return kept;
+}
+
+/// More widely where parts of the way disagree at the most probable place.
+std::vector<LikelihoodSpread> doubted(const Search& search, const std::vector<Vector3d>& places) {
+  std::vector<LikelihoodSpread> spreads = distinct(search, places, 1.0);
+  if (spreads.empty()) return spreads;
+  const double doubt = disagreement(search, spreads.front());
+  return doubt > 1.0 ? distinct(search, places, doubt) : spreads;
+}
+
+/// What the likelihood does not know of: the shift, and a told pose error, which is slower than
+/// fading.
+Eigen::Matrix3d beyond_likelihood(const Search& search, const TagFit& fit) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const double shift = kShift * search.wavelength;
+  covariance.topLeftCorner<2, 2>() += shift * shift * Eigen::Matrix2d::Identity();
+  if (!search.phases.pose_error) return covariance;
+  return covariance + to_place_covariance(search.height, fit.unknowns,
+                                          honest_covariance(search.phases, search.height, fit));
+}
+
+Candidate candidate_of(const Search& search, const LikelihoodSpread& spread) {
+  Candidate candidate;
+  candidate.p_WT = spread.mean;
+  if (search.height.kind == HeightModel::Kind::kKnown) candidate.p_WT.z() = search.height.z;
+  const PlaceVector place = to_unknowns(search.height, candidate.p_WT);
+  const TagFit fit{place, offsets_at(search.phases, search.height, place), 0.0};
+  candidate.covariance = spread.covariance + beyond_likelihood(search, fit);
+  candidate.expected_error_m = std::sqrt(candidate.covariance->topLeftCorner<2, 2>().trace());
+  candidate.rms_m = std::sqrt(residuals_of(search.phases, search.height, fit).square().mean());
+  return candidate;
+}
+
+TagEstimate judged(const LocalizationProblem& problem, const Search& search,
+                   const std::vector<LikelihoodSpread>& spreads, TagEstimate estimate) {
+  if (spreads.empty()) {
+    return not_located(std::move(estimate), "no place is in reach of most reads");
+  }
+  for (const LikelihoodSpread& spread : spreads) {
+    const double less = spread.log_mass - spreads.front().log_mass;
+    if (less < std::log(kLeastShare)) break;
+    estimate.candidates.push_back(candidate_of(search, spread));
+  }
+  judge(problem.limits, estimate);
+  return estimate;
+}
+
+TagEstimate locate_robustly(const LocalizationProblem& problem, const std::string& tag,
+                            const SamplesOfTag& samples, const RobustOptions& options) {
+  TagEstimate estimate = begun(tag, samples);
+  const std::string hopeless = why_hopeless(samples);
+  if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
+  Search search;
+  search.phases = coherent_reads(problem, samples);
+  estimate.reads = static_cast<std::size_t>(search.phases.size());
+  const std::string why_too_few = too_few(search.phases);
+  if (!why_too_few.empty()) return not_located(std::move(estimate), why_too_few);
+  search.height = height_model(problem, tag, search.phases);
+  search.wavelength = wavelength_of(problem, search.phases);
+  search.max_range_m = options.max_range_m;
+  search.middle = middle_of(search.phases);
+  search.all = stretched_reads(search.phases, search.wavelength, search.height.z, search.middle);
+  return judged(problem, search, doubted(search, best_places(search, options.search_reads)),
+                std::move(estimate));
+}
+
+const OptionTable<RobustOptions>& option_table() {
+  using O = RobustOptions;
+  static const OptionTable<O> of{
+      {setting<O>("max_range_m", "m", "half of the reads are from nearer", &O::max_range_m,
+                  {0.0, true, 100.0}),
+       setting<O>("search_reads", "", "the search takes so many", &O::search_reads, kAtLeastOne)}};
+  return of;
+}
+
+}  // namespace
+
+Method robust_method(const RobustOptions& options) {
+  return one_by_one("robust",
+                    "amid reflections: stretches of the way, each as far as its waves add up",
+                    option_table(), options, locate_robustly);
+}
+
+}  // namespace tagfield

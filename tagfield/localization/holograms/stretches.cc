@@ -1,0 +1,225 @@
+#include "tagfield/localization/holograms/stretches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Waves that add up better than this are told apart from such that do so by noise alone.
+constexpr float kLeastLeft = 1e-3f;
+
+/// How far an antenna has come at each of its reads [m], by read.
+Eigen::ArrayXd travel_of(const TagPhases& phases) {
+  std::map<std::string, std::vector<Index>> by_antenna;
+  for (const TagPhases::Span& span : phases.spans) {
+    std::vector<Index>& reads = by_antenna[span.antenna];
+    for (Index i = span.begin; i < span.begin + span.count; ++i) reads.push_back(i);
+  }
+  Eigen::ArrayXd travel = Eigen::ArrayXd::Zero(phases.size());
+  for (auto& [antenna, reads] : by_antenna) {
+    std::stable_sort(reads.begin(), reads.end(),
+                     [&](Index a, Index b) { return phases.time_s[a] < phases.time_s[b]; });
+    for (std::size_t k = 1; k < reads.size(); ++k) {
+      const Index a = reads[k - 1];
+      const Index b = reads[k];
+      travel[b] = travel[a] + std::sqrt(std::pow(phases.x[b] - phases.x[a], 2) +
+                                        std::pow(phases.y[b] - phases.y[a], 2) +
+                                        std::pow(phases.z[b] - phases.z[a], 2));
+    }
+  }
+  return travel;
+}
+
+/// Which stretch of the shortest length a read is in.
+struct Piece {
+  std::string antenna;
+  std::size_t span = 0;
+  std::int64_t number = 0;
+  Aperture reads;
+};
+
+std::vector<Piece> pieces_of(const TagPhases& phases, const Eigen::ArrayXd& travel, double length) {
+  std::vector<Piece> pieces;
+  for (std::size_t s = 0; s < phases.spans.size(); ++s) {
+    const TagPhases::Span& span = phases.spans[s];
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const auto number = static_cast<std::int64_t>(travel[i] / length);
+      if (i == span.begin || pieces.back().number != number) {
+        pieces.push_back({span.antenna, s, number, {i, 0, false}});
+      }
+      ++pieces.back().reads.count;
+    }
+  }
+  return pieces;
+}
+
+/// Parts of the way with as many reads each, by time.
+class Parts {
+ public:
+  explicit Parts(const TagPhases& phases) : time_s_(phases.time_s) {
+    std::vector<double> sorted(phases.time_s.begin(), phases.time_s.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 1; k < kWayParts; ++k) {
+      begins_.push_back(sorted[k * sorted.size() / kWayParts]);
+    }
+  }
+  [[nodiscard]] int of(Index read) const {
+    const auto after = std::upper_bound(begins_.begin(), begins_.end(), time_s_[read]);
+    return static_cast<int>(after - begins_.begin());
+  }
+
+ private:
+  const Eigen::ArrayXd& time_s_;
+  std::vector<double> begins_;
+};
+
+/// Enough to tell how many samples are independent.
+void add_travel(const Aperture& piece, const Eigen::ArrayXd& travel, std::vector<double>& along) {
+  for (Index i = piece.begin; i < piece.begin + piece.count; ++i) along.push_back(travel[i]);
+}
+
+std::vector<double> thinned_out(std::vector<double> all) {
+  constexpr std::size_t kEnough = 150;
+  if (all.size() <= kEnough) return all;
+  std::sort(all.begin(), all.end());
+  std::vector<double> some;
+  for (std::size_t i = 0; i < kEnough; ++i) some.push_back(all[i * all.size() / kEnough]);
+  return some;
+}
+
+/// The stretch that the pieces make.
+Stretch stretch_of(const std::vector<Piece>& pieces, const std::vector<std::size_t>& numbers,
+                   const Eigen::ArrayXd& travel, double wavelength) {
+  std::map<std::size_t, std::vector<std::size_t>> by_span;
+  for (const std::size_t i : numbers) by_span[pieces[i].span].push_back(i);
+  Stretch stretch;
+  std::vector<double> whole;
+  double of_channels = 0.0;
+  for (const auto& [span, of_span] : by_span) {
+    std::vector<double> along;
+    for (const std::size_t i : of_span) add_travel(pieces[i].reads, travel, along);
+    stretch.reads += static_cast<float>(along.size());
+    whole.insert(whole.end(), along.begin(), along.end());
+    of_channels += independent_samples(thinned_out(std::move(along)), wavelength);
+    stretch.channels.push_back(of_span);
+  }
+  // Channels that were read at the same places see the same reflections.
+  const double all = independent_samples(thinned_out(std::move(whole)), wavelength);
+  const double offsets = static_cast<double>(by_span.size());
+  stretch.freedom =
+      static_cast<float>(std::max(0.0, of_channels - offsets) * std::min(1.0, all / of_channels));
+  return stretch;
+}
+
+std::vector<Stretch> stretches_of(const std::vector<Piece>& pieces, const Eigen::ArrayXd& travel,
+                                  double wavelength, std::int64_t pieces_each, const Parts& parts) {
+  std::map<std::pair<std::string, std::int64_t>, std::vector<std::size_t>> numbers;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    numbers[{pieces[i].antenna, pieces[i].number / pieces_each}].push_back(i);
+  }
+  std::vector<Stretch> stretches;
+  for (const auto& [key, of_stretch] : numbers) {
+    Stretch stretch = stretch_of(pieces, of_stretch, travel, wavelength);
+    stretch.part = parts.of(pieces[of_stretch.front()].reads.begin);
+    if (stretch.freedom > 0.0f) stretches.push_back(std::move(stretch));
+  }
+  return stretches;
+}
+
+struct Waves {
+  Tile in_phase = Tile::Zero();
+  Tile quadrature = Tile::Zero();
+};
+
+Waves waves_of(const StretchedReads& all, const Aperture& piece, const Tile& x, const Tile& y,
+               const Tile& z) {
+  Waves sum;
+  Tile cosine;
+  Tile sine;
+  for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
+    const SearchRead& read = all.reads.reads[static_cast<std::size_t>(i)];
+    const Tile turns =
+        read.turns -
+        read.turns_per_metre *
+            ((x - read.x).square() + (y - read.y).square() + (z - read.z).square()).sqrt();
+    wave_of(wrapped_turns(turns), cosine, sine);
+    sum.in_phase += cosine;
+    sum.quadrature += sine;
+  }
+  return sum;
+}
+
+/// −f ln(1 − the share of the power that adds up).
+Tile likelihood_of(const StretchedReads& all, const Stretch& stretch,
+                   const std::vector<Waves>& of_pieces) {
+  Tile power = Tile::Zero();
+  for (const auto& channel : stretch.channels) {
+    Waves sum;
+    float reads = 0.0f;
+    for (const std::size_t piece : channel) {
+      sum.in_phase += of_pieces[piece].in_phase;
+      sum.quadrature += of_pieces[piece].quadrature;
+      reads += static_cast<float>(all.reads.apertures[piece].count);
+    }
+    power += (sum.in_phase.square() + sum.quadrature.square()) / reads;
+  }
+  return -stretch.freedom * (1.0f - power / stretch.reads).max(kLeastLeft).log();
+}
+
+}  // namespace
+
+double independent_samples(const std::vector<double>& along_m, double wavelength) {
+  double pairs = 0.0;
+  for (const double a : along_m) {
+    for (const double b : along_m) {
+      const double angle = kPi * (a - b) / wavelength;
+      const double sinc = std::abs(angle) < 1e-6 ? 1.0 : std::sin(angle) / angle;
+      pairs += sinc * sinc;
+    }
+  }
+  const auto count = static_cast<double>(along_m.size());
+  return count > 0.0 ? count * count / pairs : 0.0;
+}
+
+StretchedReads stretched_reads(const TagPhases& phases, double wavelength, double height,
+                               const Eigen::Vector2d& middle) {
+  StretchedReads all;
+  all.reads = search_reads(phases, kWholeAperture, height, middle);
+  all.reads.apertures.clear();
+  if (phases.size() == 0) return all;
+  const Eigen::ArrayXd travel = travel_of(phases);
+  const std::vector<Piece> pieces = pieces_of(phases, travel, kShortestStretch * wavelength);
+  const Parts parts(phases);
+  for (const Piece& piece : pieces) all.reads.apertures.push_back(piece.reads);
+  for (int k = 0; k < kStretchLengths; ++k) {
+    all.stretches[static_cast<std::size_t>(k)] =
+        stretches_of(pieces, travel, wavelength, std::int64_t{1} << k, parts);
+  }
+  return all;
+}
+
+Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
+                        const Tile& y, const Tile& z) {
+  std::vector<Waves> of_pieces;
+  of_pieces.reserve(reads.reads.apertures.size());
+  for (const Aperture& piece : reads.reads.apertures) {
+    of_pieces.push_back(waves_of(reads, piece, x, y, z));
+  }
+  Tile sum = Tile::Zero();
+  for (int k = choice.first; k <= choice.last; ++k) {
+    for (const Stretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
+      if (choice.part != kWholeWay && stretch.part != choice.part) continue;
+      sum += likelihood_of(reads, stretch, of_pieces);
+    }
+  }
+  return sum / static_cast<float>(choice.last - choice.first + 1);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,61 @@
+/// @file
+/// Likelihood of places amid reflections: the way is cut into stretches, and each counts by how
+/// well its waves add up there. docs/methods.md has the equations.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "tagfield/localization/height_model.h"
+#include "tagfield/localization/holograms/hologram.h"
+
+namespace tagfield {
+
+/// Stretches of seven lengths, each twice the one before: the first is of so many wavelengths.
+inline constexpr int kStretchLengths = 7;
+inline constexpr double kShortestStretch = 2.5;
+
+/// Which of the lengths, and which part of the way, or kWholeWay.
+struct StretchChoice {
+  int first = 0;
+  int last = kStretchLengths - 1;
+  int part = -1;
+};
+
+/// The way is held against itself in so many parts, each with as many reads.
+inline constexpr int kWayParts = 4;
+inline constexpr int kWholeWay = -1;
+
+/// One antenna on a piece of its way.
+struct Stretch {
+  std::vector<std::vector<std::size_t>> channels;  ///< Pieces that share an offset.
+  float reads = 0.0f;
+  /// Independent samples of the field, less one for each offset; at least 0.
+  float freedom = 0.0f;
+  int part = 0;  ///< Of kWayParts, by time.
+};
+
+/// A tag's reads laid out for stretch_likelihood().
+struct StretchedReads {
+  SearchReads
+      reads;  ///< Its apertures are the pieces: one channel on one of the shortest stretches.
+  std::array<std::vector<Stretch>, kStretchLengths> stretches;
+};
+
+/// `wavelength` [m] is that of the carrier, whatever the phases are multiplied by; `height` and
+/// `middle` are as those of search_reads().
+StretchedReads stretched_reads(const TagPhases& phases, double wavelength, double height,
+                               const Eigen::Vector2d& middle);
+
+/// Independent samples that a field has along the way, of which it is known at the places
+/// `along_m`, in rising order: n² / Σ sinc²((s_i − s_j)/λ) over all pairs.
+double independent_samples(const std::vector<double>& along_m, double wavelength);
+
+/// ln of the likelihood up to a constant, in the mean over the chosen lengths:
+/// −Σ f ln(1 − Σ_c |S_c|²/n_c / n) over the stretches with the freedom f, of places (x, y, z)
+/// relative to `middle` and `height` [m].
+Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
+                        const Tile& y, const Tile& z);
+
+}  // namespace tagfield
