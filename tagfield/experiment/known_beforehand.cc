@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tagfield/experiment/known_world.h"
 #include "tagfield/field/antenna_facts.h"
 
 namespace tagfield {
@@ -68,6 +69,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.pose_error = pose_error_of(scenario);
   known.half_turns = scenario.localization.half_turns;
   known.limits = scenario.localization.limits;
+  known.trace = traced_replies(scenario);
   // Between two updates an antenna's poses are as far apart as its rate says.
   for (const AntennaSpec& antenna : scenario.antennas) {
     known.max_pose_gap_s = std::max(known.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);

@@ -9,6 +9,7 @@
 #include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/holograms/sar.h"
 #include "tagfield/localization/joint/joint.h"
+#include "tagfield/localization/joint/multipath.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
@@ -30,8 +31,8 @@ WayLine way_of(const SamplesOfTag& samples) {
 
 /// Of those that come with Tagfield; one's own are left alone.
 bool is_by_phase(const std::string& method) {
-  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",       "joint", "sar",
-                                      "robust",    "dah",           "particle", "scan"};
+  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",  "joint",    "multipath",
+                                      "sar",       "robust",        "dah", "particle", "scan"};
   return std::any_of(std::begin(kByPhase), std::end(kByPhase),
                      [&](const char* name) { return method == name; });
 }
@@ -52,10 +53,10 @@ void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimat
 
 std::vector<Method> built_in_methods() {
   std::vector<Method> methods = {
-      hyperbola_method(),     least_squares_method(), maximum_likelihood_method(),
-      joint_method(),         sar_method(),           robust_method(),
-      dah_method(),           particle_method(),      scan_method(),
-      trilateration_method(), landmarc_method(),
+      hyperbola_method(), least_squares_method(), maximum_likelihood_method(),
+      joint_method(),     multipath_method(),     sar_method(),
+      robust_method(),    dah_method(),           particle_method(),
+      scan_method(),      trilateration_method(), landmarc_method(),
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;

@@ -119,6 +119,7 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;
   problem.limits = known.limits;
+  problem.trace = known.trace;
   return problem;
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -59,6 +61,24 @@ struct EstimateLimits {
   double max_rms_m = 0.08;  ///< A worse misfit than this is no tag at rest.
 };
 
+/// One path of a known world from an antenna to a place, as if it came straight from a mirrored
+/// antenna: near the place, p, its field is amplitude / |p − source| e^(−jk |p − source|).
+struct TracedWave {
+  Eigen::Vector3d source_W;  ///< [m]
+  std::complex<double> amplitude;
+  bool direct = false;  ///< The source is the antenna itself.
+};
+
+/// All paths of a reply. `backward` is empty where one antenna sends and receives.
+struct TracedReply {
+  std::vector<TracedWave> forward, backward;
+};
+
+/// Replies of a tag at `p_WT` [m] to an antenna at each of these poses, on these carriers [Hz].
+using TraceReplies = std::function<std::vector<TracedReply>(
+    const std::string& tag, const Eigen::Vector3d& p_WT, const std::string& antenna,
+    const std::vector<RigidTransform>& X_WA, const std::vector<double>& carriers_hz)>;
+
 /// All that the methods share. Phases in `samples` have the known offsets taken out.
 struct LocalizationProblem {
   SamplesByTag samples;                         ///< In order; see join_reads_with_poses().
@@ -70,6 +90,7 @@ struct LocalizationProblem {
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
+  TraceReplies trace;  ///< Through the world, where that is known; else null.
 };
 
 /// What a problem is made from, besides reads and poses.
@@ -83,6 +104,7 @@ struct KnownBeforehand {
   std::optional<bool> half_turns;
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
+  TraceReplies trace{};  ///< Through the world, where that is known. Called by several threads.
 };
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,

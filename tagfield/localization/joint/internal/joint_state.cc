@@ -7,6 +7,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
@@ -204,6 +205,41 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
   }
   state.alternatives.resize(state.system.tags.size());
   return state;
+}
+
+JointState begin_at(const LocalizationProblem& problem, const std::vector<PlacedTag>& placed) {
+  JointState state;
+  state.problem = &problem;
+  state.system.noise_rad = first_noise(problem);
+  const PoseErrorModel model = model_of(problem);
+  state.system.knots =
+      knots_of(problem, model, knot_spacing(problem, placed.size(), model.time_constant_s));
+  state.system.u = Eigen::VectorXd::Zero(state.system.knots.count() * state.system.knots.size);
+  for (const PlacedTag& tag : placed) {
+    JointTag joint;
+    joint.id = tag.id;
+    joint.fixed = problem.reference_tags.count(tag.id) > 0;
+    const TagPhases phases = coherent_reads(problem, *tag.samples);
+    joint.height = joint.fixed ? HeightModel{HeightModel::Kind::kKnown, tag.p_WT.z(), 1.0}
+                               : height_model(problem, tag.id, phases);
+    joint.fit.unknowns = to_unknowns(joint.height, tag.p_WT);
+    state.system.tags.push_back(std::move(joint));
+    state.samples.push_back(tag.samples);
+    take_samples(state, state.system.tags.size() - 1, *tag.samples);
+  }
+  state.alternatives.resize(state.system.tags.size());
+  return state;
+}
+
+void take_samples(JointState& state, std::size_t index, const SamplesOfTag& samples) {
+  const LocalizationProblem& problem = *state.problem;
+  JointTag& tag = state.system.tags[index];
+  state.samples[index] = &samples;
+  tag.phases = coherent_reads(problem, samples);
+  attach(problem, state.system.knots, tag);
+  const TagPhases corrected = coherent_reads(
+      problem, corrected_samples(problem, state.system.knots, state.system.u, samples));
+  tag.fit.offsets = offsets_at(corrected, tag.height, tag.fit.unknowns);
 }
 
 void fit_unwrapped_jointly(JointState& state, int threads) {

@@ -27,6 +27,20 @@ struct JointState {
 /// Each tag by itself on its unwrapped phase, and knots for the pose error.
 JointState begin_jointly(const LocalizationProblem& problem, int threads);
 
+/// A tag that is about at a place; of a reference tag, just there.
+struct PlacedTag {
+  std::string id;
+  const SamplesOfTag* samples = nullptr;
+  Eigen::Vector3d p_WT;
+};
+
+/// Tags on their wrapped phases from where they are placed, and knots for the pose error.
+JointState begin_at(const LocalizationProblem& problem, const std::vector<PlacedTag>& placed);
+
+/// Takes these samples for the tag's own, on their wrapped phase, with the offsets that suit its
+/// place and the corrected poses. They must live as long as the state.
+void take_samples(JointState& state, std::size_t tag, const SamplesOfTag& samples);
+
 /// Minimizes, learns the phase noise from it, and gives tags that don't fit less weight.
 void fit_unwrapped_jointly(JointState& state, int threads);
 

@@ -1,0 +1,117 @@
+#include "tagfield/localization/joint/multipath.h"
+
+#include <gtest/gtest.h>
+
+#include "method_study.h"
+#include "problem_of.h"
+#include "reflections.h"
+#include "tagfield/localization/half_turns.h"
+#include "tagfield/localization/holograms/robust.h"
+
+namespace tagfield {
+namespace {
+
+using namespace made;
+
+/// Mirrors as `reflect()` has them, as a known world.
+TraceReplies known(const std::vector<Mirror>& mirrors) {
+  return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& /*p_WT*/,
+                   const std::string& /*antenna*/, const std::vector<RigidTransform>& X_WA,
+                   const std::vector<double>& /*carriers_hz*/) {
+    std::vector<TracedReply> replies;
+    for (const RigidTransform& X : X_WA) {
+      TracedReply reply;
+      reply.forward.push_back({X.translation, 1.0, true});
+      for (const Mirror& mirror : mirrors) {
+        Eigen::Vector3d image = X.translation;
+        image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
+        reply.forward.push_back({image, -mirror.gain});
+      }
+      replies.push_back(std::move(reply));
+    }
+    return replies;
+  };
+}
+
+struct Study {
+  double pose_m = 0.0;
+  double believed_gain = 0.5;  ///< Of the walls; truly 0.5.
+  bool half_turns = false;
+  bool pose_error_told = true;
+};
+
+Tally with(const Method& method, const Study& study) {
+  Tally tally;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Noise noise;
+    noise.pose_m = study.pose_m;
+    Rng rng(seed);
+    const Path path = aisles(0.03);
+    const Path beliefs = believed(path, noise, kPathRate, rng);
+    // Phases are bent at the true places of the antenna.
+    Hall hall = made::hall(path, path, 6, Noise{}, rng);
+    reflect(walls(0.5), hall);
+    hall.problem.tracks["a"] = track_along(beliefs);
+    for (auto& [tag, of_tag] : hall.problem.samples) {
+      for (PhaseSample& s : of_tag["a"]) {
+        const double step = (to_seconds(s.stamp) - ReaderSetup{}.start_s) * kPathRate;
+        s.p_WA = beliefs.at(static_cast<std::size_t>(step + 0.5));
+      }
+    }
+    hall.problem.pose_error.reset();
+    if (study.pose_error_told) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
+    hall.problem.half_turns = study.half_turns;
+    if (study.half_turns) double_phases(hall.problem.samples);
+    hall.problem.trace = known(walls(study.believed_gain));
+    Diagnostics diagnostics;
+    for (const TagEstimate& estimate : method.locate(hall.problem, 2, diagnostics).estimates) {
+      tally.add(estimate, hall.truth.at(estimate.tag));
+    }
+  }
+  tally.finish();
+  return tally;
+}
+
+TEST(Multipath, WithTheWorldKnownReflectionsAreTakenOut) {
+  for (const bool half_turns : {false, true}) {
+    const Tally tally = with(multipath_method(), {.half_turns = half_turns});
+    const Tally robust = with(robust_method(), {.half_turns = half_turns});
+    EXPECT_GE(tally.errors.size(), 17U) << half_turns;  // Of 18.
+    EXPECT_LT(tally.part(0.5), 0.003) << half_turns;
+    EXPECT_LT(tally.errors.back(), 0.05) << half_turns;
+    EXPECT_LT(tally.part(0.5), 0.3 * robust.part(0.5)) << half_turns;
+    EXPECT_LT(tally.calibration(), 1.5) << half_turns;
+  }
+}
+
+TEST(Multipath, EstimatesThePoseErrorToo) {
+  for (const bool told : {true, false}) {
+    const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_told = told});
+    EXPECT_GE(tally.errors.size(), 15U) << told;
+    EXPECT_LT(tally.part(0.5), 0.015) << told;
+    EXPECT_EQ(tally.worse_than(0.3), 0U) << told;
+    EXPECT_LT(tally.calibration(), 2.0) << told;
+  }
+}
+
+TEST(Multipath, AWorldKnownWronglyIsNoCertainty) {
+  const Tally tally = with(multipath_method(), {.believed_gain = -0.5});
+  EXPECT_EQ(tally.worse_than(0.3), 0U);
+  EXPECT_LT(tally.calibration(), 3.0);
+}
+
+TEST(Multipath, WithoutAWorldSaysSo) {
+  Rng rng(1);
+  const Hall hall = made::hall(aisles(0.03), 1, Noise{}, rng);
+  const TagEstimate estimate = locate_one(multipath_method(), hall.problem);
+  EXPECT_EQ(estimate.verdict, Verdict::kNotLocated);
+  EXPECT_NE(estimate.reason.find("no world is known"), std::string::npos) << estimate.reason;
+}
+
+TEST(Multipath, BadOptionsAreErrors) {
+  EXPECT_THROW(multipath_method({.least_directness = 0.0}), Error);
+  EXPECT_THROW(multipath_method({.rounds = 0}), Error);
+}
+
+}  // namespace
+}  // namespace tagfield
