@@ -110,6 +110,20 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
   return text + "  (strength: against the direct way with nothing in between)\n";
 }
 
+std::string materials_text(const PhysicalLink& link) {
+  if (link.materials.empty()) return "";
+  std::string text = fmt::format("\nmaterials at {:.3f} MHz\n", link.frequency_hz * 1e-6);
+  for (const MaterialOnLink& material : link.materials) {
+    text += fmt::format("  {}: permittivity {:.3g}, conductivity {:.3g} S/m", material.name,
+                        material.permittivity, material.conductivity_s_m);
+    text += material.is_measured_here
+                ? "\n"
+                : fmt::format(" (extrapolated: given from {:g} to {:g} GHz)\n", material.least_ghz,
+                              material.most_ghz);
+  }
+  return text;
+}
+
 std::string paper_text(const PaperLink& link) {
   return "\nby the paper's model, which knows neither obstacles nor antenna patterns\n" +
          fmt::format("  range {:.3f} m, {:.3f} m in the update at {:.3f} s\n", link.range_m,
@@ -163,6 +177,17 @@ Json to_json(const PathExplanation& path) {
           {"through", to_json(path.crossings)}};
 }
 
+Json to_json(const std::vector<MaterialOnLink>& materials) {
+  Json all = Json::array();
+  for (const MaterialOnLink& material : materials) {
+    all.push_back({{"name", material.name},
+                   {"permittivity", material.permittivity},
+                   {"conductivity_s_m", material.conductivity_s_m},
+                   {"extrapolated", !material.is_measured_here}});
+  }
+  return all;
+}
+
 Json to_json(const PaperLink& link) {
   return {{"range_m", link.range_m},
           {"perturbed_range_m", link.perturbed_range_m},
@@ -190,6 +215,7 @@ Json to_json(const PhysicalLink& link) {
   }
   json["to_tag"] = to_json(link.to_tag);
   json["to_reader"] = to_json(link.to_reader);
+  json["materials"] = to_json(link.materials);
   json["paths"] = Json::array();
   for (const PathExplanation& path : link.paths) json["paths"].push_back(to_json(path));
   return json;
@@ -208,7 +234,7 @@ std::string to_text(const LinkExplanation& link) {
                  "the chip needs", physical.tag_sensitivity_dbm);
   text += budget("back to the reader", physical.to_reader, "power at the reader",
                  physical.reply_dbm, "the reader needs", physical.reader_sensitivity_dbm);
-  return text + receiver(physical) + paths_text(physical.paths);
+  return text + receiver(physical) + paths_text(physical.paths) + materials_text(physical);
 }
 
 Json to_json(const LinkExplanation& link) {

@@ -95,6 +95,23 @@ def the_lines_add_up(context):
 
 
 @case
+def materials_are_told_at_the_carrier(context):
+    told = {}
+    for hertz in (865.7e6, 2.4e9):
+        link = explained(context, context.shipped("paper_warehouse"), *MULTIPATH, "--tag", "tag1",
+                         "--set", f"antennas.mobile.frequency_hz={hertz}",
+                         "--set", "world.default_material=medium_dry_ground",
+                         "--set", "world.materials={'*': medium_dry_ground}")
+        told[hertz], = link["materials"]
+    # P.2040-3: 15·f^−0.1, 0.035·f^1.63, from 1 GHz up.
+    for hertz, material in told.items():
+        ghz = hertz / 1e9
+        check_near(material["permittivity"], 15.0 * ghz ** -0.1, 1e-9, f"{hertz}")
+        check_near(material["conductivity_s_m"], 0.035 * ghz ** 1.63, 1e-9, f"{hertz}")
+        check_equal(material["extrapolated"], ghz < 1.0, f"{hertz}")
+
+
+@case
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
     scenario = context.shipped("paper_warehouse")

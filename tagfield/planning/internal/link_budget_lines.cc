@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tagfield/base/units.h"
 
@@ -65,6 +66,24 @@ std::size_t count_others(const std::vector<RadioPath>& paths) {
                     [](const RadioPath& path) { return path.bounce_count > 0 && !path.blocked; }));
 }
 
+/// Of all that the paths meet, by name.
+std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& paths,
+                                         const RadioWorld& world, double frequency_hz) {
+  std::set<std::string> met;
+  for (const PathExplanation& path : paths) {
+    for (const SurfaceOnPath& at : path.bounces) met.insert(at.material);
+    for (const SurfaceOnPath& at : path.crossings) met.insert(at.material);
+  }
+  std::vector<MaterialOnLink> all;
+  for (const std::string& name : met) {
+    const Material& material = find_material(world.materials, name);
+    all.push_back({name, permittivity(material, frequency_hz).real(),
+                   conductivity(material, frequency_hz), material.least_ghz, material.most_ghz,
+                   is_measured_at(material, frequency_hz)});
+  }
+  return all;
+}
+
 double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWay& way) {
   return to_db(
       std::norm(one_way_gain(way.paths, {view.model.antenna, receiver ? view.X_WR : view.X_WA},
@@ -103,6 +122,7 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
   link.to_tag.insert(link.to_tag.end(), there.lines.begin(), there.lines.end());
   add(link.to_tag, "detuning of the tag", -tag.model.detuning_db);
   link.paths = explain_paths(view, tag, there.paths);
+  link.materials = materials_on(link.paths, view.world, link.frequency_hz);
   link.between = std::move(there.between);
 
   add(link.to_reader, "power at the chip", link.tag_dbm);
