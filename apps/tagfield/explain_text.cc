@@ -79,13 +79,18 @@ std::string met(const PathExplanation& path) {
     add(fmt::format("through {} ({}{}, {})", at.object, at.material, thick,
                     at.opaque ? "blocks" : signed_db(at.gain_db)));
   }
+  if (path.edge) {
+    add(fmt::format("around {} ({}, {})", path.edge->object, path.edge->material,
+                    signed_db(path.edge->gain_db)));
+    return text;
+  }
   if (text.empty()) text = "free";
   return (path.order == 0 ? "direct: " : "") + text;
 }
 
 std::string paths_text(const std::vector<PathExplanation>& paths) {
   const auto is_shown = [](const PathExplanation& path) {
-    return path.order == 0 || !path.blocked;
+    return !path.blocked || path.order == 0;
   };
   const auto blocked = static_cast<std::size_t>(
       std::count_if(paths.begin(), paths.end(), [](const auto& path) { return path.blocked; }));
@@ -174,6 +179,7 @@ Json to_json(const PathExplanation& path) {
           {"relative_db", path.relative_db ? Json(*path.relative_db) : Json(nullptr)},
           {"relative_phase_rad", path.relative_phase_rad},
           {"by_way_of", to_json(path.bounces)},
+          {"around", path.edge ? to_json(std::vector{*path.edge}).front() : Json(nullptr)},
           {"through", to_json(path.crossings)}};
 }
 

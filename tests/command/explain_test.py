@@ -112,6 +112,38 @@ def materials_are_told_at_the_carrier(context):
 
 
 @case
+def waves_bend_where_it_is_asked_for(context):
+    wall = context.write("wall.world", """<?xml version="1.0"?><sdf version="1.6"><world name="w"><model name="plate">
+<static>1</static><link name="link"><collision name="collision"><geometry><box><size>0.01 2 2</size></box></geometry></collision>
+</link></model></world></sdf>""")
+    path = context.write("bent.yaml", OPEN.replace("model: link_budget", "model: multipath").replace(
+        "pose: [0, 0, 1]", "pose: [-1, 0, 0]").replace("position: [1, 0, 1]", "position: [1, 0, 0]") +
+        f"world: {{path: {wall}, materials: {{plate: metal}}}}\n")
+    words = ("--antenna", "gate", "--tag", "near")
+    dark = explained(context, path, *words)
+    check_equal(dark["verdict"], "not read: blocked by plate (metal)", "without")
+    for key in ("diffraction", "antennas.gate.diffraction"):
+        link = explained(context, path, *words, "--set", f"{key}=on")
+        around = [p for p in link["paths"] if p["around"]]
+        # A plate's four borders, all as far from the ends: √(1² + 1²) twice.
+        check_equal(len(around), 4, key)
+        for p in around:
+            check_near(p["length_m"], 2.0 * math.sqrt(2.0), 1e-9, key)
+            check_equal(p["around"]["object"], "plate", key)
+        check_near(sum(line["db"] for line in link["to_tag"]), link["tag_dbm"], 0.01, key)
+        field = sum(10.0 ** (p["relative_db"] / 20.0) *
+                    complex(math.cos(p["relative_phase_rad"]), math.sin(p["relative_phase_rad"]))
+                    for p in around)
+        check_near(20.0 + friis_db(2.0) + 20.0 * math.log10(abs(field)), link["tag_dbm"], 0.01, key)
+    out = context.run("explain", path, *words, "--set", "diffraction=on", "--set",
+                      "without=[polarization, diffraction]")
+    check_in("blocked by plate", out.out, "left out")
+    out = context.run("explain", path, *words, "--set", "diffraction=maybe")
+    check_in("off", out.err, "a bad word")
+    check_in("diffraction", out.err, "a bad word")
+
+
+@case
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
     scenario = context.shipped("paper_warehouse")
