@@ -84,6 +84,10 @@ std::string met(const PathExplanation& path) {
                     signed_db(path.edge->gain_db)));
     return text;
   }
+  constexpr double kNoticed_db = 0.05;
+  if (path.bodies_db && std::abs(*path.bodies_db) > kNoticed_db) {
+    add(fmt::format("past what moves ({})", signed_db(*path.bodies_db)));
+  }
   if (text.empty()) text = "free";
   return (path.order == 0 ? "direct: " : "") + text;
 }
@@ -180,7 +184,8 @@ Json to_json(const PathExplanation& path) {
           {"relative_phase_rad", path.relative_phase_rad},
           {"by_way_of", to_json(path.bounces)},
           {"around", path.edge ? to_json(std::vector{*path.edge}).front() : Json(nullptr)},
-          {"through", to_json(path.crossings)}};
+          {"through", to_json(path.crossings)},
+          {"past_bodies_db", path.bodies_db ? Json(*path.bodies_db) : Json(nullptr)}};
 }
 
 Json to_json(const std::vector<MaterialOnLink>& materials) {

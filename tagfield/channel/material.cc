@@ -64,6 +64,7 @@ std::vector<Material> make_materials() {
           ground("medium_dry_ground", 15.0, -0.1, 0.035, 1.63),
           ground("wet_ground", 30.0, -0.4, 0.15, 1.30),
           metal("perfect_conductor", 1e30),
+          dielectric("person", 55.0, 1.06, 0.0),
           dielectric("air", 1.0, 0.0, 0.0),
           cardboard};
 }

@@ -32,9 +32,9 @@ struct Material {
 
 /// Table 3 of Recommendation ITU-R P.2040-3: concrete, brick, plasterboard, wood, glass, chipboard,
 /// plywood, ceiling_board, marble, floorboard, metal, very_dry_ground, medium_dry_ground,
-/// wet_ground; and `cardboard`, `perfect_conductor`, `air`. Most of the table holds from 1 GHz up:
-/// 0.87 to 0.93 GHz is a small extrapolation. Of glass and ceiling board it is the rows for the
-/// lower frequencies; floorboard was measured from 50 GHz up.
+/// wet_ground; and `cardboard`, `perfect_conductor`, `person`, `air`. Most of the table holds from
+/// 1 GHz up: 0.87 to 0.93 GHz is a small extrapolation. Of glass and ceiling board it is the rows
+/// for the lower frequencies; floorboard was measured from 50 GHz up.
 const std::vector<Material>& known_materials();
 
 /// The one of this name. Throws Error with the nearest name if there is none.

@@ -9,6 +9,7 @@
 
 #include "tagfield/base/time.h"
 #include "tagfield/channel/diffracted_gain.h"
+#include "tagfield/channel/moving_body.h"
 #include "tagfield/channel/path_gain.h"
 #include "tagfield/reader/radio_model.h"
 
@@ -30,6 +31,7 @@ struct RadioView {
   std::uint64_t seed = 0;
   /// The world's edges; null where waves don't bend.
   const std::vector<DiffractingEdge>* edges = nullptr;
+  std::vector<MovingBody> bodies{};  ///< Where they are now.
 };
 
 /// The view of an antenna at `X_WA` on a carrier, without images.
@@ -67,6 +69,10 @@ std::vector<DiffractedPath> diffracted_paths(const RadioView& view, const TagEnd
                                              bool receiver = false);
 std::complex<double> gain_of(const DiffractedPath& path, const RadioView& view, const TagEnd& tag,
                              bool receiver = false);
+
+/// What the view's bodies leave of a path's field, as a factor.
+std::complex<double> past_bodies(const RadioPath& path, const RadioView& view, const TagEnd& tag,
+                                 bool receiver = false);
 
 /// Powers and gains; `paths` is workspace.
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths);

@@ -38,6 +38,7 @@ struct LinkQuestion {
   RigidTransform X_WA;
   RigidTransform X_WT;
   std::uint64_t seed = 1;
+  std::vector<MovingBody> bodies{};  ///< What moves, where it is then.
 };
 
 /// By the paper's model: range and the means of eqs. (4) and (5).

@@ -96,8 +96,8 @@ PathExplanation explain(const RadioView& view, const TagEnd& tag, const Diffract
   return told;
 }
 
-PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath& path,
-                        double direct_m, std::complex<double> free_gain) {
+PathExplanation explain(const RadioView& view, const TagEnd& tag, const Ends& ends,
+                        const RadioPath& path, double direct_m, std::complex<double> free_gain) {
   const PathBudget budget =
       path_budget(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
   PathExplanation told;
@@ -108,8 +108,14 @@ PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath
   told.bounces = bounces_of(path, budget, view.world);
   told.crossings = crossings_of(path, budget, view.world);
   if (path.blocked) return told;
-  set_relative(path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects),
-               free_gain, told);
+  std::complex<double> gain =
+      path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
+  if (!view.bodies.empty()) {
+    const std::complex<double> left = past_bodies(path, view, tag);
+    told.bodies_db = to_db(std::norm(left));
+    gain *= left;
+  }
+  set_relative(gain, free_gain, told);
   return told;
 }
 
@@ -164,7 +170,7 @@ std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& 
   std::vector<PathExplanation> told;
   told.reserve(paths.size());
   for (const RadioPath& path : paths) {
-    told.push_back(explain(view, ends, path, direct_m, free_gain));
+    told.push_back(explain(view, tag, ends, path, direct_m, free_gain));
   }
   const auto direct_ones = static_cast<std::ptrdiff_t>(std::count_if(
       told.begin(), told.end(), [](const PathExplanation& path) { return path.order == 0; }));

@@ -35,6 +35,7 @@ struct PathExplanation {
   std::vector<SurfaceOnPath> bounces;
   std::optional<SurfaceOnPath> edge;  ///< Where it bends around something.
   std::vector<SurfaceOnPath> crossings;
+  std::optional<double> bodies_db;  ///< What all that moves leaves of it, where there is any.
 };
 
 /// What people call a solid, of its scoped name: its link, collision or model, whichever first says

@@ -45,11 +45,12 @@ double angle_of(const DiffractingEdge& edge, const Around& end) {
 Vector3d lookout(const DiffractingEdge& edge, const Vector3d& p_W, const Around& end) {
   const Vector3d out =
       edge.faces[0].normal_W - edge.faces[0].into_W + edge.faces[1].normal_W - edge.faces[1].into_W;
-  const Vector3d p = p_W + kBefore * out.normalized();
+  Vector3d p = p_W + kBefore * out.normalized();
   if (!(edge.thickness_m > 0.0)) return p;
   const Vector3d& normal = edge.faces[0].normal_W;
   const double side = normal.dot(end.away) > 0.0 ? 1.0 : -1.0;
-  return p + side * (0.5 * edge.thickness_m + kBefore) * normal;
+  p += side * (0.5 * edge.thickness_m + kBefore) * normal;
+  return p;
 }
 
 bool set_way(const DiffractingEdge& edge, const Vector3d& p_WA, const Vector3d& p_WT,

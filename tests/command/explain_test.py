@@ -144,6 +144,36 @@ def waves_bend_where_it_is_asked_for(context):
 
 
 @case
+def people_cross_a_link(context):
+    path = context.write("crossed.yaml", """\
+name: crossed
+duration_s: 8
+model: link_budget
+without: [polarization, noise, quantization]
+antennas:
+  - {name: gate, pose: [-2, 0, 1], pattern: isotropic, gain_dbi: 6, frequency_hz: 915e6, rate_hz: 20}
+tags:
+  - {id: tag, position: [2, 0, 1], pattern: isotropic, gain_dbi: 0}
+obstacles:
+  - {name: worker, radius_m: 0.2, material: person, trajectory: [[0, 0, -4], [8, 0, 4]]}
+""")
+    without = explained(context, path, "--set", "without=[polarization, bodies]")["tag_dbm"]
+    crossing = explained(context, path, "--time", "4")
+    line, = [line["db"] for line in crossing["to_tag"] if line["what"] == "past worker (person)"]
+    check_between(line, -6.0, -3.0, "a person in the middle")
+    check_near(crossing["tag_dbm"] - without, line, 1e-6, "that alone")
+    check_near(explained(context, path, "--time", "1")["tag_dbm"], without, 1.0, "far off")
+    out = context.folder / "crossed"
+    context.run_well("run", path, "--no-page", "--record-only", "--out", out)
+    rssi = {round(float(read["stamp_s"]), 2): float(read["rssi_dbm"])
+            for read in read_csv(out / "reads.csv")}
+    check_near(rssi[4.0], crossing["reply_dbm"], 0.01, "the run's")
+    check(min(rssi.values()) > rssi[4.0] - 6.0, "the middle is among the weakest")
+    bad = context.run("run", path, "--set", "obstacles.0.material=persn")
+    check_in("did you mean 'person'", bad.err, "a slip")
+
+
+@case
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
     scenario = context.shipped("paper_warehouse")

@@ -13,6 +13,9 @@ constexpr Complex kJ{0.0, 1.0};
 /// e^{jπ/4}.
 Complex eighth_turn() { return std::polar(1.0, 0.25 * kPi); }
 
+/// Beyond it the continued fraction is the better.
+constexpr double kFar = 2.5;
+
 /// 1 − erf(z) by its power series, for |z| up to 3.
 Complex erfc_near(Complex z) {
   constexpr int kMostTerms = 100;
@@ -56,9 +59,16 @@ Complex term(const WedgeGeometry& wedge, double a) {
 Complex transition(double x) {
   const double root = std::sqrt(x);
   const Complex z = root * eighth_turn();
-  constexpr double kFar = 2.5;
   if (root > kFar) return kJ * root * std::conj(eighth_turn()) * erfcx_far(z);
   return kJ * std::sqrt(kPi) * root * std::conj(eighth_turn()) * std::exp(kJ * x) * erfc_near(z);
+}
+
+Complex fresnel_tail(double a) {
+  const Complex whole = std::sqrt(kPi) * std::conj(eighth_turn());
+  if (a < 0.0) return whole - fresnel_tail(-a);
+  const Complex z = a * eighth_turn();
+  if (a <= kFar) return 0.5 * whole * erfc_near(z);
+  return 0.5 * std::conj(eighth_turn()) * std::exp(-kJ * a * a) * erfcx_far(z);
 }
 
 WedgeTerms wedge_terms(const WedgeGeometry& wedge) {

@@ -12,6 +12,9 @@ namespace tagfield {
 /// F(x) = 2j √x e^{jx} ∫_{√x}^∞ e^{−jτ²} dτ for x ≥ 0: 0 at 0, 1 far away; to 1e-10.
 std::complex<double> transition(double x);
 
+/// ∫_a^∞ e^{−jτ²} dτ for any a.
+std::complex<double> fresnel_tail(double a);
+
 /// Where the ends are around a wedge, and how far from it.
 struct WedgeGeometry {
   double exterior_rad = 0.0;  ///< nπ.

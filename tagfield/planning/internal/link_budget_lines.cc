@@ -11,6 +11,9 @@
 namespace tagfield {
 namespace {
 
+/// What a moving body must do to a way to be told [dB].
+constexpr double kNoticed_db = 0.05;
+
 void add(std::vector<BudgetLine>& lines, const std::string& what, double db) {
   BudgetLine& line = lines.emplace_back();
   line.what = what;
@@ -46,6 +49,12 @@ void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const R
   add(way.lines, fmt::format("free space over {:.2f} m", direct.length_m), budget.spreading_db);
   for (const SurfaceOnPath& met : way.between) {
     if (!direct.blocked) add(way.lines, through(met), met.gain_db);
+  }
+  for (const MovingBody& body : view.bodies) {
+    const double db = to_db(
+        std::norm(past_body(body, antenna.X_WA.translation, tag.X_WT.translation, view.carrier)));
+    if (direct.blocked || std::abs(db) < kNoticed_db) continue;
+    add(way.lines, fmt::format("past {} ({})", body.name, body.material.name), db);
   }
   add(way.lines, "polarization", budget.polarization_db);
   add(way.lines, "tag gain towards the antenna", budget.tag_db);
@@ -87,10 +96,15 @@ std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& pat
 }
 
 double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWay& way) {
-  std::complex<double> sum =
-      one_way_gain(way.paths, {view.model.antenna, receiver ? view.X_WR : view.X_WA},
-                   {tag.model.antenna, tag.X_WT}, view.world, view.carrier,
-                   {view.model.effects.patterns, view.model.effects.polarization});
+  const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
+  const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
+  std::complex<double> sum = 0.0;
+  for (const RadioPath& path : way.paths) {
+    if (path.blocked) continue;
+    sum += past_bodies(path, view, tag, receiver) *
+           path_gain(path, antenna, at_tag, view.world, view.carrier,
+                     {view.model.effects.patterns, view.model.effects.polarization});
+  }
   for (const DiffractedPath& path : way.over_edges) sum += gain_of(path, view, tag, receiver);
   return to_db(std::norm(sum));
 }

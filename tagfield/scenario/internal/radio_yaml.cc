@@ -126,6 +126,10 @@ std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& 
   return tag_model_from(name, parameters, tag.self().location(), diagnostics);
 }
 
+Material material_in(const RadioWorldOptions& options, const YamlValue& name) {
+  return material_named(options.materials, name);
+}
+
 RadioWorldOptions radio_world_options_of(YamlMap& scenario) {
   RadioWorldOptions options;
   options.materials = materials_of(scenario);

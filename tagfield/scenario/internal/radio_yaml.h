@@ -37,6 +37,9 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics);
 
+/// The material that `name` names among those of the scenario.
+Material material_in(const RadioWorldOptions& options, const YamlValue& name);
+
 /// What the world is made of: `world.materials`, `world.default_material`, `world.least_facet_m2`,
 /// and the scenario's own `materials`.
 RadioWorldOptions radio_world_options_of(YamlMap& scenario);

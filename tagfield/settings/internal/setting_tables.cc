@@ -100,7 +100,7 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
                  [](D& d, const std::string& text) { d.model.diffuse_k_db = number_in(text); }});
   all.push_back({{"without", "effects",
                   "effects to leave out: patterns, polarization, occlusion, "
-                  "reflections, diffraction, diffuse, noise, quantization, hopping, "
+                  "reflections, diffraction, bodies, diffuse, noise, quantization, hopping, "
                   "phase_offsets, half_turns, inventory"},
                  set_without});
 }
