@@ -26,8 +26,9 @@ LinkExplanation explain_moment(const Scenario& scenario, const ExplainArguments&
   const Time time = time_from_seconds(arguments.time_s);
   try {
     const Simulation simulation = simulation_at(scenario, seed, time);
-    return explain_link(scenario, {antenna, tag, time, simulation.antenna_pose(antenna, time),
-                                   simulation.tag_pose(tag, time), seed});
+    return explain_link(scenario,
+                        {antenna, tag, time, simulation.antenna_pose(antenna, time),
+                         simulation.tag_pose(tag, time), seed, simulation.bodies_at(time)});
   } catch (const Error& error) {
     throw Error(fmt::format("explain: {}", error.what()));
   }

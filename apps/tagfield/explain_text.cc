@@ -79,13 +79,22 @@ std::string met(const PathExplanation& path) {
     add(fmt::format("through {} ({}{}, {})", at.object, at.material, thick,
                     at.opaque ? "blocks" : signed_db(at.gain_db)));
   }
+  if (path.edge) {
+    add(fmt::format("around {} ({}, {})", path.edge->object, path.edge->material,
+                    signed_db(path.edge->gain_db)));
+    return text;
+  }
+  constexpr double kNoticed_db = 0.05;
+  if (path.bodies_db && std::abs(*path.bodies_db) > kNoticed_db) {
+    add(fmt::format("past what moves ({})", signed_db(*path.bodies_db)));
+  }
   if (text.empty()) text = "free";
   return (path.order == 0 ? "direct: " : "") + text;
 }
 
 std::string paths_text(const std::vector<PathExplanation>& paths) {
   const auto is_shown = [](const PathExplanation& path) {
-    return path.order == 0 || !path.blocked;
+    return !path.blocked || path.order == 0;
   };
   const auto blocked = static_cast<std::size_t>(
       std::count_if(paths.begin(), paths.end(), [](const auto& path) { return path.blocked; }));
@@ -108,6 +117,20 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
   }
   if (left > 0) text += fmt::format("  … and {} weaker ones (--json has all)\n", left);
   return text + "  (strength: against the direct way with nothing in between)\n";
+}
+
+std::string materials_text(const PhysicalLink& link) {
+  if (link.materials.empty()) return "";
+  std::string text = fmt::format("\nmaterials at {:.3f} MHz\n", link.frequency_hz * 1e-6);
+  for (const MaterialOnLink& material : link.materials) {
+    text += fmt::format("  {}: permittivity {:.3g}, conductivity {:.3g} S/m", material.name,
+                        material.permittivity, material.conductivity_s_m);
+    text += material.is_measured_here
+                ? "\n"
+                : fmt::format(" (extrapolated: given from {:g} to {:g} GHz)\n", material.least_ghz,
+                              material.most_ghz);
+  }
+  return text;
 }
 
 std::string paper_text(const PaperLink& link) {
@@ -160,7 +183,20 @@ Json to_json(const PathExplanation& path) {
           {"relative_db", path.relative_db ? Json(*path.relative_db) : Json(nullptr)},
           {"relative_phase_rad", path.relative_phase_rad},
           {"by_way_of", to_json(path.bounces)},
-          {"through", to_json(path.crossings)}};
+          {"around", path.edge ? to_json(std::vector{*path.edge}).front() : Json(nullptr)},
+          {"through", to_json(path.crossings)},
+          {"past_bodies_db", path.bodies_db ? Json(*path.bodies_db) : Json(nullptr)}};
+}
+
+Json to_json(const std::vector<MaterialOnLink>& materials) {
+  Json all = Json::array();
+  for (const MaterialOnLink& material : materials) {
+    all.push_back({{"name", material.name},
+                   {"permittivity", material.permittivity},
+                   {"conductivity_s_m", material.conductivity_s_m},
+                   {"extrapolated", !material.is_measured_here}});
+  }
+  return all;
 }
 
 Json to_json(const PaperLink& link) {
@@ -190,6 +226,7 @@ Json to_json(const PhysicalLink& link) {
   }
   json["to_tag"] = to_json(link.to_tag);
   json["to_reader"] = to_json(link.to_reader);
+  json["materials"] = to_json(link.materials);
   json["paths"] = Json::array();
   for (const PathExplanation& path : link.paths) json["paths"].push_back(to_json(path));
   return json;
@@ -208,7 +245,7 @@ std::string to_text(const LinkExplanation& link) {
                  "the chip needs", physical.tag_sensitivity_dbm);
   text += budget("back to the reader", physical.to_reader, "power at the reader",
                  physical.reply_dbm, "the reader needs", physical.reader_sensitivity_dbm);
-  return text + receiver(physical) + paths_text(physical.paths);
+  return text + receiver(physical) + paths_text(physical.paths) + materials_text(physical);
 }
 
 Json to_json(const LinkExplanation& link) {

@@ -19,28 +19,52 @@ constexpr double kVacuumPermittivity = 8.8541878128e-12;
 constexpr double kBoxWall = 0.007;
 
 Material dielectric(const char* name, double a, double c, double d) {
-  return {name, a, 0.0, c, d, std::nullopt, std::nullopt, false};
+  Material material;
+  material.name = name;
+  material.permittivity_a = a;
+  material.conductivity_c = c;
+  material.conductivity_d = d;
+  return material;
 }
 
 Material metal(const char* name, double c) {
-  return {name, 1.0, 0.0, c, 0.0, std::nullopt, std::nullopt, true};
+  Material material = dielectric(name, 1.0, c, 0.0);
+  material.is_opaque = true;
+  return material;
+}
+
+Material measured(Material material, double least_ghz, double most_ghz) {
+  material.least_ghz = least_ghz;
+  material.most_ghz = most_ghz;
+  return material;
+}
+
+Material ground(const char* name, double a, double b, double c, double d) {
+  Material material = measured(dielectric(name, a, c, d), 1.0, 10.0);
+  material.permittivity_b = b;
+  return material;
 }
 
 std::vector<Material> make_materials() {
   // Corrugated board is mostly air: an effective permittivity of 1.3 for walls of fluted paper.
   Material cardboard = dielectric("cardboard", 1.3, 0.002, 1.0);
   cardboard.wall_m = kBoxWall;
-  return {dielectric("concrete", 5.24, 0.0462, 0.7822),
-          dielectric("brick", 3.91, 0.0238, 0.16),
-          dielectric("plasterboard", 2.73, 0.0085, 0.9395),
-          dielectric("wood", 1.99, 0.0047, 1.0718),
-          dielectric("glass", 6.31, 0.0036, 1.3394),
-          dielectric("chipboard", 2.58, 0.0217, 0.7800),
-          dielectric("plywood", 2.71, 0.33, 0.0),
-          dielectric("ceiling_board", 1.48, 0.0011, 1.0750),
-          dielectric("marble", 7.074, 0.0055, 0.9262),
-          metal("metal", 1e7),
+  return {measured(dielectric("concrete", 5.24, 0.0462, 0.7822), 1.0, 100.0),
+          measured(dielectric("brick", 3.91, 0.0238, 0.16), 1.0, 40.0),
+          measured(dielectric("plasterboard", 2.73, 0.0085, 0.9395), 1.0, 100.0),
+          measured(dielectric("wood", 1.99, 0.0047, 1.0718), 0.001, 100.0),
+          measured(dielectric("glass", 6.31, 0.0036, 1.3394), 0.1, 100.0),
+          measured(dielectric("chipboard", 2.58, 0.0217, 0.7800), 1.0, 100.0),
+          measured(dielectric("plywood", 2.71, 0.33, 0.0), 1.0, 40.0),
+          measured(dielectric("ceiling_board", 1.48, 0.0011, 1.0750), 1.0, 100.0),
+          measured(dielectric("marble", 7.074, 0.0055, 0.9262), 1.0, 60.0),
+          measured(dielectric("floorboard", 3.66, 0.0044, 1.3515), 50.0, 100.0),
+          measured(metal("metal", 1e7), 1.0, 100.0),
+          ground("very_dry_ground", 3.0, 0.0, 0.00015, 2.52),
+          ground("medium_dry_ground", 15.0, -0.1, 0.035, 1.63),
+          ground("wet_ground", 30.0, -0.4, 0.15, 1.30),
           metal("perfect_conductor", 1e30),
+          dielectric("person", 55.0, 1.06, 0.0),
           dielectric("air", 1.0, 0.0, 0.0),
           cardboard};
 }
@@ -79,8 +103,17 @@ void check(const Material& material) {
 std::complex<double> permittivity(const Material& material, double frequency_hz) {
   const double ghz = frequency_hz * 1e-9;
   const double real = material.permittivity_a * std::pow(ghz, material.permittivity_b);
-  const double conductivity = material.conductivity_c * std::pow(ghz, material.conductivity_d);
-  return {real, -conductivity / (kTwoPi * kVacuumPermittivity * frequency_hz)};
+  return {real,
+          -conductivity(material, frequency_hz) / (kTwoPi * kVacuumPermittivity * frequency_hz)};
+}
+
+double conductivity(const Material& material, double frequency_hz) {
+  return material.conductivity_c * std::pow(frequency_hz * 1e-9, material.conductivity_d);
+}
+
+bool is_measured_at(const Material& material, double frequency_hz) {
+  const double ghz = frequency_hz * 1e-9;
+  return ghz >= material.least_ghz && ghz <= material.most_ghz;
 }
 
 }  // namespace tagfield

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,12 +25,16 @@ struct Material {
   std::optional<double> wall_m;
   std::optional<double> crossing_db;  ///< Loss of each object crossed, instead of the slab's.
   bool is_opaque = false;             ///< Nothing passes through: metal.
+  /// Where the coefficients were measured [GHz]; 0 and infinity where nobody says.
+  double least_ghz = 0.0;
+  double most_ghz = std::numeric_limits<double>::infinity();
 };
 
-/// Table 3 of Recommendation ITU-R P.2040-1: concrete, brick, plasterboard, wood, glass, chipboard,
-/// plywood, ceiling_board, marble, metal; and `cardboard`, `perfect_conductor`, `air`. The table
-/// holds from 1 GHz up (wood and a few others from 0.001): 0.87 to 0.93 GHz is a small
-/// extrapolation.
+/// Table 3 of Recommendation ITU-R P.2040-3: concrete, brick, plasterboard, wood, glass, chipboard,
+/// plywood, ceiling_board, marble, floorboard, metal, very_dry_ground, medium_dry_ground,
+/// wet_ground; and `cardboard`, `perfect_conductor`, `person`, `air`. Most of the table holds from
+/// 1 GHz up: 0.87 to 0.93 GHz is a small extrapolation. Of glass and ceiling board it is the rows
+/// for the lower frequencies; floorboard was measured from 50 GHz up.
 const std::vector<Material>& known_materials();
 
 /// The one of this name. Throws Error with the nearest name if there is none.
@@ -57,5 +62,11 @@ void check(const Material& material);
 /// Complex relative permittivity η = a·f^b − j·c·f^d/(2π ε0 f), eqs. (28) and (29) of P.2040-1, at
 /// `frequency_hz` > 0.
 std::complex<double> permittivity(const Material& material, double frequency_hz);
+
+/// Conductivity c·f^d [S/m] at `frequency_hz` > 0.
+double conductivity(const Material& material, double frequency_hz);
+
+/// Whether `frequency_hz` is where the material's coefficients were measured.
+bool is_measured_at(const Material& material, double frequency_hz);
 
 }  // namespace tagfield

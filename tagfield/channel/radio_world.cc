@@ -220,10 +220,19 @@ RadioScene make_scene(const Scene& scene, const std::vector<Material>& of_solid,
 
 }  // namespace
 
+const std::vector<DiffractingEdge>& EdgesOnDemand::of(const RadioScene& waves) const {
+  std::call_once(once_, [&] { edges_ = diffracting_edges(scene_, waves); });
+  return edges_;
+}
+
 RadioWorld radio_world(const Scene& scene, const RadioWorldOptions& options,
                        Diagnostics& diagnostics) {
   const std::vector<Material> of_solid = materials_for(scene, options, diagnostics);
-  RadioWorld world{make_scene(scene, of_solid, options.least_facet_m2), {}, {}, {}};
+  RadioWorld world{make_scene(scene, of_solid, options.least_facet_m2),
+                   {},
+                   {},
+                   {},
+                   std::make_shared<const EdgesOnDemand>(scene)};
   for (std::size_t i = 0; i < of_solid.size(); ++i) {
     world.material_of.push_back(index_of(of_solid[i], world.materials));
     world.solids.push_back(scene.collisions[i].name);

@@ -4,15 +4,32 @@
 
 #include <complex>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/base/error.h"
 #include "tagfield/channel/material.h"
+#include "tagfield/propagation/diffraction.h"
 #include "tagfield/propagation/radio_scene.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield {
+
+/// The edges of a world, which are looked for when they are first asked for: most runs never do.
+class EdgesOnDemand {
+ public:
+  explicit EdgesOnDemand(Scene scene) : scene_(std::move(scene)) {}
+  /// `waves` must be what was made of the scene. May be called by several threads at once.
+  const std::vector<DiffractingEdge>& of(const RadioScene& waves) const;
+
+ private:
+  Scene scene_;
+  mutable std::once_flag once_;
+  mutable std::vector<DiffractingEdge> edges_;
+};
 
 /// Surfaces and materials. May be used by several threads at once.
 struct RadioWorld {
@@ -20,6 +37,11 @@ struct RadioWorld {
   std::vector<Material> materials;         ///< Those in use.
   std::vector<std::uint32_t> material_of;  ///< Index into `materials` by collision.
   std::vector<std::string> solids;         ///< Scoped names of the collisions.
+  std::shared_ptr<const EdgesOnDemand> edges_on_demand;
+
+  [[nodiscard]] const std::vector<DiffractingEdge>& edges() const {
+    return edges_on_demand->of(scene);
+  }
 };
 
 /// Makes a world ready. Collisions without a rule are guessed from their names ("metal_shelf",

@@ -9,6 +9,7 @@ namespace {
 bool acts(const RadioModel& model, const EffectSwitch& effect) {
   if (!(model.effects.*effect.on)) return false;
   if (effect.on == &RadioEffects::reflections) return model.reflection_order > 0;
+  if (effect.on == &RadioEffects::diffraction) return model.diffraction;
   if (effect.on == &RadioEffects::diffuse) return model.diffuse_k_db.has_value();
   if (effect.on == &RadioEffects::inventory) return model.gen2.has_value();
   if (effect.on == &RadioEffects::hopping) return model.plan.carriers_hz.size() > 1;
@@ -78,6 +79,12 @@ std::vector<EffectSwitch> effects_in(const Scenario& scenario) {
                                    const RadioModel* const model = physical(antenna.parameters);
                                    return model != nullptr && acts(*model, effect);
                                  });
+    const bool has_bodies =
+        std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                    [](const RobotSpec& robot) { return robot.body.has_value(); }) ||
+        std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(),
+                    [](const ObstacleSpec& obstacle) { return obstacle.body.has_value(); });
+    if (effect.on == &RadioEffects::bodies && !has_bodies) continue;
     if (any) present.push_back(effect);
   }
   return present;

@@ -17,6 +17,7 @@
 
 namespace tagfield {
 
+struct MovingBody;
 struct TagModel;
 
 /// What belongs to one antenna as long as it lives.
@@ -69,7 +70,9 @@ struct FieldStep {
   std::vector<AntennaDue> due;
   std::vector<std::string> antennas_removed;  ///< Names.
   std::vector<std::shared_ptr<const FieldAntenna>> antennas_added;
-  std::vector<AntennaPose> robots;          ///< True poses, for those who are told the truth.
+  std::vector<AntennaPose> robots;  ///< True poses, for those who are told the truth.
+  /// What moves and is in waves' way, where it is at the stamp; null for nothing.
+  std::shared_ptr<const std::vector<MovingBody>> bodies;
   std::shared_ptr<const FieldWorld> world;  ///< Null where it is the one before; at first empty.
 };
 

@@ -127,6 +127,32 @@ void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
   }
 }
 
+void RadioAir::see(const std::vector<MovingBody>& bodies, Time now) {
+  if (bodies.empty() && bodies_.empty()) return;
+  if (now != bodies_seen_) {
+    bodies_before_ = std::move(bodies_);
+    bodies_seen_before_ = bodies_seen_;
+  }
+  bodies_ = bodies;
+  bodies_seen_ = now;
+}
+
+std::vector<MovingBody> RadioAir::bodies_at(const RadioModel& model, Time stamp) const {
+  if (!model.effects.bodies || bodies_.empty() || stamp >= bodies_seen_) {
+    return model.effects.bodies ? bodies_ : std::vector<MovingBody>{};
+  }
+  std::vector<MovingBody> then = bodies_;
+  const double share = share_at(stamp, bodies_seen_before_, bodies_seen_);
+  for (MovingBody& body : then) {
+    const auto before =
+        std::find_if(bodies_before_.begin(), bodies_before_.end(),
+                     [&](const MovingBody& other) { return other.name == body.name; });
+    if (before == bodies_before_.end()) continue;
+    body.p_W = (1.0 - share) * before->p_W + share * body.p_W;
+  }
+  return then;
+}
+
 AirAntenna& RadioAir::antenna_named(const std::string& name) {
   for (const auto& antenna : antennas_) {
     if (antenna->parameters.name == name) return *antenna;
@@ -287,6 +313,7 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
     const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
     RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz);
+    view.bodies = bodies_at(antenna.model(), read.stamp);
     const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
     if (images == nullptr) add_images(antenna, view);
     const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
@@ -326,6 +353,7 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
   RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
+  view.bodies = bodies_at(antenna.model(), now);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
   for (const std::uint32_t slot : slots_) {
     const TagEnd tag = tag_end(antenna, slot, tags, view);
@@ -345,6 +373,7 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
   if (has_turn_soon(antenna, cycles_, now)) {
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
     RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
+    view.bodies = bodies_at(antenna.model(), now);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
     for (const std::uint32_t slot : slots_) {
       const TagEnd tag = tag_end(antenna, slot, tags, view);

@@ -40,6 +40,8 @@ class RadioAir {
   void remove(const std::string& antenna);
   /// The world is another one from now on; must not be null.
   void set_world(std::shared_ptr<const RadioWorld> world);
+  /// What moves is here at `now`; to be told before the updates of that time.
+  void see(const std::vector<MovingBody>& bodies, Time now);
   /// Before the slot is another tag's.
   void forget_tag(std::uint32_t slot);
 
@@ -70,6 +72,7 @@ class RadioAir {
                     const TagPopulation& tags, std::vector<TagReply>& replies);
   void read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                 const TagPopulation& tags, std::vector<TagReply>& replies);
+  [[nodiscard]] std::vector<MovingBody> bodies_at(const RadioModel& model, Time stamp) const;
   const ImageSet* tag_images(const RadioView& view, std::uint32_t slot, const RigidTransform& X_WT);
   TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
                  RadioView& view);
@@ -84,6 +87,11 @@ class RadioAir {
   std::optional<Time> ran_to_;                  ///< and the last, as far as inventories have come.
   std::vector<Eigen::Vector3d> places_before_;  ///< Where tags were, by slot; NaN where not known.
   std::vector<Eigen::Vector3d> places_;
+  /// What moves, at the last update but one at another time, and at the last.
+  std::vector<MovingBody> bodies_before_;
+  std::vector<MovingBody> bodies_;
+  Time bodies_seen_before_{};
+  Time bodies_seen_{};
   ImageCache tag_images_;
   std::vector<RadioPath> paths_;  ///< Workspace, like these.
   std::vector<std::uint32_t> slots_;

@@ -55,24 +55,49 @@ void add_diffuse(const RadioView& view, const TagEnd& tag, const Vector3d& p_WA,
 
 bool is_plain(const RadioView& view) { return !view.tracing.occlusion && view.tracing.order == 0; }
 
+std::complex<double> gain_at(const DiffractedPath& path, const RadioView& view,
+                             const RadioEnd& antenna, const RadioEnd& tag) {
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  const std::complex<double> gain =
+      diffracted_gain(path, *view.edges, antenna, tag, view.world, view.carrier, effects,
+                      {view.tracing.occlusion, view.tracing.order > 0});
+  if (view.bodies.empty()) return gain;
+  return gain * past_bodies(view.bodies, path, antenna.X_WA.translation, tag.X_WA.translation,
+                            view.carrier);
+}
+
+void add_diffracted(const RadioView& view, const RadioEnd& antenna, const RadioEnd& tag,
+                    Gain& gain) {
+  thread_local std::vector<DiffractedPath> paths;
+  trace_diffracted(view.world.scene, *view.edges, antenna.X_WA.translation, tag.X_WA.translation,
+                   view.tracing, paths);
+  for (const DiffractedPath& path : paths) {
+    gain.add(gain_at(path, view, antenna, tag), path.departure_W, view.carrier.wave_number);
+  }
+}
+
 /// Over the antenna's images, or the other way round over the tag's: gains are reciprocal.
 void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
                const RadioEnd& antenna, const RadioEnd& at_tag, std::vector<RadioPath>& paths,
                Gain& gain) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
   const double k = view.carrier.wave_number;
+  const auto left = [&](const RadioPath& path, const RadioEnd& from, const RadioEnd& to) {
+    const Complex alone = path_gain(path, from, to, view.world, view.carrier, effects);
+    if (view.bodies.empty()) return alone;
+    return alone *
+           past_bodies(view.bodies, path, from.X_WA.translation, to.X_WA.translation, view.carrier);
+  };
   if (tag.images != nullptr) {
     trace_paths(view.world.scene, *tag.images, antenna.X_WA.translation, view.tracing, paths);
     for (const RadioPath& path : paths) {
-      gain.add(path_gain(path, at_tag, antenna, view.world, view.carrier, effects), -path.arrival_W,
-               k);
+      gain.add(left(path, at_tag, antenna), -path.arrival_W, k);
     }
     return;
   }
   trace_paths(view.world.scene, *images, tag.X_WT.translation, view.tracing, paths);
   for (const RadioPath& path : paths) {
-    gain.add(path_gain(path, antenna, at_tag, view.world, view.carrier, effects), path.departure_W,
-             k);
+    gain.add(left(path, antenna, at_tag), path.departure_W, k);
   }
 }
 
@@ -86,11 +111,15 @@ Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet
     const Vector3d way = tag.X_WT.translation - X_WA.translation;
     const double length = way.norm();
     if (!(length > 0.0)) return gain;
-    gain.add(free_space_gain(antenna, at_tag, view.carrier, effects), way / length,
-             view.carrier.wave_number);
+    Complex free = free_space_gain(antenna, at_tag, view.carrier, effects);
+    for (const MovingBody& body : view.bodies) {
+      free *= past_body(body, X_WA.translation, tag.X_WT.translation, view.carrier);
+    }
+    gain.add(free, way / length, view.carrier.wave_number);
   } else {
     add_paths(view, tag, images, antenna, at_tag, paths, gain);
   }
+  if (view.edges != nullptr) add_diffracted(view, antenna, at_tag, gain);
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db;
   if (is_diffuse) add_diffuse(view, tag, X_WA.translation, gain);
   return gain;
@@ -110,9 +139,10 @@ RadioView bare_view(const RadioModel& model, const RadioWorld& world, const Rigi
   tracing.occlusion = model.effects.occlusion;
   tracing.order = model.effects.reflections ? model.reflection_order : 0;
   const RigidTransform X_WR = model.X_AR ? X_WA * *model.X_AR : X_WA;
+  const bool bends = model.diffraction && model.effects.diffraction;
   return {
       model,       world, carrier_in(world, frequency_hz), tracing, X_WA, X_WR, nullptr, nullptr,
-      diffuse_key, seed};
+      diffuse_key, seed,  bends ? &world.edges() : nullptr};
 }
 
 RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
@@ -124,6 +154,27 @@ RadioView view_from(const RadioModel& model, const RadioWorld& world, const Rigi
   view.images = images_at(view.X_WA);
   if (model.X_AR) view.receiver_images = images_at(view.X_WR);
   return view;
+}
+
+std::vector<DiffractedPath> diffracted_paths(const RadioView& view, const TagEnd& tag,
+                                             bool receiver) {
+  std::vector<DiffractedPath> paths;
+  if (view.edges == nullptr) return paths;
+  trace_diffracted(view.world.scene, *view.edges, (receiver ? view.X_WR : view.X_WA).translation,
+                   tag.X_WT.translation, view.tracing, paths);
+  return paths;
+}
+
+std::complex<double> gain_of(const DiffractedPath& path, const RadioView& view, const TagEnd& tag,
+                             bool receiver) {
+  return gain_at(path, view, {view.model.antenna, receiver ? view.X_WR : view.X_WA},
+                 {tag.model.antenna, tag.X_WT});
+}
+
+std::complex<double> past_bodies(const RadioPath& path, const RadioView& view, const TagEnd& tag,
+                                 bool receiver) {
+  return past_bodies(view.bodies, path, (receiver ? view.X_WR : view.X_WA).translation,
+                     tag.X_WT.translation, view.carrier);
 }
 
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {

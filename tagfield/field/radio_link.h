@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "tagfield/base/time.h"
+#include "tagfield/channel/diffracted_gain.h"
+#include "tagfield/channel/moving_body.h"
 #include "tagfield/channel/path_gain.h"
 #include "tagfield/reader/radio_model.h"
 
@@ -27,6 +29,9 @@ struct RadioView {
   std::shared_ptr<const ImageSet> receiver_images{};
   std::uint64_t diffuse_key = 0;  ///< Tells this antenna's diffuse waves from another's.
   std::uint64_t seed = 0;
+  /// The world's edges; null where waves don't bend.
+  const std::vector<DiffractingEdge>* edges = nullptr;
+  std::vector<MovingBody> bodies{};  ///< Where they are now.
 };
 
 /// The view of an antenna at `X_WA` on a carrier, without images.
@@ -57,6 +62,17 @@ struct RadioLink {
   /// the antenna's place [rad/m].
   Eigen::Vector3d phase_slope_W = Eigen::Vector3d::Zero();
 };
+
+/// Of the view's antenna (its receiving one where `receiver` is set): the ways to `tag` over an
+/// edge each, and the gain of one.
+std::vector<DiffractedPath> diffracted_paths(const RadioView& view, const TagEnd& tag,
+                                             bool receiver = false);
+std::complex<double> gain_of(const DiffractedPath& path, const RadioView& view, const TagEnd& tag,
+                             bool receiver = false);
+
+/// What the view's bodies leave of a path's field, as a factor.
+std::complex<double> past_bodies(const RadioPath& path, const RadioView& view, const TagEnd& tag,
+                                 bool receiver = false);
 
 /// Powers and gains; `paths` is workspace.
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths);

@@ -223,6 +223,9 @@ void RfidField::Impl::step(const FieldStep& step) {
   for (const std::uint32_t number : step.removed) remove(number, step.stamp);
   for (const TagAdded& tag : step.added) add(tag);
   move(step.moved);
+  if (!step.due.empty()) {
+    air_.see(step.bodies ? *step.bodies : std::vector<MovingBody>{}, step.stamp);
+  }
   tell_places(step);
   if (!step.due.empty()) updated_ = step.stamp;
   for (const AntennaDue& due : step.due) update(due, step.stamp);

@@ -69,8 +69,9 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
   const std::shared_ptr<const RadioWorld> world = radio_world_of(scenario);
   const RadioPort port = port_of(scenario, antenna, question.seed);
   const CarrierNow carrier = carrier_at(model, port, question.time);
-  const RadioView view = view_from(model, *world, question.X_WA, carrier.frequency_hz,
-                                   port.antenna_key, question.seed);
+  RadioView view = view_from(model, *world, question.X_WA, carrier.frequency_hz, port.antenna_key,
+                             question.seed);
+  if (model.effects.bodies) view.bodies = question.bodies;
   const auto kind = question.tag.model ? question.tag.model : default_tag_model();
   const TagEnd tag{*kind, question.X_WT, stream_key(question.tag.id)};
   std::vector<RadioPath> paths;

@@ -20,6 +20,16 @@ struct BudgetLine {
   double db = 0.0;   ///< Gain, below 0 for a loss [dB]; of the first line a power [dBm].
 };
 
+/// What something on a link's paths is made of, as waves see it at the link's carrier.
+struct MaterialOnLink {
+  std::string name;
+  double permittivity = 1.0;      ///< Relative, its real part.
+  double conductivity_s_m = 0.0;  ///< [S/m]
+  double least_ghz = 0.0;         ///< Where its coefficients were measured,
+  double most_ghz = 0.0;          ///< infinity where nobody says.
+  bool is_measured_here = true;   ///< The carrier lies between these.
+};
+
 /// One antenna, one tag, where they are at a moment.
 struct LinkQuestion {
   const AntennaSpec& antenna;
@@ -28,6 +38,7 @@ struct LinkQuestion {
   RigidTransform X_WA;
   RigidTransform X_WT;
   std::uint64_t seed = 1;
+  std::vector<MovingBody> bodies{};  ///< What moves, where it is then.
 };
 
 /// By the paper's model: range and the means of eqs. (4) and (5).
@@ -58,6 +69,7 @@ struct PhysicalLink {
   std::optional<Time> turn;  ///< With an inventory: when the antenna's turn begins, or now.
   std::optional<double> decode_probability;   ///< With an inventory, of a slot of its own.
   std::vector<PathExplanation> paths;         ///< From the sending antenna, as explain_paths().
+  std::vector<MaterialOnLink> materials;      ///< Of all that `paths` meet, by name.
   std::vector<SurfaceOnPath> between;         ///< On the direct way there.
   std::vector<SurfaceOnPath> between_return;  ///< Back to a receiving antenna of its own.
 

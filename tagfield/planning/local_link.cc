@@ -33,9 +33,9 @@ void trace(const RadioView& view, const ImageSet& images, const TagEnd& tag,
   trace_paths(view.world.scene, images, tag.X_WT.translation, view.tracing, paths);
 }
 
-Rays rays_of(const RadioView& view, const RigidTransform& X_WA, const TagEnd& tag,
+Rays rays_of(const RadioView& view, bool receiver, const TagEnd& tag,
              const std::vector<RadioPath>& paths) {
-  const RadioEnd antenna{view.model.antenna, X_WA};
+  const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
   Rays rays;
@@ -43,6 +43,10 @@ Rays rays_of(const RadioView& view, const RigidTransform& X_WA, const TagEnd& ta
   for (const RadioPath& path : paths) {
     rays.push_back({path_gain(path, antenna, at_tag, view.world, view.carrier, effects),
                     path.length_m, path.arrival_W.x(), path.arrival_W.y()});
+  }
+  for (const DiffractedPath& path : diffracted_paths(view, tag, receiver)) {
+    rays.push_back({gain_of(path, view, tag, receiver), path.length_m(), path.arrival_W.x(),
+                    path.arrival_W.y()});
   }
   return rays;
 }
@@ -154,11 +158,10 @@ LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientation
   for (const Eigen::Quaterniond& R_WT : orientations.R_WT) {
     const TagEnd turned{tag.model, {R_WT, tag.X_WT.translation}, tag.key};
     const Powers forward =
-        powers_of(view, rays_of(view, view.X_WA, turned, paths), carriers_hz, stream);
+        powers_of(view, rays_of(view, false, turned, paths), carriers_hz, stream);
     const Powers backward =
-        has_receiver
-            ? powers_of(view, rays_of(view, view.X_WR, turned, paths_back), carriers_hz, stream)
-            : forward;
+        has_receiver ? powers_of(view, rays_of(view, true, turned, paths_back), carriers_hz, stream)
+                     : forward;
     if (!orientations.worst) {
       append(there, forward);
       append(back, backward);
@@ -173,6 +176,7 @@ LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientation
 double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m) {
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const bool has_others = (model.effects.reflections && model.reflection_order > 0) ||
+                          (model.effects.diffraction && model.diffraction) ||
                           (model.effects.diffuse && model.diffuse_k_db);
   constexpr double kTwice_db = 6.02;
   const double one_way_db = to_db(peak_gain(model.antenna)) + to_db(peak_gain(tag.antenna)) +

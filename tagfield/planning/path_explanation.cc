@@ -64,8 +64,40 @@ Ends ends_of(const RadioView& view, const TagEnd& tag) {
           {view.model.effects.patterns, view.model.effects.polarization}};
 }
 
-PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath& path,
+void set_relative(std::complex<double> gain, std::complex<double> free_gain,
+                  PathExplanation& told) {
+  if (!(std::norm(free_gain) > 0.0)) return;
+  const std::complex<double> ratio = gain / free_gain;
+  const double relative_db = to_db(std::norm(ratio));
+  if (!std::isfinite(relative_db) || relative_db <= kLeast_db) return;
+  told.relative_db = relative_db;
+  told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
+}
+
+/// What an edge costs is what is left of a free way of the same length.
+PathExplanation explain(const RadioView& view, const TagEnd& tag, const DiffractedPath& path,
                         double direct_m, std::complex<double> free_gain) {
+  const std::complex<double> gain = gain_of(path, view, tag);
+  const Ends ends = ends_of(view, tag);
+  const auto power_at = [&](const RadioEnd& end, const Eigen::Vector3d& u_W) {
+    if (!ends.effects.patterns) return peak_gain(end.pattern);
+    return tagfield::gain(end.pattern, end.X_WA.rotation.conjugate() * u_W);
+  };
+  const double free = view.carrier.lambda_m / (4.0 * kPi * path.length_m());
+  const double both =
+      power_at(ends.antenna, path.departure_W) * power_at(ends.tag, -path.arrival_W);
+  PathExplanation told;
+  told.length_m = path.length_m();
+  told.excess_m = std::max(0.0, path.length_m() - direct_m);
+  told.edge = surface(view.world, (*view.edges)[path.edge].solid,
+                      to_db(std::norm(gain)) - to_db(both * free * free));
+  told.edge->p_W = path.p_W;
+  set_relative(gain, free_gain, told);
+  return told;
+}
+
+PathExplanation explain(const RadioView& view, const TagEnd& tag, const Ends& ends,
+                        const RadioPath& path, double direct_m, std::complex<double> free_gain) {
   const PathBudget budget =
       path_budget(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
   PathExplanation told;
@@ -75,13 +107,15 @@ PathExplanation explain(const RadioView& view, const Ends& ends, const RadioPath
   told.blocked = path.blocked;
   told.bounces = bounces_of(path, budget, view.world);
   told.crossings = crossings_of(path, budget, view.world);
-  if (path.blocked || !(std::norm(free_gain) > 0.0)) return told;
-  const std::complex<double> ratio =
-      path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects) / free_gain;
-  const double relative_db = to_db(std::norm(ratio));
-  if (!std::isfinite(relative_db) || relative_db <= kLeast_db) return told;
-  told.relative_db = relative_db;
-  told.relative_phase_rad = wrap_to_pi(std::arg(ratio));
+  if (path.blocked) return told;
+  std::complex<double> gain =
+      path_gain(path, ends.antenna, ends.tag, view.world, view.carrier, ends.effects);
+  if (!view.bodies.empty()) {
+    const std::complex<double> left = past_bodies(path, view, tag);
+    told.bodies_db = to_db(std::norm(left));
+    gain *= left;
+  }
+  set_relative(gain, free_gain, told);
   return told;
 }
 
@@ -127,7 +161,8 @@ std::vector<SurfaceOnPath> crossings_of(const RadioPath& path, const PathBudget&
 }
 
 std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& tag,
-                                           const std::vector<RadioPath>& paths) {
+                                           const std::vector<RadioPath>& paths,
+                                           const std::vector<DiffractedPath>& over_edges) {
   const Ends ends = ends_of(view, tag);
   const double direct_m = (tag.X_WT.translation - view.X_WA.translation).norm();
   const std::complex<double> free_gain =
@@ -135,10 +170,14 @@ std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& 
   std::vector<PathExplanation> told;
   told.reserve(paths.size());
   for (const RadioPath& path : paths) {
-    told.push_back(explain(view, ends, path, direct_m, free_gain));
+    told.push_back(explain(view, tag, ends, path, direct_m, free_gain));
   }
-  const auto rest = std::find_if(told.begin(), told.end(),
-                                 [](const PathExplanation& path) { return path.order > 0; });
+  const auto direct_ones = static_cast<std::ptrdiff_t>(std::count_if(
+      told.begin(), told.end(), [](const PathExplanation& path) { return path.order == 0; }));
+  for (const DiffractedPath& path : over_edges) {
+    told.push_back(explain(view, tag, path, direct_m, free_gain));
+  }
+  const auto rest = told.begin() + direct_ones;
   std::stable_sort(rest, told.end(), [](const PathExplanation& a, const PathExplanation& b) {
     return a.blocked != b.blocked ? b.blocked : strength(a) > strength(b);
   });

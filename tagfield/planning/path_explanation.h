@@ -33,7 +33,9 @@ struct PathExplanation {
   /// Of its field against the direct way's, in [-π, π); 0 where it is blocked.
   double relative_phase_rad = 0.0;
   std::vector<SurfaceOnPath> bounces;
+  std::optional<SurfaceOnPath> edge;  ///< Where it bends around something.
   std::vector<SurfaceOnPath> crossings;
+  std::optional<double> bodies_db;  ///< What all that moves leaves of it, where there is any.
 };
 
 /// What people call a solid, of its scoped name: its link, collision or model, whichever first says
@@ -48,9 +50,11 @@ std::vector<RadioPath> paths_of(const RadioView& view, const TagEnd& tag, bool r
 /// `path` with the way between the same ends taken as free of anything, if it is the direct one.
 RadioPath unhindered(const RadioPath& path);
 
-/// The paths in words: the direct one first, then by falling power, blocked ones last.
+/// The paths, and those over edges, in words: the direct one first, then by falling power, blocked
+/// ones last.
 std::vector<PathExplanation> explain_paths(const RadioView& view, const TagEnd& tag,
-                                           const std::vector<RadioPath>& paths);
+                                           const std::vector<RadioPath>& paths,
+                                           const std::vector<DiffractedPath>& over_edges = {});
 
 /// What stands in the way of `path`.
 std::vector<SurfaceOnPath> crossings_of(const RadioPath& path, const PathBudget& budget,

@@ -78,6 +78,7 @@ double most_range_m(const RadioModel& model, const TagModel& tag) {
   const double loss_db = std::min(to_tag_db, 0.5 * both_ways_db);
   const double alone_m = lambda_m / (4.0 * kPi) * amplitude_from_db(loss_db);
   const bool has_others = (model.effects.reflections && model.reflection_order > 0) ||
+                          (model.effects.diffraction && model.diffraction) ||
                           (model.effects.diffuse && model.diffuse_k_db);
   constexpr double kMost = 1e6;
   return std::min(kMost, has_others ? 2.0 * alone_m : alone_m);

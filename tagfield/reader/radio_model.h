@@ -28,6 +28,8 @@ struct RadioEffects {
   bool polarization = true;   ///< Of both ends.
   bool occlusion = true;      ///< By what stands between.
   bool reflections = true;    ///< From flat surfaces.
+  bool diffraction = true;    ///< Around edges, where it is asked for.
+  bool bodies = true;         ///< Things that move, where they have a material.
   bool diffuse = true;        ///< Waves from everywhere, where a K factor is given.
   bool noise = true;          ///< Of phase, RSSI and Doppler.
   bool quantization = true;   ///< Steps of what is reported.
@@ -43,11 +45,13 @@ struct EffectSwitch {
   const char* what;  ///< For people.
   bool RadioEffects::*on;
 };
-constexpr std::array<EffectSwitch, 11> kEffectSwitches = {{
+constexpr std::array<EffectSwitch, 13> kEffectSwitches = {{
     {"patterns", "antenna patterns", &RadioEffects::patterns},
     {"polarization", "polarization", &RadioEffects::polarization},
     {"occlusion", "occlusion", &RadioEffects::occlusion},
     {"reflections", "reflections", &RadioEffects::reflections},
+    {"diffraction", "diffraction", &RadioEffects::diffraction},
+    {"bodies", "moving bodies", &RadioEffects::bodies},
     {"diffuse", "diffuse waves", &RadioEffects::diffuse},
     {"noise", "receiver's noise", &RadioEffects::noise},
     {"quantization", "steps of phase and RSSI", &RadioEffects::quantization},
@@ -77,6 +81,7 @@ enum class AirSharing {
 struct RadioModel {
   RadioEffects effects;
   int reflection_order = 0;  ///< Most bounces of a path: 0 to 3.
+  bool diffraction = false;  ///< Waves bend around edges.
   /// Power of all single paths over that of diffuse waves (Rice's K) [dB]; none for no such waves.
   std::optional<double> diffuse_k_db;
   AntennaPattern antenna;

@@ -22,10 +22,14 @@ double distance_to(const Rectangle& box, const Eigen::Vector2d& p_W) {
 
 }  // namespace
 
+bool is_there(const ObstacleSpec& spec, Time stamp) {
+  return stamp >= spec.appears && !(spec.disappears && stamp >= *spec.disappears);
+}
+
 Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp) {
   Obstacles obstacles;
   for (const ObstacleSpec& spec : specs) {
-    if (stamp < spec.appears || (spec.disappears && stamp >= *spec.disappears)) continue;
+    if (!is_there(spec, stamp)) continue;
     const Eigen::Vector2d centre = held_pose_at(spec.motion, stamp).translation.head<2>();
     if (spec.radius_m > 0.0) {
       obstacles.discs.push_back({centre, spec.radius_m});

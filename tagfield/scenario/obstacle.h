@@ -9,11 +9,18 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/time.h"
+#include "tagfield/channel/material.h"
 #include "tagfield/poses/trajectory.h"
 
 namespace tagfield {
 
 struct Obstacles;  // of laser/simulated_laser.h
+
+/// What something that moves is to waves: as high as this, and made of that.
+struct BodySpec {
+  double height_m = 1.75;
+  Material material;
+};
 
 /// Taller than a robot's laser; seen from above a disc, or a rectangle.
 struct ObstacleSpec {
@@ -26,8 +33,12 @@ struct ObstacleSpec {
   Trajectory motion;
   Time appears;
   std::optional<Time> disappears;
+  std::optional<BodySpec> body;  ///< None: waves don't notice it.
   Location location;
 };
+
+/// Whether it is there at `stamp`.
+bool is_there(const ObstacleSpec& spec, Time stamp);
 
 /// Those that are there at `stamp`, where they are then.
 Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp);

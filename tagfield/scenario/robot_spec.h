@@ -9,6 +9,7 @@
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/time.h"
+#include "tagfield/channel/material.h"
 #include "tagfield/motion/path_follower.h"
 #include "tagfield/motion/unicycle.h"
 
@@ -21,6 +22,12 @@ struct Carrying {
   Location location;
 };
 
+/// What a robot is to waves: a box on the ground, its middle over the robot's.
+struct RobotBody {
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< Length, width, height.
+  Material material;
+};
+
 struct RobotSpec {
   std::string name;
   PlanarPose start;
@@ -31,6 +38,7 @@ struct RobotSpec {
   std::vector<PlanarPose> goals_W;  ///< To be driven to, and to look along.
   int random_goals = 0;             ///< So many, drawn anew at each seed.
   std::vector<Carrying> carried;    ///< In order of time.
+  std::optional<RobotBody> body;    ///< None: waves don't notice it.
   Location location;                ///< Where it was written, for messages.
 };
 

@@ -50,7 +50,20 @@ Eigen::Vector2d waypoint_of(const YamlValue& value) {
   return {n[0], n[1]};
 }
 
-RobotSpec robot_of(YamlMap map) {
+RobotBody robot_body_of(YamlMap map, const RadioWorldOptions& world) {
+  RobotBody body;
+  const YamlValue value = map.at("size");
+  const std::vector<double> size = value.lengths(3, 3);
+  if (!(size[0] > 0.0 && size[1] > 0.0 && size[2] > 0.0)) {
+    value.fail("must be three numbers greater than 0");
+  }
+  body.size_m = {size[0], size[1], size[2]};
+  body.material = material_in(world, map.at("material"));
+  map.finish();
+  return body;
+}
+
+RobotSpec robot_of(YamlMap map, const RadioWorldOptions& world) {
   RobotSpec robot;
   robot.location = map.self().location();
   robot.name = map.at("name").text();
@@ -66,6 +79,7 @@ RobotSpec robot_of(YamlMap map) {
     robot.waypoints.push_back(waypoint_of(waypoint));
   }
   read_self_driving(map, robot);
+  if (map.has("body")) robot.body = robot_body_of(YamlMap(map.at("body")), world);
   map.finish();
   return robot;
 }
@@ -297,7 +311,7 @@ void require_power_for_tags(const Scenario& scenario) {
 void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
                  Diagnostics& diagnostics) {
   for (const YamlValue& robot : map.list("robots")) {
-    scenario.robots.push_back(robot_of(YamlMap(robot)));
+    scenario.robots.push_back(robot_of(YamlMap(robot), scenario.materials));
   }
   for (const YamlValue& antenna : map.list("antennas")) {
     scenario.antennas.push_back(antenna_of(YamlMap(antenna), radio, diagnostics));
@@ -346,7 +360,7 @@ Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostic
     scenario.pose.source = source;
   }
   for (const YamlValue& obstacle : map.list("obstacles")) {
-    scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle)));
+    scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle), scenario.materials));
   }
   if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
   if (map.has("localization")) {

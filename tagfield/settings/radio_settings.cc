@@ -94,6 +94,7 @@ std::shared_ptr<const RadioModel> radio_model_from(PropagationModel model,
   // A link budget has no other paths, whatever the antenna's multipath would have.
   if (model == PropagationModel::kLinkBudget) {
     draft.model.effects.reflections = false;
+    draft.model.effects.diffraction = false;
     draft.model.effects.diffuse = false;
   }
   check_at(draft.model, parameters, location, diagnostics);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/channel/moving_body.h"
 #include "tagfield/channel/radio_world.h"
 #include "tagfield/scenario/recorded_motion.h"
 #include "tagfield/simulator/internal/robots.h"
@@ -63,6 +64,12 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets out
       schedule_(std::make_unique<TagSchedule>(scenario.tags)),
       field_(std::move(outlets), scenario.radio_world) {
   if (time_step_ <= Duration::zero()) throw Error("time_step_s must be greater than 0");
+  for (const RobotSpec& robot : scenario.robots) {
+    if (robot.body) robot_bodies_.emplace_back(robot.name, *robot.body);
+  }
+  for (const ObstacleSpec& obstacle : scenario.obstacles) {
+    if (obstacle.body) obstacles_.push_back(obstacle);
+  }
   for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
   for (const TagSpec& tag : scenario.tags) require_robot(tag.on, tag.location);
   handle_events(Time{});
@@ -206,6 +213,31 @@ RigidTransform Simulation::antenna_pose(const AntennaSpec& antenna, Time stamp) 
   return robot_named(antenna.on)->true_pose(seconds_into_step(stamp)) * X_PA;
 }
 
+std::vector<MovingBody> Simulation::bodies_at(Time stamp) const {
+  std::vector<MovingBody> bodies;
+  for (const auto& [name, robot] : robot_bodies_) {
+    const RigidTransform X_WB = robot_named(name)->true_pose(seconds_into_step(stamp));
+    const Eigen::Vector3d ahead = X_WB.rotation * Eigen::Vector3d::UnitX();
+    MovingBody body{name, robot.material, X_WB.translation, 0.5 * robot.size_m};
+    body.p_W.z() += body.half_m.z();
+    body.yaw_rad = std::atan2(ahead.y(), ahead.x());
+    bodies.push_back(body);
+  }
+  for (const ObstacleSpec& obstacle : obstacles_) {
+    if (!is_there(obstacle, stamp)) continue;
+    MovingBody body{obstacle.name, obstacle.body->material,
+                    held_pose_at(obstacle.motion, stamp).translation};
+    body.is_round = obstacle.radius_m > 0.0;
+    const Eigen::Vector2d half = body.is_round ? Eigen::Vector2d::Constant(obstacle.radius_m)
+                                               : Eigen::Vector2d(0.5 * obstacle.size_m);
+    body.half_m = {half.x(), half.y(), 0.5 * obstacle.body->height_m};
+    body.p_W.z() = body.half_m.z();
+    body.yaw_rad = obstacle.yaw_rad;
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
 /// Where the antenna is, and where its robot believes it to be.
 void Simulation::place(AntennaDue& due, Time stamp) const {
   const AntennaSpec& antenna = antennas_.at(due.antenna->parameters.name);
@@ -226,6 +258,9 @@ void Simulation::update_at(Time stamp) {
   for (AntennaDue& antenna : due) place(antenna, stamp);
   FieldStep step = driver_.take_step(stamp);
   step.due = std::move(due);
+  if (!robot_bodies_.empty() || !obstacles_.empty()) {
+    step.bodies = std::make_shared<const std::vector<MovingBody>>(bodies_at(stamp));
+  }
   const double seconds = seconds_into_step(stamp);
   for (const Robot& robot : robots_) {
     step.robots.push_back({stamp, robot.name(), robot.true_pose(seconds)});

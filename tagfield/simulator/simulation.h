@@ -17,6 +17,7 @@
 
 namespace tagfield {
 
+struct MovingBody;
 class Robot;
 class TagSchedule;
 struct RadioWorld;
@@ -59,6 +60,8 @@ class Simulation {
   /// antenna is where its last row says.
   [[nodiscard]] RigidTransform antenna_pose(const AntennaSpec& antenna, Time stamp) const;
   [[nodiscard]] RigidTransform tag_pose(const TagSpec& tag, Time stamp) const;
+  /// Likewise what moves and is in waves' way: robots and obstacles that have a material.
+  [[nodiscard]] std::vector<MovingBody> bodies_at(Time stamp) const;
 
   /// Adds a tag now (its `appears` does not matter). Throws Error if the ID is present, or its
   /// robot unknown.
@@ -86,6 +89,8 @@ class Simulation {
   Time now_{};         ///< End of the last step.
   Time step_begin_{};  ///< Beginning of the last step.
   std::vector<Robot> robots_;
+  std::vector<std::pair<std::string, RobotBody>> robot_bodies_;  ///< By robot's name.
+  std::vector<ObstacleSpec> obstacles_;                          ///< Those that have a body.
   std::unordered_map<std::string, AntennaSpec> antennas_;
   std::unordered_map<std::string, std::uint32_t> tags_;         ///< Numbers by ID.
   std::vector<std::pair<std::uint32_t, TagSpec>> moving_tags_;  ///< In rising order of numbers.

@@ -95,6 +95,85 @@ def the_lines_add_up(context):
 
 
 @case
+def materials_are_told_at_the_carrier(context):
+    told = {}
+    for hertz in (865.7e6, 2.4e9):
+        link = explained(context, context.shipped("paper_warehouse"), *MULTIPATH, "--tag", "tag1",
+                         "--set", f"antennas.mobile.frequency_hz={hertz}",
+                         "--set", "world.default_material=medium_dry_ground",
+                         "--set", "world.materials={'*': medium_dry_ground}")
+        told[hertz], = link["materials"]
+    # P.2040-3: 15·f^−0.1, 0.035·f^1.63, from 1 GHz up.
+    for hertz, material in told.items():
+        ghz = hertz / 1e9
+        check_near(material["permittivity"], 15.0 * ghz ** -0.1, 1e-9, f"{hertz}")
+        check_near(material["conductivity_s_m"], 0.035 * ghz ** 1.63, 1e-9, f"{hertz}")
+        check_equal(material["extrapolated"], ghz < 1.0, f"{hertz}")
+
+
+@case
+def waves_bend_where_it_is_asked_for(context):
+    wall = context.write("wall.world", """<?xml version="1.0"?><sdf version="1.6"><world name="w"><model name="plate">
+<static>1</static><link name="link"><collision name="collision"><geometry><box><size>0.01 2 2</size></box></geometry></collision>
+</link></model></world></sdf>""")
+    path = context.write("bent.yaml", OPEN.replace("model: link_budget", "model: multipath").replace(
+        "pose: [0, 0, 1]", "pose: [-1, 0, 0]").replace("position: [1, 0, 1]", "position: [1, 0, 0]") +
+        f"world: {{path: {wall}, materials: {{plate: metal}}}}\n")
+    words = ("--antenna", "gate", "--tag", "near")
+    dark = explained(context, path, *words)
+    check_equal(dark["verdict"], "not read: blocked by plate (metal)", "without")
+    for key in ("diffraction", "antennas.gate.diffraction"):
+        link = explained(context, path, *words, "--set", f"{key}=on")
+        around = [p for p in link["paths"] if p["around"]]
+        # A plate's four borders, all as far from the ends: √(1² + 1²) twice.
+        check_equal(len(around), 4, key)
+        for p in around:
+            check_near(p["length_m"], 2.0 * math.sqrt(2.0), 1e-9, key)
+            check_equal(p["around"]["object"], "plate", key)
+        check_near(sum(line["db"] for line in link["to_tag"]), link["tag_dbm"], 0.01, key)
+        field = sum(10.0 ** (p["relative_db"] / 20.0) *
+                    complex(math.cos(p["relative_phase_rad"]), math.sin(p["relative_phase_rad"]))
+                    for p in around)
+        check_near(20.0 + friis_db(2.0) + 20.0 * math.log10(abs(field)), link["tag_dbm"], 0.01, key)
+    out = context.run("explain", path, *words, "--set", "diffraction=on", "--set",
+                      "without=[polarization, diffraction]")
+    check_in("blocked by plate", out.out, "left out")
+    out = context.run("explain", path, *words, "--set", "diffraction=maybe")
+    check_in("off", out.err, "a bad word")
+    check_in("diffraction", out.err, "a bad word")
+
+
+@case
+def people_cross_a_link(context):
+    path = context.write("crossed.yaml", """\
+name: crossed
+duration_s: 8
+model: link_budget
+without: [polarization, noise, quantization]
+antennas:
+  - {name: gate, pose: [-2, 0, 1], pattern: isotropic, gain_dbi: 6, frequency_hz: 915e6, rate_hz: 20}
+tags:
+  - {id: tag, position: [2, 0, 1], pattern: isotropic, gain_dbi: 0}
+obstacles:
+  - {name: worker, radius_m: 0.2, material: person, trajectory: [[0, 0, -4], [8, 0, 4]]}
+""")
+    without = explained(context, path, "--set", "without=[polarization, bodies]")["tag_dbm"]
+    crossing = explained(context, path, "--time", "4")
+    line, = [line["db"] for line in crossing["to_tag"] if line["what"] == "past worker (person)"]
+    check_between(line, -6.0, -3.0, "a person in the middle")
+    check_near(crossing["tag_dbm"] - without, line, 1e-6, "that alone")
+    check_near(explained(context, path, "--time", "1")["tag_dbm"], without, 1.0, "far off")
+    out = context.folder / "crossed"
+    context.run_well("run", path, "--no-page", "--record-only", "--out", out)
+    rssi = {round(float(read["stamp_s"]), 2): float(read["rssi_dbm"])
+            for read in read_csv(out / "reads.csv")}
+    check_near(rssi[4.0], crossing["reply_dbm"], 0.01, "the run's")
+    check(min(rssi.values()) > rssi[4.0] - 6.0, "the middle is among the weakest")
+    bad = context.run("run", path, "--set", "obstacles.0.material=persn")
+    check_in("did you mean 'person'", bad.err, "a slip")
+
+
+@case
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""
     scenario = context.shipped("paper_warehouse")

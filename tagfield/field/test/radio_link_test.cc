@@ -154,6 +154,61 @@ TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
   EXPECT_NEAR(wrap_to_pi(std::arg(link.forward * link.backward) - expected), 0.0, 0.02);
 }
 
+/// Two walls of metal, 3 m to both sides of the way.
+RadioWorld walls() {
+  Scene scene;
+  for (const double y : {-3.5, 3.5}) {
+    scene.collisions.push_back({"wall::l::c", Box{{20.0, 1.0, 8.0}}, from_translation({0, y, 0})});
+  }
+  RadioWorldOptions options;
+  options.rules = {{"wall", find_material(known_materials(), "metal"), {}}};
+  Diagnostics diagnostics;
+  return radio_world(scene, options, diagnostics);
+}
+
+TEST(MovingBodies, TakeOfEachPathWhatTheyTakeOfItsLegs) {
+  const RadioWorld world = walls();
+  RadioModel model = antenna(30.0, 915e6);
+  model.effects.occlusion = true;
+  model.effects.reflections = true;
+  model.reflection_order = 2;
+  const TagModel kind = tag(2.0, -20.0);
+  const RigidTransform X_WA = from_translation({-2.0, 0.4, 0.0});
+  const RigidTransform X_WT = from_xyz_rpy({2.0, -0.3, 0.1}, {0, 0, kPi});
+  RadioView view = view_from(model, world, X_WA, 915e6, 0, 1);
+  MovingBody body;
+  body.material = find_material(known_materials(), "metal");
+  body.p_W = {0.2, 0.1, 0.0};
+  body.half_m = {0.2, 0.3, 0.9};
+  view.bodies = {body};
+  std::vector<RadioPath> paths;
+  trace_paths(world.scene, *view.images, X_WT.translation, view.tracing, paths);
+  ASSERT_GE(paths.size(), 5U);
+  std::complex<double> sum = 0.0;
+  const ChannelEffects effects{false, true};
+  for (const RadioPath& path : paths) {
+    std::complex<double> h =
+        path_gain(path, {model.antenna, X_WA}, {kind.antenna, X_WT}, world, view.carrier, effects);
+    std::vector<Vector3d> points = {X_WA.translation};
+    for (int i = 0; i < path.bounce_count; ++i) {
+      points.push_back(path.bounces.at(static_cast<std::size_t>(i)).p_W);
+    }
+    points.push_back(X_WT.translation);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      h *= past_body(body, points[i], points[i + 1], view.carrier);
+    }
+    sum += h;
+  }
+  const TagEnd end{kind, X_WT, 7};
+  EXPECT_LT(std::abs(link_of(view, end, paths).forward - sum), 1e-12);
+  // From the tag's images it is the same, with the paths turned round.
+  const ImageSet images = images_of(world.scene, X_WT.translation, view.tracing);
+  const TagEnd with_images{kind, X_WT, 7, &images};
+  EXPECT_LT(std::abs(link_of(view, with_images, paths).forward - sum), 1e-9);
+  view.bodies.clear();
+  EXPECT_GT(std::abs(link_of(view, end, paths).forward - sum), 1e-3);
+}
+
 TEST(Diffuse, HasThePowerOfItsKFactor) {
   const RadioWorld world = free_space();
   RadioModel model = antenna(35.15, 865.7e6);

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
+
+/// What a moving body must do to a way to be told [dB].
+constexpr double kNoticed_db = 0.05;
 
 void add(std::vector<BudgetLine>& lines, const std::string& what, double db) {
   BudgetLine& line = lines.emplace_back();
@@ -46,6 +50,12 @@ void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const R
   for (const SurfaceOnPath& met : way.between) {
     if (!direct.blocked) add(way.lines, through(met), met.gain_db);
   }
+  for (const MovingBody& body : view.bodies) {
+    const double db = to_db(
+        std::norm(past_body(body, antenna.X_WA.translation, tag.X_WT.translation, view.carrier)));
+    if (direct.blocked || std::abs(db) < kNoticed_db) continue;
+    add(way.lines, fmt::format("past {} ({})", body.name, body.material.name), db);
+  }
   add(way.lines, "polarization", budget.polarization_db);
   add(way.lines, "tag gain towards the antenna", budget.tag_db);
 }
@@ -59,17 +69,44 @@ std::string others_line(const OneWay& way, std::size_t count) {
   return count == 0 ? "what remains of it" : fmt::format("{} with it", others);
 }
 
-std::size_t count_others(const std::vector<RadioPath>& paths) {
-  return static_cast<std::size_t>(
-      std::count_if(paths.begin(), paths.end(),
-                    [](const RadioPath& path) { return path.bounce_count > 0 && !path.blocked; }));
+std::size_t count_others(const OneWay& way) {
+  const auto bounced = std::count_if(way.paths.begin(), way.paths.end(), [](const RadioPath& path) {
+    return path.bounce_count > 0 && !path.blocked;
+  });
+  return static_cast<std::size_t>(bounced) + way.over_edges.size();
+}
+
+/// Of all that the paths meet, by name.
+std::vector<MaterialOnLink> materials_on(const std::vector<PathExplanation>& paths,
+                                         const RadioWorld& world, double frequency_hz) {
+  std::set<std::string> met;
+  for (const PathExplanation& path : paths) {
+    for (const SurfaceOnPath& at : path.bounces) met.insert(at.material);
+    for (const SurfaceOnPath& at : path.crossings) met.insert(at.material);
+    if (path.edge) met.insert(path.edge->material);
+  }
+  std::vector<MaterialOnLink> all;
+  for (const std::string& name : met) {
+    const Material& material = find_material(world.materials, name);
+    all.push_back({name, permittivity(material, frequency_hz).real(),
+                   conductivity(material, frequency_hz), material.least_ghz, material.most_ghz,
+                   is_measured_at(material, frequency_hz)});
+  }
+  return all;
 }
 
 double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const OneWay& way) {
-  return to_db(
-      std::norm(one_way_gain(way.paths, {view.model.antenna, receiver ? view.X_WR : view.X_WA},
-                             {tag.model.antenna, tag.X_WT}, view.world, view.carrier,
-                             {view.model.effects.patterns, view.model.effects.polarization})));
+  const RadioEnd antenna{view.model.antenna, receiver ? view.X_WR : view.X_WA};
+  const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
+  std::complex<double> sum = 0.0;
+  for (const RadioPath& path : way.paths) {
+    if (path.blocked) continue;
+    sum += past_bodies(path, view, tag, receiver) *
+           path_gain(path, antenna, at_tag, view.world, view.carrier,
+                     {view.model.effects.patterns, view.model.effects.polarization});
+  }
+  for (const DiffractedPath& path : way.over_edges) sum += gain_of(path, view, tag, receiver);
+  return to_db(std::norm(sum));
 }
 
 }  // namespace
@@ -77,6 +114,7 @@ double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const O
 OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver) {
   OneWay way;
   way.paths = paths_of(view, tag, receiver);
+  way.over_edges = diffracted_paths(view, tag, receiver);
   if (way.paths.empty()) {
     add(way.lines, "both ends are in one place", gain_db);
     return way;
@@ -85,7 +123,7 @@ OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool re
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db.has_value();
   const double singles_db = is_diffuse ? paths_db(view, tag, receiver, way) : gain_db;
   const double others_db = singles_db - sum_of(way.lines);
-  const std::size_t count = count_others(way.paths);
+  const std::size_t count = count_others(way);
   // Without others a difference is rounding, or where a pattern's null ends at "nothing".
   if (count > 0 || way.blocked || std::abs(others_db) > 1e-6) {
     add(way.lines, others_line(way, count), others_db);
@@ -102,7 +140,8 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
   add(link.to_tag, "cable", -model.cable_loss_db);
   link.to_tag.insert(link.to_tag.end(), there.lines.begin(), there.lines.end());
   add(link.to_tag, "detuning of the tag", -tag.model.detuning_db);
-  link.paths = explain_paths(view, tag, there.paths);
+  link.paths = explain_paths(view, tag, there.paths, there.over_edges);
+  link.materials = materials_on(link.paths, view.world, link.frequency_hz);
   link.between = std::move(there.between);
 
   add(link.to_reader, "power at the chip", link.tag_dbm);

@@ -13,7 +13,8 @@ struct OneWay {
   std::vector<BudgetLine> lines;       ///< Their sum is the way's gain.
   std::vector<SurfaceOnPath> between;  ///< On the direct way.
   std::vector<RadioPath> paths;        ///< Blocked ones too.
-  bool blocked = false;                ///< The direct one is.
+  std::vector<DiffractedPath> over_edges{};
+  bool blocked = false;  ///< The direct one is.
 };
 
 /// From the view's antenna to `tag`, or from there to its receiving one; `gain_db` is the whole

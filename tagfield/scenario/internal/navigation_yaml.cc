@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tagfield/base/units.h"
+#include "tagfield/scenario/internal/radio_yaml.h"
 #include "tagfield/scenario/yaml_values.h"
 
 namespace tagfield {
@@ -159,7 +160,7 @@ void forbid_self_driving(YamlMap map) {
   }
 }
 
-ObstacleSpec obstacle_of(YamlMap map) {
+ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world) {
   ObstacleSpec obstacle;
   obstacle.location = map.self().location();
   obstacle.name = map.text("name", "obstacle");
@@ -189,6 +190,14 @@ ObstacleSpec obstacle_of(YamlMap map) {
   }
   if (map.has("disappears_s")) {
     obstacle.disappears = time_from_seconds(seconds_of(map.at("disappears_s"), kPositive));
+  }
+  if (map.has("material")) {
+    BodySpec body;
+    body.material = material_in(world, map.at("material"));
+    body.height_m = map.number("height_m", body.height_m, kPositive);
+    obstacle.body = body;
+  } else if (map.has("height_m")) {
+    map.at("height_m").fail("is for waves, and needs a 'material' beside it");
   }
   map.finish();
   return obstacle;

@@ -22,6 +22,6 @@ void read_self_driving(YamlMap& map, RobotSpec& robot);
 void forbid_self_driving(YamlMap map);
 
 /// One of `obstacles`.
-ObstacleSpec obstacle_of(YamlMap map);
+ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world);
 
 }  // namespace tagfield

@@ -87,7 +87,10 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
     defaults.model = propagation_model(raw_parameter("model", map.at("model")));
   }
   if (map.has("without")) {
-    defaults.antenna.push_back(raw_parameter("without", map.at("without")));
+    defaults.without.push_back(raw_parameter("without", map.at("without")));
+  }
+  if (map.has("diffraction")) {
+    defaults.antenna.push_back(raw_parameter("diffraction", map.at("diffraction")));
   }
   if (map.has("tag_profile")) {
     std::vector<RawParameter> parameters;
@@ -101,12 +104,12 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
 std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationModel model,
                                                  const RadioDefaults& defaults,
                                                  Diagnostics& diagnostics) {
-  std::vector<RawParameter> parameters;
+  std::vector<RawParameter> parameters = defaults.antenna;
   for (const YamlValue& file : antenna.list("profiles")) {
     append_profile(file, {ProfileKind::kReader, ProfileKind::kAntenna}, parameters);
   }
   append_settings(antenna, antenna_settings(), parameters);
-  parameters.insert(parameters.end(), defaults.antenna.begin(), defaults.antenna.end());
+  parameters.insert(parameters.end(), defaults.without.begin(), defaults.without.end());
   return radio_model_from(model, parameters, antenna.self().location(), diagnostics);
 }
 
@@ -121,6 +124,10 @@ std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& 
   append_settings(tag, tag_settings(), parameters);
   if (parameters.empty()) return defaults.tag;
   return tag_model_from(name, parameters, tag.self().location(), diagnostics);
+}
+
+Material material_in(const RadioWorldOptions& options, const YamlValue& name) {
+  return material_named(options.materials, name);
 }
 
 RadioWorldOptions radio_world_options_of(YamlMap& scenario) {

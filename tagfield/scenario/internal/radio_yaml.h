@@ -20,11 +20,12 @@ RawParameter raw_parameter(const std::string& key, const YamlValue& value);
 /// What holds for all antennas and tags that don't say otherwise.
 struct RadioDefaults {
   PropagationModel model = PropagationModel::kPaper;
-  std::vector<RawParameter> antenna;  ///< `without`.
+  std::vector<RawParameter> antenna;  ///< `diffraction`; an antenna's own goes before it.
+  std::vector<RawParameter> without;  ///< Together with an antenna's own.
   std::shared_ptr<const TagModel> tag = default_tag_model();
 };
 
-/// Takes `model`, `without` and `tag_profile`.
+/// Takes `model`, `diffraction`, `without` and `tag_profile`.
 RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics);
 
 /// The antenna's physical model from its `profiles` and settings.
@@ -35,6 +36,9 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
 /// The tag's kind from its `profile` and settings, or the default.
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics);
+
+/// The material that `name` names among those of the scenario.
+Material material_in(const RadioWorldOptions& options, const YamlValue& name);
 
 /// What the world is made of: `world.materials`, `world.default_material`, `world.least_facet_m2`,
 /// and the scenario's own `materials`.

@@ -92,13 +92,15 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
                  set_receive_pose});
   all.push_back({{"reflection_order", "", "most reflections of a path, 0 to 3"},
                  [](D& d, const std::string& text) { d.model.reflection_order = whole_in(text); }});
+  all.push_back(word<D>("diffraction", {"off", "on"}, "whether waves bend around edges",
+                        [](D& d, std::size_t i) { d.model.diffraction = i == 1; }));
   all.push_back({{"diffuse_k_db", "dB",
                   "power of all single paths over that of diffuse waves "
                   "(Rice's K); no such waves where not given"},
                  [](D& d, const std::string& text) { d.model.diffuse_k_db = number_in(text); }});
   all.push_back({{"without", "effects",
                   "effects to leave out: patterns, polarization, occlusion, "
-                  "reflections, diffuse, noise, quantization, hopping, "
+                  "reflections, diffraction, bodies, diffuse, noise, quantization, hopping, "
                   "phase_offsets, half_turns, inventory"},
                  set_without});
 }
