@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tagfield/localization/automatic.h"
+#include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
 #include "tagfield/localization/holograms/sar.h"
@@ -52,7 +53,7 @@ std::vector<Method> built_in_methods() {
   std::vector<Method> methods = {
       hyperbola_method(),     least_squares_method(), maximum_likelihood_method(), joint_method(),
       sar_method(),           dah_method(),           particle_method(),           scan_method(),
-      trilateration_method(), landmarc_method(),
+      trilateration_method(), fixed_method(),         landmarc_method(),
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;

@@ -21,6 +21,9 @@ struct RssiBin {
   double reads = 0.0;
 };
 
+/// Whether it was reported.
+bool has_rssi(const PhaseSample& sample);
+
 /// Bins of at most `length` [m] of travel, by antenna, in order of time. Reads without RSSI
 /// (kNoRssi or not finite) are left out, antennas without any too.
 std::map<std::string, std::vector<RssiBin>> rssi_along_paths(const SamplesOfTag& samples,

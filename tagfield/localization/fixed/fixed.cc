@@ -1,0 +1,360 @@
+#include "tagfield/localization/fixed/fixed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/localization/fixed/channel_offsets.h"
+#include "tagfield/localization/fixed/place_posterior.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kFewestAntennas = 3;
+constexpr double kCoarseCells = 1200;    ///< Of the area, about.
+constexpr double kLeastEvidence = 4.6;   ///< ln 100: chance makes so much in one case of a hundred.
+constexpr double kMostOfArea = 0.7;      ///< A place hardly better known than the area is none.
+constexpr double kRangeStep = 0.02;      ///< [m]
+constexpr std::size_t kTellingTags = 12;  ///< Of the phases' field.
+/// ln of the density of a strength's misfit that chance makes in one case of a thousand, four
+/// strengths less two coordinates and a level over 1 freedom: χ² of 10.8.
+constexpr double kMostMisfit = 10.8;
+
+/// A tag and all that is known of it.
+struct FixedTag {
+  const std::string* name = nullptr;
+  const SamplesOfTag* samples = nullptr;
+  std::vector<FixedReads> reads;
+  TagOnGrid grid;
+  double cell_m = 0.0;
+  double spread_m = 0.0;  ///< Of the area by itself.
+  std::string why_not;
+};
+
+struct Scene {
+  std::vector<std::string> antennas;
+  std::vector<FixedTag> tags;
+  LearnedLaw law;
+  ChannelOffsets offsets;
+  PhaseField field;
+};
+
+double furthest(const std::vector<FixedReads>& reads, const Eigen::Vector3d& place) {
+  double most = 0.0;
+  for (const FixedReads& of : reads) most = std::max(most, (of.p_WA - place).norm());
+  return most;
+}
+
+/// The area in which a tag may be: told, or within reach of all antennas that read it.
+Eigen::AlignedBox2d area_of(const LocalizationProblem& problem,
+                            const std::vector<FixedReads>& reads, double max_range_m) {
+  if (problem.area.box) return *problem.area.box;
+  Eigen::AlignedBox2d box;
+  for (const FixedReads& of : reads) box.extend(Eigen::Vector2d(of.p_WA.head<2>()));
+  const Eigen::Vector2d margin(max_range_m, max_range_m);
+  return {box.min() - margin, box.max() + margin};
+}
+
+double spread_of(const std::vector<Eigen::Vector3d>& cells) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& cell : cells) mean += cell;
+  mean /= static_cast<double>(cells.size());
+  double squares = 0.0;
+  for (const Eigen::Vector3d& cell : cells) squares += (cell - mean).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(cells.size()));
+}
+
+WayLine line_of(const std::vector<FixedReads>& reads) {
+  std::vector<Eigen::Vector2d> places;
+  for (const FixedReads& of : reads) places.emplace_back(of.p_WA.head<2>());
+  return way_line(places);
+}
+
+std::vector<Eigen::Vector3d> cells_of(const LocalizationProblem& problem, const FixedTag& tag,
+                                      const FixedOptions& options, double& cell_m) {
+  const Eigen::AlignedBox2d area = area_of(problem, tag.reads, options.max_range_m);
+  const Eigen::Vector2d size = area.sizes();
+  cell_m = std::sqrt(size.prod() / kCoarseCells);
+  const double height = plane_height(problem, *tag.name);
+  const WayLine line = line_of(tag.reads);
+  std::vector<Eigen::Vector3d> cells;
+  for (double x = area.min().x() + 0.5 * cell_m; x < area.max().x(); x += cell_m) {
+    for (double y = area.min().y() + 0.5 * cell_m; y < area.max().y(); y += cell_m) {
+      const Eigen::Vector3d place(x, y, height);
+      const bool is_near = furthest(tag.reads, place) <= options.max_range_m;
+      if (is_near && is_within(problem.area, line.middle, line.along, {x, y})) {
+        cells.push_back(place);
+      }
+    }
+  }
+  return cells;
+}
+
+std::size_t with_strength(const std::vector<FixedReads>& reads) {
+  return static_cast<std::size_t>(std::count_if(
+      reads.begin(), reads.end(), [](const FixedReads& of) { return of.strengths > 0.0; }));
+}
+
+FixedTag fixed_tag(const LocalizationProblem& problem, const std::vector<std::string>& antennas,
+                   const std::string& name, const SamplesOfTag& samples,
+                   const FixedOptions& options) {
+  FixedTag tag;
+  tag.name = &name;
+  tag.samples = &samples;
+  tag.reads = fixed_reads(problem, samples);
+  const std::size_t count = with_strength(tag.reads);
+  if (count < kFewestAntennas) {
+    tag.why_not = fmt::format(
+        "RSSI by {} antenna{} at rest, at least {} are needed: a tag read by more would be "
+        "located, by one that moves too",
+        count, count == 1 ? "" : "s", kFewestAntennas);
+    return tag;
+  }
+  std::vector<Eigen::Vector3d> cells = cells_of(problem, tag, options, tag.cell_m);
+  if (cells.empty()) {
+    tag.why_not = "no place is in reach of all antennas that read it";
+    return tag;
+  }
+  tag.spread_m = spread_of(cells);
+  tag.grid = on_grid(antennas, tag.reads, std::move(cells), options);
+  return tag;
+}
+
+std::vector<std::string> antennas_of(const LocalizationProblem& problem) {
+  std::set<std::string> names;
+  for (const auto& [tag, samples] : problem.samples) {
+    for (const auto& [antenna, series] : samples) names.insert(antenna);
+  }
+  return {names.begin(), names.end()};
+}
+
+/// A reference tag is one whose area is its place.
+void put_at_reference(const LocalizationProblem& problem,
+                      const std::vector<std::string>& antennas, const FixedOptions& options,
+                      FixedTag& tag) {
+  const auto known = problem.reference_tags.find(*tag.name);
+  if (known == problem.reference_tags.end() || !tag.why_not.empty()) return;
+  tag.grid = on_grid(antennas, tag.reads, {known->second}, options);
+}
+
+/// ln of how likely the phases of some tags are under a field, by where strengths put them.
+double log_of_field(const Scene& scene, const std::vector<std::size_t>& some,
+                    const std::vector<Eigen::ArrayXd>& weights, const PhaseField& field) {
+  double log = 0.0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const FixedTag& tag = scene.tags[some[i]];
+    for (const FixedReads& reads : tag.reads) {
+      double most = 0.0;
+      for (const auto& cell : tag.grid.cells) most = std::max(most, (cell - reads.p_WA).norm());
+      const RangeLikelihood of = range_likelihood(reads, scene.offsets, field, most, kRangeStep);
+      if (of.log.size() == 0) continue;
+      const double best = of.log.maxCoeff();
+      double sum = 0.0;
+      for (std::size_t j = 0; j < tag.grid.cells.size(); ++j) {
+        const double r = (tag.grid.cells[j] - reads.p_WA).norm();
+        sum += weights[i][static_cast<Eigen::Index>(j)] *
+               std::exp(most_likely(of, r, 0.0) - best);
+      }
+      log += best + std::log(sum + 1e-300);
+    }
+  }
+  return log;
+}
+
+/// The likeliest field.
+PhaseField field_of(const Scene& scene, const LocalizationProblem& problem,
+                    const FixedOptions& options, int threads) {
+  std::vector<std::size_t> some;
+  std::vector<Eigen::ArrayXd> weights;
+  for (std::size_t i = 0; i < scene.tags.size() && some.size() < kTellingTags; ++i) {
+    if (!scene.tags[i].why_not.empty() || problem.reference_tags.count(*scene.tags[i].name) > 0) {
+      continue;
+    }
+    some.push_back(i);
+    const Eigen::ArrayXd logs = log_strength(scene.tags[i].grid, scene.law.of_tag[i], options);
+    weights.push_back((logs - logs.maxCoeff()).exp());
+    weights.back() /= weights.back().sum();
+  }
+  std::vector<PhaseField> fields;
+  for (const double diffuse : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7}) {
+    for (const double delay : {10e-9, 20e-9, 40e-9}) {
+      for (const double noise : {0.003, 0.01, 0.03, 0.1, 0.3, 0.9}) {
+        if (diffuse + noise < 1.0 && (diffuse > 0.0 || delay == 10e-9)) {
+          fields.push_back({diffuse, delay, noise});
+        }
+      }
+    }
+  }
+  std::vector<double> logs(fields.size());
+  parallel_for(fields.size(), threads, [&](std::size_t i) {
+    logs[i] = log_of_field(scene, some, weights, fields[i]);
+  });
+  return fields[static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) -
+                                         logs.begin())];
+}
+
+std::vector<RangeLikelihood> ranges_of(const Scene& scene, const FixedTag& tag) {
+  std::vector<RangeLikelihood> ranges;
+  for (const FixedReads& reads : tag.reads) {
+    double most = 0.0;
+    for (const auto& cell : tag.grid.cells) most = std::max(most, (cell - reads.p_WA).norm());
+    ranges.push_back(
+        range_likelihood(reads, scene.offsets, scene.field, most + tag.cell_m, kRangeStep));
+  }
+  return ranges;
+}
+
+LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw& law,
+                      const FixedOptions& options) {
+  return [&scene, &tag, &law, &options, ranges = ranges_of(scene, tag)](
+             const std::vector<Eigen::Vector3d>& places, double reach_m) {
+    const TagOnGrid there = on_grid(scene.antennas, tag.reads, places, options);
+    Eigen::ArrayXd logs = log_strength(there, law, options);
+    for (std::size_t a = 0; a < ranges.size(); ++a) {
+      if (ranges[a].log.size() == 0) continue;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        logs[static_cast<Eigen::Index>(i)] +=
+            most_likely(ranges[a], (places[i] - tag.reads[a].p_WA).norm(), reach_m);
+      }
+    }
+    return logs;
+  };
+}
+
+Candidate candidate_of(const PosteriorPart& part, double height) {
+  Candidate candidate;
+  candidate.p_WT = {part.mean.x(), part.mean.y(), height};
+  candidate.covariance = Eigen::Matrix3d::Zero();
+  candidate.covariance->topLeftCorner<2, 2>() = part.covariance;
+  candidate.expected_error_m = std::sqrt(part.covariance.trace());
+  return candidate;
+}
+
+constexpr const char* kHelp = "another antenna, a tag at a known place, or the area where tags can "
+                              "be (--box) would help";
+
+TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std::size_t number,
+                    const FixedOptions& options) {
+  const FixedTag& tag = scene.tags[number];
+  TagEstimate estimate = begun(*tag.name, *tag.samples);
+  if (!tag.why_not.empty()) return not_located(std::move(estimate), tag.why_not);
+  if (scene.law.evidence < kLeastEvidence) {
+    return not_located(std::move(estimate),
+                       fmt::format("the strengths of all tags go by no law of distance that chance "
+                                   "would not make as well; {}",
+                                   kHelp));
+  }
+  const StrengthLaw& law = scene.law.of_tag[number];
+  const AreaCells cells{tag.grid.cells, tag.cell_m};
+  const double height = plane_height(problem, *tag.name);
+  for (const PosteriorPart& part :
+       posterior_parts(cells, density_of(scene, tag, law, options))) {
+    estimate.candidates.push_back(candidate_of(part, height));
+  }
+  const double most = std::min(options.max_expected_error_m, kMostOfArea * tag.spread_m);
+  const double error = estimate.candidates.front().expected_error_m;
+  if (error > most) {
+    return not_located(std::move(estimate), fmt::format("expected error {:.2f} m, limit {:.2f} m; "
+                                                        "{}",
+                                                        error, most, kHelp));
+  }
+  EstimateLimits limits;
+  limits.max_expected_error_m = most;
+  limits.max_rms_m = std::numeric_limits<double>::infinity();
+  judge(limits, estimate);
+  if (estimate.verdict == Verdict::kAmbiguous) {
+    estimate.reason = fmt::format("{} places explain the strengths and phases; {}",
+                                  estimate.candidates.size(), kHelp);
+  }
+  return estimate;
+}
+
+Scene scene_of(const LocalizationProblem& problem, int threads, const FixedOptions& options) {
+  Scene scene;
+  scene.antennas = antennas_of(problem);
+  for (const auto& [name, samples] : problem.samples) {
+    scene.tags.push_back(fixed_tag(problem, scene.antennas, name, samples, options));
+    put_at_reference(problem, scene.antennas, options, scene.tags.back());
+  }
+  std::vector<TagOnGrid> grids;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < scene.tags.size(); ++i) {
+    if (!scene.tags[i].why_not.empty()) continue;
+    grids.push_back(scene.tags[i].grid);
+    numbers.push_back(i);
+  }
+  LearnedLaw learned = learn_law(grids, scene.antennas.size(), options);
+  scene.law = learned;
+  scene.law.of_tag.assign(scene.tags.size(), learned.of_all);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    scene.law.of_tag[numbers[i]] = learned.of_tag[i];
+  }
+  scene.offsets = channel_offsets(problem);
+  if (!scene.offsets.empty()) scene.field = field_of(scene, problem, options, threads);
+  return scene;
+}
+
+LocalizationResult locate_all(const LocalizationProblem& problem, int threads,
+                              Diagnostics& diagnostics, const FixedOptions& options) {
+  const Scene scene = scene_of(problem, threads, options);
+  if (problem.has_phases && scene.offsets.empty()) {
+    diagnostics.warn(
+        "the phases are not used: every channel of every port has an offset of its own, which "
+        "only a tag at a known place that all antennas read (--reference) or a calibration "
+        "(--calibration) would tell; places are by strength alone");
+  }
+  LocalizationResult result;
+  result.method = "fixed";
+  result.estimates.resize(scene.tags.size());
+  parallel_for(scene.tags.size(), threads, [&](std::size_t i) {
+    const auto known = problem.reference_tags.find(*scene.tags[i].name);
+    result.estimates[i] = known != problem.reference_tags.end()
+                              ? reference_estimate(known->first, known->second)
+                              : located(problem, scene, i, options);
+  });
+  return result;
+}
+
+/// The keys of its options.
+const OptionTable<FixedOptions>& option_table() {
+  using O = FixedOptions;
+  static const OptionTable<O> of{with_lobe<O>(
+      {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
+                  kOverZero),
+       setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
+                  &O::slope_sigma_db, kAtLeastZero),
+       setting<O>("tag_sigma_db", "dB", "how tags of one kind differ", &O::tag_sigma_db,
+                  kAtLeastZero),
+       setting<O>("antenna_sigma_db", "dB", "how antennas differ, cables included",
+                  &O::antenna_sigma_db, kAtLeastZero),
+       setting<O>("fading_db", "dB", "by which reflections scatter RSSI, before the data are seen",
+                  &O::fading_db, kOverZero),
+       setting<O>("max_range_m", "m", "no tag is read from further away", &O::max_range_m,
+                  kOverZero),
+       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+                  &O::max_expected_error_m, kOverZero)})};
+  return of;
+}
+
+}  // namespace
+
+Method fixed_method(const FixedOptions& options) {
+  check_options(option_table(), options);
+  const auto bound = [](const FixedOptions& of) -> LocateFunction {
+    return [of](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
+      return locate_all(problem, threads, diagnostics, of);
+    };
+  };
+  return {"fixed", "antennas at rest: strengths by a law that tags share, phases over channels",
+          bound(options), helps_of(option_table().table, options),
+          [=](const MethodSettings& settings) {
+            return bound(changed_options(option_table(), options, settings));
+          }};
+}
+
+}  // namespace tagfield
