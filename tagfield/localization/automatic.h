@@ -11,7 +11,8 @@ namespace tagfield {
 /// What of the data decides.
 struct DataTraits {
   bool antennas_move = false;  ///< Any.
-  bool has_phase = false;      ///< Some tag has as many phases as a fit needs.
+  bool has_reads = false;      ///< Some tag has as many as a fit needs.
+  bool has_phases = true;
   bool pose_is_exact = false;  ///< The pose error is known to be 0.
   double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
   double unexplained = 0.0;  ///< and of those the share whose misfit at the best place is no noise.

@@ -65,7 +65,9 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
   const Method method = configured(find_method(options.methods, options.method), options.settings);
   const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
   LocalizationResult result = method.locate(problem, options.threads, diagnostics);
-  if (is_by_phase(result.method)) {
+  if (is_by_phase(result.method) && !problem.has_phases) {
+    refuse_without_phases(problem, result);
+  } else if (is_by_phase(result.method)) {
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);
     span_mirror_images(problem, result);

@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <set>
 
 #include "tagfield/base/units.h"
 
@@ -118,6 +121,40 @@ Eigen::MatrixXcd covariance_of(const Channels& channels, const PhaseField& field
   return covariance;
 }
 
+/// How far two channels' phases differ alike, over all tags and by antenna.
+struct Agreement {
+  double share = 0.0;
+  double pairs = 0.0;
+};
+
+Agreement agreement_of(const std::vector<std::vector<FixedReads>>& tags, double one,
+                       double other) {
+  std::map<std::string, Complex> sums;
+  Agreement agreement;
+  for (const auto& tag : tags) {
+    for (const FixedReads& reads : tag) {
+      const auto a = reads.channels.find(one);
+      const auto b = reads.channels.find(other);
+      if (a == reads.channels.end() || b == reads.channels.end()) continue;
+      sums[reads.antenna] += unit(a->second.mean) * std::conj(unit(b->second.mean));
+      agreement.pairs += 1.0;
+    }
+  }
+  for (const auto& [antenna, sum] : sums) agreement.share += std::abs(sum);
+  agreement.share /= std::max(agreement.pairs, 1.0);
+  return agreement;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double spread_of(const std::vector<double>& values, double mean) {
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 /// The quadratic form of phases turned back by a distance is a sum of turns by differences of
 /// wavenumbers, of which a plan has few.
 std::map<std::int64_t, Complex> form_by_difference(const Channels& channels,
@@ -149,6 +186,38 @@ ChannelOffsets channel_offsets(const LocalizationProblem& problem) {
     }
   }
   return offsets;
+}
+
+bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
+  constexpr std::size_t kFewest = 10;     // Channels.
+  constexpr double kFewestPairs = 10.0;   // Tags that two channels were read of.
+  constexpr double kClearly = 3.0;        // Standard errors.
+  std::set<double> carriers;
+  for (const auto& tag : tags) {
+    for (const FixedReads& reads : tag) {
+      for (const auto& [carrier, phase] : reads.channels) carriers.insert(carrier);
+    }
+  }
+  if (carriers.size() < kFewest) return false;
+  std::vector<double> neighbours;
+  std::vector<double> best;
+  for (auto carrier = carriers.begin(); carrier != carriers.end(); ++carrier) {
+    double most = 0.0;
+    for (auto other = carriers.begin(); other != carriers.end(); ++other) {
+      if (other == carrier) continue;
+      const Agreement agreement = agreement_of(tags, *carrier, *other);
+      if (agreement.pairs < kFewestPairs) continue;
+      const bool is_next = std::next(carrier) == other;
+      if (is_next) neighbours.push_back(agreement.share);
+      // Chance alone would agree by so much in some of all the pairs.
+      if (!is_next) most = std::max(most, agreement.share - 2.0 / std::sqrt(agreement.pairs));
+    }
+    best.push_back(most);
+  }
+  if (neighbours.size() < kFewest) return false;
+  const double told = mean_of(neighbours);
+  const double error = spread_of(neighbours, told) / std::sqrt(static_cast<double>(neighbours.size()));
+  return told + kClearly * error < mean_of(best);
 }
 
 RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelOffsets& offsets,

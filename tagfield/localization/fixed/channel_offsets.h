@@ -24,6 +24,11 @@ using ChannelOffsets = std::map<std::string, std::map<double, ChannelOffset>>;
 /// By the tags at known places and what is known beforehand (`offset_known`).
 ChannelOffsets channel_offsets(const LocalizationProblem& problem);
 
+/// Whether phases show the carriers in another order than was told, as of a reader whose hop table
+/// was not asked for. Neighbours' phases differ by the same at all places; those of channels far
+/// apart differ by the distance. Of few tags or channels nothing is seen.
+bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags);
+
 /// How a hall bends phases: waves from everywhere of so much of the power, late by `delay_s` in the
 /// mean, and noise of a read. Shares of 1.
 struct PhaseField {

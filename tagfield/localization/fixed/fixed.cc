@@ -42,6 +42,8 @@ struct Scene {
   LearnedLaw law;
   ChannelOffsets offsets;
   PhaseField field;
+  double trust = 1.0;         ///< Exponent of the phases' likelihoods.
+  bool out_of_order = false;  ///< Phases show other carriers than were told; they are not used.
 };
 
 double furthest(const std::vector<FixedReads>& reads, const Eigen::Vector3d& place) {
@@ -142,6 +144,16 @@ void put_at_reference(const LocalizationProblem& problem,
   tag.grid = on_grid(antennas, tag.reads, {known->second}, options);
 }
 
+/// The first few whose places are not known.
+std::vector<std::size_t> telling_tags(const Scene& scene, const LocalizationProblem& problem) {
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < scene.tags.size() && some.size() < kTellingTags; ++i) {
+    const bool is_known = problem.reference_tags.count(*scene.tags[i].name) > 0;
+    if (scene.tags[i].why_not.empty() && !is_known) some.push_back(i);
+  }
+  return some;
+}
+
 /// ln of how likely the phases of some tags are under a field, by where strengths put them.
 double log_of_field(const Scene& scene, const std::vector<std::size_t>& some,
                     const std::vector<Eigen::ArrayXd>& weights, const PhaseField& field) {
@@ -169,19 +181,15 @@ double log_of_field(const Scene& scene, const std::vector<std::size_t>& some,
 /// The likeliest field.
 PhaseField field_of(const Scene& scene, const LocalizationProblem& problem,
                     const FixedOptions& options, int threads) {
-  std::vector<std::size_t> some;
+  const std::vector<std::size_t> some = telling_tags(scene, problem);
   std::vector<Eigen::ArrayXd> weights;
-  for (std::size_t i = 0; i < scene.tags.size() && some.size() < kTellingTags; ++i) {
-    if (!scene.tags[i].why_not.empty() || problem.reference_tags.count(*scene.tags[i].name) > 0) {
-      continue;
-    }
-    some.push_back(i);
+  for (const std::size_t i : some) {
     const Eigen::ArrayXd logs = log_strength(scene.tags[i].grid, scene.law.of_tag[i], options);
     weights.push_back((logs - logs.maxCoeff()).exp());
     weights.back() /= weights.back().sum();
   }
   std::vector<PhaseField> fields;
-  for (const double diffuse : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7}) {
+  for (const double diffuse : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 0.9}) {
     for (const double delay : {10e-9, 20e-9, 40e-9}) {
       for (const double noise : {0.003, 0.01, 0.03, 0.1, 0.3, 0.9}) {
         if (diffuse + noise < 1.0 && (diffuse > 0.0 || delay == 10e-9)) {
@@ -198,20 +206,32 @@ PhaseField field_of(const Scene& scene, const LocalizationProblem& problem,
                                          logs.begin())];
 }
 
-std::vector<RangeLikelihood> ranges_of(const Scene& scene, const FixedTag& tag) {
+/// Of each antenna over the area's distances, as a density over that of the area itself.
+std::vector<RangeLikelihood> ranges_of(const Scene& scene, const FixedTag& tag, double trust) {
   std::vector<RangeLikelihood> ranges;
   for (const FixedReads& reads : tag.reads) {
+    double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (const auto& cell : tag.grid.cells) most = std::max(most, (cell - reads.p_WA).norm());
+    for (const auto& cell : tag.grid.cells) {
+      least = std::min(least, (cell - reads.p_WA).norm());
+      most = std::max(most, (cell - reads.p_WA).norm());
+    }
     ranges.push_back(
         range_likelihood(reads, scene.offsets, scene.field, most + tag.cell_m, kRangeStep));
+    Eigen::ArrayXd& logs = ranges.back().log;
+    if (logs.size() == 0) continue;
+    logs *= trust;
+    const auto begin = static_cast<Eigen::Index>(least / kRangeStep);
+    const Eigen::ArrayXd there = logs.tail(logs.size() - begin);
+    const double best = there.maxCoeff();
+    logs -= best + std::log((there - best).exp().mean());
   }
   return ranges;
 }
 
 LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw& law,
-                      const FixedOptions& options) {
-  return [&scene, &tag, &law, &options, ranges = ranges_of(scene, tag)](
+                      double trust, const FixedOptions& options) {
+  return [&scene, &tag, &law, &options, ranges = ranges_of(scene, tag, trust)](
              const std::vector<Eigen::Vector3d>& places, double reach_m) {
     const TagOnGrid there = on_grid(scene.antennas, tag.reads, places, options);
     Eigen::ArrayXd logs = log_strength(there, law, options);
@@ -224,6 +244,24 @@ LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw
     }
     return logs;
   };
+}
+
+/// How far the phases' distances can be trusted: the exponent of their likelihoods under which those
+/// of several antennas, which say more than a place has coordinates, agree best with one another and
+/// with the strengths. Reflections that are no diffuse field leave less than 1.
+double trust_of(const Scene& scene, const LocalizationProblem& problem,
+                const FixedOptions& options, int threads) {
+  constexpr double kTrusts[] = {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
+  const std::vector<std::size_t> some = telling_tags(scene, problem);
+  std::vector<double> sums(std::size(kTrusts));
+  parallel_for(sums.size(), threads, [&](std::size_t k) {
+    for (const std::size_t i : some) {
+      const FixedTag& tag = scene.tags[i];
+      sums[k] += log_integral({tag.grid.cells, tag.cell_m},
+                              density_of(scene, tag, scene.law.of_tag[i], kTrusts[k], options));
+    }
+  });
+  return kTrusts[std::max_element(sums.begin(), sums.end()) - sums.begin()];
 }
 
 Candidate candidate_of(const PosteriorPart& part, double height) {
@@ -253,7 +291,7 @@ TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std:
   const AreaCells cells{tag.grid.cells, tag.cell_m};
   const double height = plane_height(problem, *tag.name);
   for (const PosteriorPart& part :
-       posterior_parts(cells, density_of(scene, tag, law, options))) {
+       posterior_parts(cells, density_of(scene, tag, law, scene.trust, options))) {
     estimate.candidates.push_back(candidate_of(part, height));
   }
   const double most = std::min(options.max_expected_error_m, kMostOfArea * tag.spread_m);
@@ -294,15 +332,24 @@ Scene scene_of(const LocalizationProblem& problem, int threads, const FixedOptio
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     scene.law.of_tag[numbers[i]] = learned.of_tag[i];
   }
-  scene.offsets = channel_offsets(problem);
-  if (!scene.offsets.empty()) scene.field = field_of(scene, problem, options, threads);
+  std::vector<std::vector<FixedReads>> reads;
+  for (const FixedTag& tag : scene.tags) reads.push_back(tag.reads);
+  scene.out_of_order = problem.has_phases && is_out_of_order(reads);
+  if (!scene.out_of_order) scene.offsets = channel_offsets(problem);
+  if (scene.offsets.empty()) return scene;
+  scene.field = field_of(scene, problem, options, threads);
+  scene.trust = trust_of(scene, problem, options, threads);
   return scene;
 }
 
 LocalizationResult locate_all(const LocalizationProblem& problem, int threads,
                               Diagnostics& diagnostics, const FixedOptions& options) {
   const Scene scene = scene_of(problem, threads, options);
-  if (problem.has_phases && scene.offsets.empty()) {
+  if (scene.out_of_order) {
+    diagnostics.warn(
+        "the phases are not used: they show that the channels' carriers are not those that were "
+        "told. The reader's own hop table has their order; places are by strength alone");
+  } else if (problem.has_phases && scene.offsets.empty()) {
     diagnostics.warn(
         "the phases are not used: every channel of every port has an offset of its own, which "
         "only a tag at a known place that all antennas read (--reference) or a calibration "

@@ -37,6 +37,14 @@ AreaCells split(const AreaCells& cells) {
   return finer;
 }
 
+void refine(const LogDensity& log_density, AreaCells& cells) {
+  while (true) {
+    keep(cells, log_density(cells.middles, 0.75 * cells.size_m), kNegligible);
+    if (cells.middles.size() > kMany || cells.size_m < kFinest) return;
+    cells = split(cells);
+  }
+}
+
 /// Numbers of the parts, by cell: neighbours, corners included, are one; -1 for none.
 std::vector<int> parts_of(const AreaCells& cells, const Eigen::ArrayXd& logs, int& count) {
   using Key = std::pair<long, long>;
@@ -92,11 +100,7 @@ PosteriorPart part_of(const AreaCells& cells, const Eigen::ArrayXd& weights,
 }  // namespace
 
 std::vector<PosteriorPart> posterior_parts(AreaCells cells, const LogDensity& log_density) {
-  while (true) {
-    keep(cells, log_density(cells.middles, 0.75 * cells.size_m), kNegligible);
-    if (cells.middles.size() > kMany || cells.size_m < kFinest) break;
-    cells = split(cells);
-  }
+  refine(log_density, cells);
   const Eigen::ArrayXd logs = log_density(cells.middles, 0.0);
   Eigen::ArrayXd weights = (logs - logs.maxCoeff()).exp();
   weights /= weights.sum();
@@ -110,6 +114,13 @@ std::vector<PosteriorPart> posterior_parts(AreaCells cells, const LogDensity& lo
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.share > b.share; });
   return parts;
+}
+
+double log_integral(AreaCells cells, const LogDensity& log_density) {
+  refine(log_density, cells);
+  const Eigen::ArrayXd logs = log_density(cells.middles, 0.0);
+  const double most = logs.maxCoeff();
+  return most + std::log((logs - most).exp().sum()) + 2.0 * std::log(cells.size_m);
 }
 
 }  // namespace tagfield

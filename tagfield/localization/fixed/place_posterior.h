@@ -29,4 +29,7 @@ using LogDensity =
 /// them. Parts that no path over likely cells joins are told apart; the most likely first.
 std::vector<PosteriorPart> posterior_parts(AreaCells cells, const LogDensity& log_density);
 
+/// ln of the density's integral over the cells [m²].
+double log_integral(AreaCells cells, const LogDensity& log_density);
+
 }  // namespace tagfield

@@ -26,7 +26,7 @@ std::map<std::string, std::vector<RssiBin>> rssi_along_paths(const SamplesOfTag&
       if (!has_rssi(sample)) continue;
       std::vector<RssiBin>& of_antenna = bins[antenna];
       if (of_antenna.empty() || (sample.p_WA - first).norm() > length) {
-        of_antenna.push_back({Eigen::Vector3d::Zero(), 0.0, 0.0});
+        of_antenna.push_back({sample.stamp, Eigen::Vector3d::Zero(), 0.0, 0.0});
         first = sample.p_WA;
       }
       add(sample, of_antenna.back());

@@ -16,6 +16,7 @@ namespace tagfield {
 
 /// Mean over the reads of one antenna while it went a short way.
 struct RssiBin {
+  Time stamp;             ///< Of the first read.
   Eigen::Vector3d p_WA;   ///< Mean place [m].
   double rssi_dbm = 0.0;  ///< Mean; of whole decibels that vary this is finer than they are.
   double reads = 0.0;
