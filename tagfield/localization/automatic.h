@@ -16,6 +16,7 @@ struct DataTraits {
   bool pose_is_exact = false;  ///< The pose error is known to be 0.
   double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
   double unexplained = 0.0;  ///< and of those the share whose misfit at the best place is no noise.
+  std::size_t antennas = 0;  ///< Most that read a tag.
   std::size_t channels = 0;  ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median

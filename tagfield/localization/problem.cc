@@ -107,7 +107,7 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
       join_reads_with_tracks(reads, problem.tracks, known.max_pose_gap_s, diagnostics);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
   problem.has_phases = has_phases(reads);
-  problem.half_turns = 
+  problem.half_turns =
       problem.has_phases && known.half_turns.value_or(has_half_turns(problem.samples));
   if (problem.half_turns) {
     if (!known.half_turns) {

@@ -111,8 +111,8 @@ Eigen::MatrixXcd covariance_of(const Channels& channels, const PhaseField& field
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       // A wavenumber there and back is 4πf/c: late by τ is 2πΔf τ.
-      const double turn = 0.5 * kSpeedOfLight *
-                          (channels.wavenumbers[i] - channels.wavenumbers[j]) * field.delay_s;
+      const double turn =
+          0.5 * kSpeedOfLight * (channels.wavenumbers[i] - channels.wavenumbers[j]) * field.delay_s;
       const Complex late = 1.0 / Complex(1.0, -turn);
       covariance(i, j) = direct + field.diffuse * late * worse(i) * worse(j);
     }
@@ -127,8 +127,7 @@ struct Agreement {
   double pairs = 0.0;
 };
 
-Agreement agreement_of(const std::vector<std::vector<FixedReads>>& tags, double one,
-                       double other) {
+Agreement agreement_of(const std::vector<std::vector<FixedReads>>& tags, double one, double other) {
   std::map<std::string, Complex> sums;
   Agreement agreement;
   for (const auto& tag : tags) {
@@ -143,6 +142,11 @@ Agreement agreement_of(const std::vector<std::vector<FixedReads>>& tags, double 
   for (const auto& [antenna, sum] : sums) agreement.share += std::abs(sum);
   agreement.share /= std::max(agreement.pairs, 1.0);
   return agreement;
+}
+
+/// By how much the best of fifty pairs agrees better than it should: 2.2 standard deviations.
+double luck_of(const Agreement& agreement) {
+  return 2.2 * (1.0 - agreement.share * agreement.share) / std::sqrt(2.0 * agreement.pairs);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -189,9 +193,9 @@ ChannelOffsets channel_offsets(const LocalizationProblem& problem) {
 }
 
 bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
-  constexpr std::size_t kFewest = 10;     // Channels.
-  constexpr double kFewestPairs = 10.0;   // Tags that two channels were read of.
-  constexpr double kClearly = 3.0;        // Standard errors.
+  constexpr std::size_t kFewest = 10;    // Channels.
+  constexpr double kFewestPairs = 10.0;  // Tags that two channels were read of.
+  constexpr double kClearly = 3.0;       // Standard errors.
   std::set<double> carriers;
   for (const auto& tag : tags) {
     for (const FixedReads& reads : tag) {
@@ -209,14 +213,14 @@ bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
       if (agreement.pairs < kFewestPairs) continue;
       const bool is_next = std::next(carrier) == other;
       if (is_next) neighbours.push_back(agreement.share);
-      // Chance alone would agree by so much in some of all the pairs.
-      if (!is_next) most = std::max(most, agreement.share - 2.0 / std::sqrt(agreement.pairs));
+      if (!is_next) most = std::max(most, agreement.share - luck_of(agreement));
     }
     best.push_back(most);
   }
   if (neighbours.size() < kFewest) return false;
   const double told = mean_of(neighbours);
-  const double error = spread_of(neighbours, told) / std::sqrt(static_cast<double>(neighbours.size()));
+  const double error =
+      spread_of(neighbours, told) / std::sqrt(static_cast<double>(neighbours.size()));
   return told + kClearly * error < mean_of(best);
 }
 

@@ -14,8 +14,9 @@ namespace tagfield {
 
 /// Of one channel of a port.
 struct ChannelOffset {
-  std::complex<double> turn{1.0, 0.0};  ///< e^(j offset), the same tag's in all channels but for one.
-  double references = 0.0;              ///< Tags that told it; 0: it is exact.
+  std::complex<double> turn{1.0,
+                            0.0};  ///< e^(j offset), the same tag's in all channels but for one.
+  double references = 0.0;         ///< Tags that told it; 0: it is exact.
 };
 
 /// Offsets by antenna and carrier [Hz].

@@ -16,10 +16,10 @@ namespace tagfield {
 namespace {
 
 constexpr std::size_t kFewestAntennas = 3;
-constexpr double kCoarseCells = 1200;    ///< Of the area, about.
-constexpr double kLeastEvidence = 4.6;   ///< ln 100: chance makes so much in one case of a hundred.
-constexpr double kMostOfArea = 0.7;      ///< A place hardly better known than the area is none.
-constexpr double kRangeStep = 0.02;      ///< [m]
+constexpr double kCoarseCells = 1200;   ///< Of the area, about.
+constexpr double kLeastEvidence = 4.6;  ///< ln 100: chance makes so much in one case of a hundred.
+constexpr double kMostOfArea = 0.7;     ///< A place hardly better known than the area is none.
+constexpr double kRangeStep = 0.02;     ///< [m]
 constexpr std::size_t kTellingTags = 12;  ///< Of the phases' field.
 /// ln of the density of a strength's misfit that chance makes in one case of a thousand, four
 /// strengths less two coordinates and a level over 1 freedom: χ² of 10.8.
@@ -136,9 +136,8 @@ std::vector<std::string> antennas_of(const LocalizationProblem& problem) {
 }
 
 /// A reference tag is one whose area is its place.
-void put_at_reference(const LocalizationProblem& problem,
-                      const std::vector<std::string>& antennas, const FixedOptions& options,
-                      FixedTag& tag) {
+void put_at_reference(const LocalizationProblem& problem, const std::vector<std::string>& antennas,
+                      const FixedOptions& options, FixedTag& tag) {
   const auto known = problem.reference_tags.find(*tag.name);
   if (known == problem.reference_tags.end() || !tag.why_not.empty()) return;
   tag.grid = on_grid(antennas, tag.reads, {known->second}, options);
@@ -169,8 +168,7 @@ double log_of_field(const Scene& scene, const std::vector<std::size_t>& some,
       double sum = 0.0;
       for (std::size_t j = 0; j < tag.grid.cells.size(); ++j) {
         const double r = (tag.grid.cells[j] - reads.p_WA).norm();
-        sum += weights[i][static_cast<Eigen::Index>(j)] *
-               std::exp(most_likely(of, r, 0.0) - best);
+        sum += weights[i][static_cast<Eigen::Index>(j)] * std::exp(most_likely(of, r, 0.0) - best);
       }
       log += best + std::log(sum + 1e-300);
     }
@@ -199,9 +197,8 @@ PhaseField field_of(const Scene& scene, const LocalizationProblem& problem,
     }
   }
   std::vector<double> logs(fields.size());
-  parallel_for(fields.size(), threads, [&](std::size_t i) {
-    logs[i] = log_of_field(scene, some, weights, fields[i]);
-  });
+  parallel_for(fields.size(), threads,
+               [&](std::size_t i) { logs[i] = log_of_field(scene, some, weights, fields[i]); });
   return fields[static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) -
                                          logs.begin())];
 }
@@ -229,8 +226,8 @@ std::vector<RangeLikelihood> ranges_of(const Scene& scene, const FixedTag& tag, 
   return ranges;
 }
 
-LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw& law,
-                      double trust, const FixedOptions& options) {
+LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw& law, double trust,
+                      const FixedOptions& options) {
   return [&scene, &tag, &law, &options, ranges = ranges_of(scene, tag, trust)](
              const std::vector<Eigen::Vector3d>& places, double reach_m) {
     const TagOnGrid there = on_grid(scene.antennas, tag.reads, places, options);
@@ -246,11 +243,11 @@ LogDensity density_of(const Scene& scene, const FixedTag& tag, const StrengthLaw
   };
 }
 
-/// How far the phases' distances can be trusted: the exponent of their likelihoods under which those
-/// of several antennas, which say more than a place has coordinates, agree best with one another and
-/// with the strengths. Reflections that are no diffuse field leave less than 1.
-double trust_of(const Scene& scene, const LocalizationProblem& problem,
-                const FixedOptions& options, int threads) {
+/// How far the phases' distances can be trusted: the exponent of their likelihoods under which
+/// those of several antennas, which say more than a place has coordinates, agree best with one
+/// another and with the strengths. Reflections that are no diffuse field leave less than 1.
+double trust_of(const Scene& scene, const LocalizationProblem& problem, const FixedOptions& options,
+                int threads) {
   constexpr double kTrusts[] = {1.0, 0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.0};
   const std::vector<std::size_t> some = telling_tags(scene, problem);
   std::vector<double> sums(std::size(kTrusts));
@@ -273,8 +270,9 @@ Candidate candidate_of(const PosteriorPart& part, double height) {
   return candidate;
 }
 
-constexpr const char* kHelp = "another antenna, a tag at a known place, or the area where tags can "
-                              "be (--box) would help";
+constexpr const char* kHelp =
+    "another antenna, a tag at a known place, or the area where tags can "
+    "be (--box) would help";
 
 TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std::size_t number,
                     const FixedOptions& options) {

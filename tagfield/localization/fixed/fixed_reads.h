@@ -23,8 +23,8 @@ struct FixedReads {
   std::string antenna;
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();
   Eigen::Vector3d boresight_W = Eigen::Vector3d::UnitX();
-  double rssi_dbm = 0.0;  ///< Mean over the reads that have one;
-  double strengths = 0.0;  ///< so many.
+  double rssi_dbm = 0.0;                    ///< Mean over the reads that have one;
+  double strengths = 0.0;                   ///< so many.
   std::map<double, ChannelPhase> channels;  ///< By carrier [Hz].
 };
 

@@ -8,11 +8,11 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNegligible = 12.0;   ///< ln below the best under which cells are dropped.
-constexpr double kUnlikely = 6.0;      ///< Likewise, of cells over which no part reaches.
-constexpr std::size_t kMany = 6000;    ///< Cells that are not split further.
-constexpr double kFinest = 2e-3;       ///< [m]
-constexpr double kLeastShare = 0.03;   ///< Of a part that is told.
+constexpr double kNegligible = 12.0;  ///< ln below the best under which cells are dropped.
+constexpr double kUnlikely = 6.0;     ///< Likewise, of cells over which no part reaches.
+constexpr std::size_t kMany = 6000;   ///< Cells that are not split further.
+constexpr double kFinest = 2e-3;      ///< [m]
+constexpr double kLeastShare = 0.03;  ///< Of a part that is told.
 
 void keep(AreaCells& cells, const Eigen::ArrayXd& logs, double below) {
   const double least = logs.maxCoeff() - below;

@@ -40,8 +40,7 @@ Eigen::MatrixXd design(const TagOnGrid& tag, Eigen::Index cell, Eigen::Index siz
 
 /// Of fading and of the tag itself.
 Eigen::MatrixXd scatter(Eigen::Index count, double fading_db, double tag_sigma_db) {
-  Eigen::MatrixXd covariance =
-      Eigen::MatrixXd::Constant(count, count, tag_sigma_db * tag_sigma_db);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, tag_sigma_db * tag_sigma_db);
   covariance.diagonal().array() += fading_db * fading_db;
   return covariance;
 }
@@ -86,12 +85,12 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
   const Eigen::Index size = law.mean.size();
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
-  const Eigen::MatrixXd inverse =
-      scatter(count, law.fading_db, prior.tag_sigma_db).llt().solve(
-          Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd inverse = scatter(count, law.fading_db, prior.tag_sigma_db)
+                                      .llt()
+                                      .solve(Eigen::MatrixXd::Identity(count, count));
   // Of the tag's own deviation, given the others' mean misfit.
-  const double gain = tag_variance / (law.fading_db * law.fading_db +
-                                      static_cast<double>(count) * tag_variance);
+  const double gain =
+      tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
   Told told{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
             static_cast<double>(count)};
   for (Eigen::Index cell = 0; cell < weights.size(); ++cell) {
@@ -103,10 +102,10 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
     told.right += weighted * strengths;
     const Eigen::VectorXd misfit = strengths - rows * law.mean;
     const double own = gain * misfit.sum();
-    told.squares += weights[cell] * ((misfit.array() - own).square().sum() +
-                                     static_cast<double>(count) * gain * law.fading_db *
-                                         law.fading_db +
-                                     (rows * law.covariance * rows.transpose()).trace());
+    told.squares +=
+        weights[cell] * ((misfit.array() - own).square().sum() +
+                         static_cast<double>(count) * gain * law.fading_db * law.fading_db +
+                         (rows * law.covariance * rows.transpose()).trace());
   }
   return told;
 }
@@ -241,7 +240,10 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
       learned.of_tag[i] = law_by(before, sum, &told[i]);
     }
   }
-  learned.evidence = log_of_law - log_of_chance(tags, antennas, prior);
+  // Slope and places were fitted to so many strengths: by Schwarz's criterion ½ ln n for each of two.
+  double strengths = 1.0;
+  for (const TagOnGrid& tag : tags) strengths += static_cast<double>(tag.antennas.size());
+  learned.evidence = log_of_law - log_of_chance(tags, antennas, prior) - std::log(strengths);
   return learned;
 }
 

@@ -126,8 +126,7 @@ struct Misfit {
 
 Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   Misfit misfit;
-  misfit.residuals =
-      bins.rssi - gains(bins, p_WT) + law.slope_db * distances(bins, p_WT).log10();
+  misfit.residuals = bins.rssi - gains(bins, p_WT) + law.slope_db * distances(bins, p_WT).log10();
   for (const TagPhases::Span& span : bins.spans) {
     const Level known = level_of(law, span.antenna);
     const double level = best_level(bins, span, known, misfit.residuals);
@@ -149,10 +148,10 @@ Step step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
              const Eigen::ArrayXd& residuals) {
   const Eigen::ArrayXd square = distances(bins, p_WT).square();
   const double factor = -law.slope_db / std::log(10.0);
-  Eigen::ArrayXd ux = factor * (p_WT.x() - bins.x) / square +
-                      gain_slopes(bins, p_WT, Eigen::Vector3d::UnitX());
-  Eigen::ArrayXd uy = factor * (p_WT.y() - bins.y) / square +
-                      gain_slopes(bins, p_WT, Eigen::Vector3d::UnitY());
+  Eigen::ArrayXd ux =
+      factor * (p_WT.x() - bins.x) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitX());
+  Eigen::ArrayXd uy =
+      factor * (p_WT.y() - bins.y) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitY());
   Step step;
   for (const TagPhases::Span& span : bins.spans) {
     const auto weight = bins.weight.segment(span.begin, span.count);
