@@ -16,8 +16,8 @@
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
-#include "tagfield/localization/stops.h"
 #include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/stops.h"
 
 namespace tagfield {
 namespace {

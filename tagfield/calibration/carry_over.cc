@@ -56,7 +56,7 @@ CalibratedValue carried(const std::string& antenna, const Figure& figure, const 
   const double mean = mean_of(values);
   const double scatter = rms_about(values, mean, n - 1.0);
   const double left = rms_about(values, 0.0, n);
-  const bool helps = missed_by_others(values) < left &&
+  const bool helps = missed_by_others(values) < 0.5 * left &&
                      std::abs(mean) > kClearly * std::max(scatter, std::sqrt(own)) / std::sqrt(n);
   if (helps) return {mean, std::sqrt(std::max(scatter * scatter, own) * (1.0 + 1.0 / n)), true};
   if (left > kClearly * std::sqrt(own)) {

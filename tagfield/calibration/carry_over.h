@@ -10,8 +10,8 @@
 
 namespace tagfield {
 
-/// Each figure of an antenna is held out in turn: by the mean of the others it must be met better
-/// than by leaving it as it was, over all experiments, and its mean must be beyond twice its
+/// Each figure of an antenna is held out in turn: by the mean of the others it must be met twice
+/// as well as by leaving it as it was, over all experiments, and its mean must be beyond twice its
 /// standard error. What passes gets the mean, with the scatter between experiments in its standard
 /// deviation for one more experiment. What doesn't is left as it was (`observable: false`) with a
 /// warning that says how much it differs. Noise is the median. Offsets are given for channels on

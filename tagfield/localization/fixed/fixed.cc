@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/fixed/channel_offsets.h"
@@ -21,10 +24,6 @@ constexpr double kLeastEvidence = 4.6;  ///< ln 100: chance makes so much in one
 constexpr double kMostOfArea = 0.7;     ///< A place hardly better known than the area is none.
 constexpr double kRangeStep = 0.02;     ///< [m]
 constexpr std::size_t kTellingTags = 12;  ///< Of the phases' field.
-/// ln of the density of a strength's misfit that chance makes in one case of a thousand, four
-/// strengths less two coordinates and a level over 1 freedom: χ² of 10.8.
-constexpr double kMostMisfit = 10.8;
-
 /// A tag and all that is known of it.
 struct FixedTag {
   const std::string* name = nullptr;
@@ -43,6 +42,7 @@ struct Scene {
   ChannelOffsets offsets;
   PhaseField field;
   double trust = 1.0;         ///< Exponent of the phases' likelihoods.
+  std::string swapped;        ///< The two antennas that must have been exchanged, or "".
   bool out_of_order = false;  ///< Phases show other carriers than were told; they are not used.
 };
 
@@ -279,6 +279,12 @@ TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std:
   const FixedTag& tag = scene.tags[number];
   TagEstimate estimate = begun(*tag.name, *tag.samples);
   if (!tag.why_not.empty()) return not_located(std::move(estimate), tag.why_not);
+  if (!scene.swapped.empty()) {
+    return not_located(std::move(estimate),
+                       fmt::format("the strengths fit far better with the places of antennas {} "
+                                   "exchanged: are ports or poses mixed up?",
+                                   scene.swapped));
+  }
   if (scene.law.evidence < kLeastEvidence) {
     return not_located(std::move(estimate),
                        fmt::format("the strengths of all tags go by no law of distance that chance "
@@ -310,6 +316,56 @@ TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std:
   return estimate;
 }
 
+/// The same tags with two antennas' places exchanged.
+std::vector<TagOnGrid> with_exchanged(const Scene& scene, const std::vector<std::size_t>& numbers,
+                                      const FixedReads& one, const FixedReads& other,
+                                      const FixedOptions& options) {
+  std::vector<TagOnGrid> grids;
+  for (const std::size_t number : numbers) {
+    std::vector<FixedReads> reads = scene.tags[number].reads;
+    for (FixedReads& of : reads) {
+      const bool is_one = of.antenna == one.antenna;
+      if (!is_one && of.antenna != other.antenna) continue;
+      of.p_WA = is_one ? other.p_WA : one.p_WA;
+      of.boresight_W = is_one ? other.boresight_W : one.boresight_W;
+    }
+    grids.push_back(on_grid(scene.antennas, reads, scene.tags[number].grid.cells, options));
+  }
+  return grids;
+}
+
+/// Which two antennas' exchange makes the strengths a hundred times likelier, the number of pairs
+/// allowed for; "" where none does. By a few tags.
+std::string swapped_antennas(const Scene& scene, const std::vector<std::size_t>& numbers,
+                             const FixedOptions& options, int threads) {
+  constexpr std::size_t kEnough = 16;
+  std::vector<std::size_t> some = numbers;
+  if (some.size() > kEnough) some.resize(kEnough);
+  std::map<std::string, FixedReads> antennas;
+  std::vector<TagOnGrid> grids;
+  for (const std::size_t number : some) {
+    grids.push_back(scene.tags[number].grid);
+    for (const FixedReads& of : scene.tags[number].reads) antennas.emplace(of.antenna, of);
+  }
+  std::vector<std::pair<const FixedReads*, const FixedReads*>> pairs;
+  for (auto one = antennas.begin(); one != antennas.end(); ++one) {
+    for (auto other = std::next(one); other != antennas.end(); ++other) {
+      pairs.emplace_back(&one->second, &other->second);
+    }
+  }
+  std::vector<double> evidences(pairs.size());
+  parallel_for(pairs.size(), threads, [&](std::size_t i) {
+    const auto exchanged = with_exchanged(scene, some, *pairs[i].first, *pairs[i].second, options);
+    evidences[i] = learn_law(exchanged, scene.antennas.size(), options).evidence;
+  });
+  const double told = learn_law(grids, scene.antennas.size(), options).evidence;
+  const auto best = std::max_element(evidences.begin(), evidences.end());
+  if (best == evidences.end()) return "";
+  if (*best < told + kLeastEvidence + std::log(static_cast<double>(pairs.size()))) return "";
+  const auto& [one, other] = pairs[static_cast<std::size_t>(best - evidences.begin())];
+  return fmt::format("'{}' and '{}'", one->antenna, other->antenna);
+}
+
 Scene scene_of(const LocalizationProblem& problem, int threads, const FixedOptions& options) {
   Scene scene;
   scene.antennas = antennas_of(problem);
@@ -330,6 +386,7 @@ Scene scene_of(const LocalizationProblem& problem, int threads, const FixedOptio
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     scene.law.of_tag[numbers[i]] = learned.of_tag[i];
   }
+  scene.swapped = swapped_antennas(scene, numbers, options, threads);
   std::vector<std::vector<FixedReads>> reads;
   for (const FixedTag& tag : scene.tags) reads.push_back(tag.reads);
   scene.out_of_order = problem.has_phases && is_out_of_order(reads);

@@ -9,11 +9,12 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNearest = 0.1;     ///< Distances below this count as this [m].
-constexpr double kAnyLevel = 60.0;   ///< Standard deviation of the level beforehand [dB].
-constexpr double kUsualLevel = -45;  ///< [dBm at 1 m]
-constexpr double kWorth = 4.0;       ///< So many strengths the fading's prior is worth.
-constexpr int kRounds = 25;
+constexpr double kNearest = 0.1;      ///< Distances below this count as this [m].
+constexpr double kAnyLevel = 60.0;    ///< Standard deviation of the level beforehand [dB].
+constexpr double kUsualLevel = -45;   ///< [dBm at 1 m]
+constexpr double kWorth = 4.0;        ///< So many strengths the fading's prior is worth.
+constexpr int kRounds = 25;           ///< At most,
+constexpr double kSettled = 0.02;     ///< or until ln of the likelihood changes by less.
 constexpr double kNegligible = 1e-4;  ///< Weight of a cell.
 
 /// What a tag tells of the law: its normal equations, and its share of the fading.
@@ -228,6 +229,7 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
   std::vector<Told> told(tags.size());
   double log_of_law = 0.0;
   for (int round = 0; round < kRounds; ++round) {
+    const double before_round = log_of_law;
     log_of_law = 0.0;
     for (std::size_t i = 0; i < tags.size(); ++i) {
       const Eigen::ArrayXd logs = log_strength(tags[i], learned.of_tag[i], prior);
@@ -239,8 +241,10 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
     for (std::size_t i = 0; i < tags.size(); ++i) {
       learned.of_tag[i] = law_by(before, sum, &told[i]);
     }
+    if (round > 0 && std::abs(log_of_law - before_round) < kSettled) break;
   }
-  // Slope and places were fitted to so many strengths: by Schwarz's criterion ½ ln n for each of two.
+  // Slope and places were fitted to so many strengths: by Schwarz's criterion ½ ln n for each of
+  // two.
   double strengths = 1.0;
   for (const TagOnGrid& tag : tags) strengths += static_cast<double>(tag.antennas.size());
   learned.evidence = log_of_law - log_of_chance(tags, antennas, prior) - std::log(strengths);
