@@ -45,10 +45,10 @@ std::map<std::string, std::vector<Reduced>> reduced_references(const Localizatio
 }
 
 /// A port's offsets: each tag's turn and each channel's in turns, from the tag with most channels.
-std::map<double, ChannelOffset> offsets_by(std::vector<Reduced> references) {
+std::map<double, ChannelTurn> offsets_by(std::vector<Reduced> references) {
   std::sort(references.begin(), references.end(),
             [](const Reduced& a, const Reduced& b) { return a.size() > b.size(); });
-  std::map<double, ChannelOffset> offsets;
+  std::map<double, ChannelTurn> offsets;
   for (const auto& [carrier, turn] : references.front()) offsets[carrier] = {turn, 1.0};
   for (int round = 0; round < kRounds; ++round) {
     std::map<double, Complex> sums;
@@ -76,7 +76,7 @@ struct Channels {
   Eigen::VectorXd wavenumbers, reads, references;
 };
 
-Channels channels_of(const FixedReads& reads, const std::map<double, ChannelOffset>& offsets) {
+Channels channels_of(const FixedReads& reads, const std::map<double, ChannelTurn>& offsets) {
   Channels channels;
   const auto most = static_cast<Eigen::Index>(reads.channels.size());
   channels.phases.resize(most);
@@ -177,8 +177,8 @@ std::map<std::int64_t, Complex> form_by_difference(const Channels& channels,
 
 }  // namespace
 
-ChannelOffsets channel_offsets(const LocalizationProblem& problem) {
-  ChannelOffsets offsets;
+ChannelTurns channel_offsets(const LocalizationProblem& problem) {
+  ChannelTurns offsets;
   if (!problem.has_phases) return offsets;
   for (auto& [antenna, references] : reduced_references(problem)) {
     offsets[antenna] = offsets_by(std::move(references));
@@ -224,7 +224,7 @@ bool is_out_of_order(const std::vector<std::vector<FixedReads>>& tags) {
   return told + kClearly * error < mean_of(best);
 }
 
-RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelOffsets& offsets,
+RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,
                                  const PhaseField& field, double most_m, double step_m) {
   const auto of_antenna = offsets.find(reads.antenna);
   if (of_antenna == offsets.end()) return {};

@@ -13,17 +13,17 @@
 namespace tagfield {
 
 /// Of one channel of a port.
-struct ChannelOffset {
+struct ChannelTurn {
   std::complex<double> turn{1.0,
                             0.0};  ///< e^(j offset), the same tag's in all channels but for one.
   double references = 0.0;         ///< Tags that told it; 0: it is exact.
 };
 
 /// Offsets by antenna and carrier [Hz].
-using ChannelOffsets = std::map<std::string, std::map<double, ChannelOffset>>;
+using ChannelTurns = std::map<std::string, std::map<double, ChannelTurn>>;
 
 /// By the tags at known places and what is known beforehand (`offset_known`).
-ChannelOffsets channel_offsets(const LocalizationProblem& problem);
+ChannelTurns channel_offsets(const LocalizationProblem& problem);
 
 /// Whether phases show the carriers in another order than was told, as of a reader whose hop table
 /// was not asked for. Neighbours' phases differ by the same at all places; those of channels far
@@ -47,7 +47,7 @@ struct RangeLikelihood {
 /// Of the direct wave with diffuse ones, over phases alone (half of the complex normal law's
 /// logarithm: only one of the two quadratures is seen). Empty where fewer than three channels have
 /// offsets.
-RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelOffsets& offsets,
+RangeLikelihood range_likelihood(const FixedReads& reads, const ChannelTurns& offsets,
                                  const PhaseField& field, double most_m, double step_m);
 
 /// Greatest ln within `reach_m` of the distance.

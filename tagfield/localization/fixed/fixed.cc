@@ -39,7 +39,7 @@ struct Scene {
   std::vector<std::string> antennas;
   std::vector<FixedTag> tags;
   LearnedLaw law;
-  ChannelOffsets offsets;
+  ChannelTurns offsets;
   PhaseField field;
   double trust = 1.0;         ///< Exponent of the phases' likelihoods.
   std::string swapped;        ///< The two antennas that must have been exchanged, or "".
