@@ -39,7 +39,10 @@ std::vector<TagRead> read_reads_csv(const std::string& path) {
   const std::size_t antenna = table.column("antenna");
   const std::size_t tag = table.column("tag");
   const std::size_t frequency = table.column("frequency_hz");
-  const bool has_phase = table.has_column("phase_rad");
+  // Phases may be missing, not called otherwise.
+  const bool has_phase =
+      std::any_of(table.header.begin(), table.header.end(),
+                  [](const std::string& name) { return name.find("phase") != std::string::npos; });
   const std::size_t phase = has_phase ? table.column("phase_rad") : 0;
   const std::size_t rssi = table.column("rssi_dbm");
   const bool named_reader = table.has_column("reader");
