@@ -279,7 +279,7 @@ TagEstimate located(const LocalizationProblem& problem, const Scene& scene, std:
   const FixedTag& tag = scene.tags[number];
   TagEstimate estimate = begun(*tag.name, *tag.samples);
   if (!tag.why_not.empty()) return not_located(std::move(estimate), tag.why_not);
-  if (!scene.swapped.empty()) {
+  if (scene.law.evidence < kLeastEvidence && !scene.swapped.empty()) {
     return not_located(std::move(estimate),
                        fmt::format("the strengths fit far better with the places of antennas {} "
                                    "exchanged: are ports or poses mixed up?",
@@ -386,7 +386,10 @@ Scene scene_of(const LocalizationProblem& problem, int threads, const FixedOptio
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     scene.law.of_tag[numbers[i]] = learned.of_tag[i];
   }
-  scene.swapped = swapped_antennas(scene, numbers, options, threads);
+  // Where a law holds as told, reflections alone can make another order likelier.
+  if (scene.law.evidence < kLeastEvidence) {
+    scene.swapped = swapped_antennas(scene, numbers, options, threads);
+  }
   std::vector<std::vector<FixedReads>> reads;
   for (const FixedTag& tag : scene.tags) reads.push_back(tag.reads);
   scene.out_of_order = problem.has_phases && is_out_of_order(reads);
