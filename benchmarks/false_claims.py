@@ -2,7 +2,8 @@
 """Nothing from nothing: how often the real commands claim what can't be so.
 
     benchmarks/false_claims.py [--tagfield build/release/bin/tagfield] [--cases 1000] [--seed 1]
-                               [--methods auto,hyperbola,…] [--conditions "random phases;wrong sign"]
+                               [--methods auto,hyperbola,…] [--room-methods auto,fixed,…]
+                               [--conditions "random phases;wrong sign"]
 
 Each case is a tag whose reads can't locate it, or only wrongly. A claim is a place that is located;
 it is false where there is none, or where it is off by over five times its expected error. Prints the
@@ -22,7 +23,8 @@ import tempfile
 import made_tables as made
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-METHODS = "auto,hyperbola,least_squares,ml,joint,sar,dah,particle,scan"
+METHODS = "auto,hyperbola,least_squares,ml,joint,sar,dah,particle,scan,trilateration"
+ROOM_METHODS = "auto,fixed,trilateration,landmarc"
 BATCH = 50  # Tags in one run.
 
 
@@ -113,6 +115,72 @@ CONDITIONS = {
 }
 
 
+def random_strength(rows, rng):
+    return [(t, p, carrier, phase, rng.uniform(-75, -35)) for t, p, carrier, phase, _ in rows]
+
+
+def no_strength_law(rng):
+    """Phases and RSSI that say nothing."""
+    rows, _ = tag_on(curve(), made.one_channel, rng)
+    return random_strength(random_phases(rows, rng), rng), None
+
+
+CONDITIONS["random phases and RSSI"] = (no_strength_law, None)
+#: Conditions under which strengths are as good as ever, so that methods by strength find the tag.
+OF_PHASE = ("random phases", "random phases, hopping", "random phases on a rail", "constant phases",
+            "wrong sign")
+
+CORNERS = {"p0": (0, 0), "p1": (6, 0), "p2": (6, 6), "p3": (0, 6)}
+
+
+def swapped(antennas):
+    return {**antennas, "p0": antennas["p1"], "p1": antennas["p0"]}
+
+
+def changed(tags, rng, phase=lambda value, rng: value, rssi=lambda value, rng: value):
+    """Every phase anew, RSSI by tag and antenna."""
+    result = {}
+    for tag, rows in tags.items():
+        by_antenna = {}
+        result[tag] = [(t, a, c, phase(p, rng), by_antenna.setdefault(a, rssi(s, rng)))
+                       for t, a, c, p, s in rows]
+    return result
+
+
+#: Antennas at rest: name, whether places are true, what becomes of the reads, and of the antennas.
+ROOMS = {
+    "at rest, as it is": (True, lambda tags, rng: tags, None),
+    "at rest, random RSSI": (False, lambda tags, rng: changed(
+        tags, rng, lambda *_: rng.uniform(0, made.TURN), lambda *_: rng.uniform(-75, -35)), None),
+    "at rest, random phases": (True, lambda tags, rng: changed(
+        tags, rng, lambda *_: rng.uniform(0, made.TURN)), None),
+    "at rest, wrong sign": (True, lambda tags, rng: changed(tags, rng, lambda p, _: -p), None),
+    "at rest, antennas swapped": (True, lambda tags, rng: tags, swapped),
+}
+
+
+def room_condition(name, method, references, options):
+    """Claims, false ones, cases: tags in rooms of 20."""
+    is_true, change, move = ROOMS[name]
+    rng = random.Random(f"{options.seed} {name} {references}")
+    claims = false = 0
+    for _ in range(0, options.cases, 20):
+        places = {f"t{i:02d}": (rng.uniform(0.3, 5.7), rng.uniform(0.3, 5.7))
+                  for i in range(20 + references)}
+        tags = change(made.read_in_room(places, CORNERS, rng), rng)
+        known = dict(list(places.items())[:references])
+        with tempfile.TemporaryDirectory() as folder:
+            made.write_room(folder, tags, move(CORNERS) if move else CORNERS, known)
+            extra = ["--reference", f"{folder}/references.csv"] if known else []
+            found, _ = made.localize(options.tagfield, folder, "--method", method, "--tag-height", "0",
+                                     "--box", "0", "0", "6", "6", *extra)
+        for tag, rows in found.items():
+            if rows[0]["verdict"] == "located" and tag not in known:
+                claims += 1
+                false += is_false(rows[0], places[tag] if is_true else None)
+    return claims, false, options.cases
+
+
 def is_false(row, place):
     if place is None:
         return True
@@ -185,6 +253,7 @@ def main():
     parser.add_argument("--cases", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--methods", default=METHODS)
+    parser.add_argument("--room-methods", default=ROOM_METHODS)
     parser.add_argument("--conditions", default="")
     options = parser.parse_args()
     wanted = [word.strip() for word in options.conditions.split(";") if word]
@@ -198,8 +267,16 @@ def main():
 
     for name in CONDITIONS:
         for method in options.methods.split(","):
+            if method == "trilateration" and name in OF_PHASE:
+                continue
             if not wanted or name in wanted:
                 tell(f"{name}: {method}", localize_condition(name, method, options))
+    for name in ROOMS:
+        for method in options.room_methods.split(","):
+            for references in (0, 4):
+                if not wanted or name in wanted:
+                    tell(f"{name}, {references} references: {method}",
+                         room_condition(name, method, references, options))
     if not wanted or "track random phases" in wanted:
         tell("track random phases", track_random(options))
     if not wanted or "calibrate random phases" in wanted:

@@ -114,6 +114,47 @@ def write(folder, tags, poses=None):
             out.writerow([f"{t:.6f}", "a", f"{p[0]:.6f}", f"{p[1]:.6f}", 0, 0, 0, 0, 1])
 
 
+def write_room(folder, tags, antennas, references=None):
+    """Likewise of antennas at rest: rows (t, antenna, carrier, phase, rssi); places of antennas by name,
+    and of tags at known places, into references.csv."""
+    folder = pathlib.Path(folder)
+    with open(folder / "reads.csv", "w", encoding="utf-8") as file:
+        out = csv.writer(file)
+        out.writerow("stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm".split(","))
+        for tag, rows in tags.items():
+            for t, antenna, carrier, phase, rssi in rows:
+                out.writerow([f"{t:.6f}", antenna, tag, f"{carrier:.0f}", f"{phase % TURN:.6f}",
+                              f"{rssi:.1f}"])
+    with open(folder / "poses.csv", "w", encoding="utf-8") as file:
+        out = csv.writer(file)
+        out.writerow("stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw".split(","))
+        for name, p in antennas.items():
+            out.writerow([0, name, p[0], p[1], 0, 0, 0, 0, 1])
+    with open(folder / "references.csv", "w", encoding="utf-8") as file:
+        out = csv.writer(file)
+        out.writerow("tag,x_m,y_m,z_m".split(","))
+        for tag, p in (references or {}).items():
+            out.writerow([tag, p[0], p[1], 0])
+
+
+def read_in_room(places, antennas, random, sigma=0.1, fading=3.0):
+    """Rows of tags that antennas at rest read twice on each of 50 channels, whose offsets are each
+    port's own; RSSI fades by antenna and tag."""
+    offsets = {name: offsets_of(random) for name in antennas}
+    tags = {}
+    for tag, place in places.items():
+        rows = []
+        for name, p in antennas.items():
+            r = math.dist(place, p)
+            rssi = -42 - 34 * math.log10(r) + random.gauss(0, fading)
+            for i in range(100):
+                carrier = FCC[i % 50]
+                rows.append((0.05 * i, name, carrier, phase_of(r, carrier, offsets[name](carrier)) +
+                             random.gauss(0, sigma), rssi))
+        tags[tag] = rows
+    return tags
+
+
 def estimates(folder):
     """Rows of estimates.csv by tag, best candidate first."""
     found = {}

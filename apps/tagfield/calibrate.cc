@@ -8,18 +8,20 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "tagfield/calibration/carry_over.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/tag_places_csv.h"
+#include "tagfield/localization/phase_sample.h"
 #include "tagfield/scenario/calibration_profile.h"
 
 namespace tagfield {
 namespace {
 
 struct CalibrateArguments {
-  std::string reads;
-  std::string poses;
-  std::string format;  ///< How other people's tables are to be read, or "".
-  std::string tags;
+  std::vector<std::string> reads;  ///< Of one experiment or of several,
+  std::vector<std::string> poses;  ///< each with its own poses, or all with the first,
+  std::string format;              ///< How other people's tables are to be read, or "".
+  std::vector<std::string> tags;   ///< and likewise tags at known places.
   std::string out;
   CalibrationOptions options;
   int threads = default_threads();
@@ -57,20 +59,66 @@ std::string table_of(const Calibration& calibration) {
   return text;
 }
 
-int calibrate_command(const CalibrateArguments& arguments) {
-  Diagnostics diagnostics;
-  const auto [reads, poses] =
-      read_tables("calibrate", arguments.reads, arguments.poses, arguments.format);
-  const auto tags = read_tag_places_csv(arguments.tags);
+/// That of an experiment, or the one of all; "" where none was told.
+std::string of_experiment(const std::vector<std::string>& all, std::size_t number,
+                          std::size_t experiments, const char* option) {
+  if (all.empty()) return "";
+  if (all.size() == 1) return all.front();
+  if (all.size() == experiments) return all[number];
+  throw Error(
+      fmt::format("calibrate: {} is given {} times, expected once or once for each of the {} "
+                  "READS",
+                  option, all.size(), experiments));
+}
+
+Calibration calibration_of(const CalibrateArguments& arguments, std::size_t number,
+                           Diagnostics& diagnostics) {
+  const std::size_t count = arguments.reads.size();
+  const std::string& file = arguments.reads[number];
+  const std::string poses_file = of_experiment(arguments.poses, number, count, "--poses");
+  const std::string tags_file = of_experiment(arguments.tags, number, count, "--tags");
+  const auto [reads, poses] = read_tables("calibrate", file, poses_file, arguments.format);
+  const auto tags = read_tag_places_csv(tags_file);
+  if (!has_phases(reads)) fail({file, 0}, "the reads have no phases, or all the same one");
   Calibration calibration =
       calibrate(reads, poses, tags, arguments.options, arguments.threads, diagnostics);
-  print_warnings(diagnostics);
   if (calibration.antennas.empty()) {
-    fail({arguments.reads, 0}, "nothing to calibrate by: expected at least 30 reads of tags of " +
-                                   arguments.tags + " by an antenna of " + arguments.poses +
-                                   ", whose phases go by their distances");
+    print_warnings(diagnostics);
+    fail({file, 0}, "nothing to calibrate by: expected at least 30 reads of tags of " + tags_file +
+                        " by an antenna of " + (poses_file.empty() ? file : poses_file) +
+                        ", whose phases go by their distances");
   }
-  calibration.name = "calibration by " + std::filesystem::path(arguments.reads).filename().string();
+  return calibration;
+}
+
+/// Of several experiments what all of them tell.
+Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics& diagnostics) {
+  std::vector<Calibration> experiments;
+  for (std::size_t i = 0; i < arguments.reads.size(); ++i) {
+    experiments.push_back(calibration_of(arguments, i, diagnostics));
+  }
+  if (experiments.size() == 1) return experiments.front();
+  Calibration carried = carried_over(experiments, diagnostics);
+  if (!carried.antennas.empty()) return carried;
+  print_warnings(diagnostics);
+  throw Error(fmt::format(
+      "calibrate: nothing that these {} experiments tell carries over from one to another: a "
+      "calibration by them would not improve the next, and no profile is written",
+      experiments.size()));
+}
+
+int calibrate_command(const CalibrateArguments& arguments) {
+  if (arguments.reads.size() == 2) {
+    throw Error(
+        "calibrate: of two experiments nobody can tell what carries over: expected one READS, "
+        "or three or more");
+  }
+  Diagnostics diagnostics;
+  Calibration calibration = calibration_of_all(arguments, diagnostics);
+  print_warnings(diagnostics);
+  calibration.name =
+      "calibration by " + std::filesystem::path(arguments.reads.front()).filename().string() +
+      (arguments.reads.size() > 1 ? fmt::format(" and {} more", arguments.reads.size() - 1) : "");
   write_text_file(arguments.out, to_yaml(calibration));
   fmt::print("{}profile: {}\n", table_of(calibration), arguments.out);
   return kExitOk;
@@ -86,14 +134,23 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
       "places");
   command
       ->add_option("READS", arguments->reads,
-                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm")
+                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm. Of several "
+                   "experiments (three or more) what carries over from each to the others is told")
       ->required();
-  command->add_option(
-      "--poses", arguments->poses,
-      "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw)");
+  command
+      ->add_option(
+          "--poses", arguments->poses,
+          "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw); of several "
+          "experiments once for each, or one for all")
+      ->take_all()
+      ->allow_extra_args(false);
   add_format_option(*command, arguments->format);
-  command->add_option("--tags", arguments->tags, "Tags at known places (CSV: tag,x_m,y_m,z_m)")
-      ->required();
+  command
+      ->add_option("--tags", arguments->tags,
+                   "Tags at known places (CSV: tag,x_m,y_m,z_m); of several experiments likewise")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--out", arguments->out, "Profile to write (YAML)")->required();
   command
       ->add_option(

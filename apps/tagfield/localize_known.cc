@@ -130,7 +130,7 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
   if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty()) {
     known.heights = heights_of(arguments);
   }
-  known.area = area_of(arguments);
+  if (!arguments.side.empty() || !arguments.box.empty()) known.area = area_of(arguments);
   if (!arguments.references_file.empty()) {
     known.reference_tags = read_tag_places_csv(arguments.references_file);
   }

@@ -17,6 +17,7 @@
 #include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/stops.h"
 
 namespace tagfield {
 namespace {
@@ -358,6 +359,7 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
     diagnostics.warn("phases jump by half turns: they are taken as known but for π");
     double_phases(samples);
   }
+  merge_stops(samples);
   const auto data = data_of(samples, tracks, tags);
   std::vector<const AntennaData*> usable;
   for (const auto& [antenna, one] : data) {

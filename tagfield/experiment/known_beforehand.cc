@@ -68,6 +68,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.offsets = offsets_of(scenario);
   known.pose_error = pose_error_of(scenario);
   known.half_turns = scenario.localization.half_turns;
+  known.area = scenario.localization.area;
   known.limits = scenario.localization.limits;
   known.trace = traced_replies(scenario);
   // Between two updates an antenna's poses are as far apart as its rate says.

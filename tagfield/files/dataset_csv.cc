@@ -215,7 +215,7 @@ void add_table(const std::string& path, const DatasetForm& form, Gathered& all) 
   const AntennaReader antenna(table, form.antenna);
   const FrequencyReader frequency(table, form.frequency);
   const std::size_t tag = table.column(form.tag_column);
-  const std::size_t phase = table.column(form.phase.column);
+  const std::optional<std::size_t> phase = place_of(table, form.phase.column);
   const std::optional<std::size_t> rssi = place_of(table, form.rssi_column);
   std::optional<PositionReader> position;
   if (form.position) position.emplace(table, *form.position);
@@ -226,7 +226,7 @@ void add_table(const std::string& path, const DatasetForm& form, Gathered& all) 
     read.antenna = antenna.read(row);
     read.tag = without_spaces(table.text(row, tag));
     read.frequency_hz = frequency.read(row);
-    read.phase_rad = wrap_to_two_pi(turn * table.number(row, phase));
+    if (phase) read.phase_rad = wrap_to_two_pi(turn * table.number(row, *phase));
     read.rssi_dbm = rssi ? form.decibels * table.number(row, *rssi) : kUnknownRssi;
     if (position) all.poses.add(read.stamp, read.antenna, position->read(row));
     all.reads.push_back(std::move(read));

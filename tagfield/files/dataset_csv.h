@@ -47,7 +47,7 @@ struct FrequencyForm {
 
 /// How a table tells the phase.
 struct PhaseForm {
-  std::string column;
+  std::string column;    ///< "" where there is none; phases are then 0.
   double radians = 1.0;  ///< One unit of the column [rad].
   bool falls = false;    ///< It falls with distance.
 };

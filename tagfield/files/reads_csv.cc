@@ -39,7 +39,11 @@ std::vector<TagRead> read_reads_csv(const std::string& path) {
   const std::size_t antenna = table.column("antenna");
   const std::size_t tag = table.column("tag");
   const std::size_t frequency = table.column("frequency_hz");
-  const std::size_t phase = table.column("phase_rad");
+  // Phases may be missing, not called otherwise.
+  const bool has_phase =
+      std::any_of(table.header.begin(), table.header.end(),
+                  [](const std::string& name) { return name.find("phase") != std::string::npos; });
+  const std::size_t phase = has_phase ? table.column("phase_rad") : 0;
   const std::size_t rssi = table.column("rssi_dbm");
   const bool named_reader = table.has_column("reader");
   const std::size_t reader = named_reader ? table.column("reader") : 0;
@@ -57,7 +61,7 @@ std::vector<TagRead> read_reads_csv(const std::string& path) {
     if (!(read.frequency_hz > 0.0)) {
       fail({path, row.line}, "frequency_hz must be greater than 0");
     }
-    read.phase_rad = wrap_to_two_pi(table.number(row, phase));
+    if (has_phase) read.phase_rad = wrap_to_two_pi(table.number(row, phase));
     read.rssi_dbm = table.number(row, rssi);
     const bool tells_doppler = has_doppler && !row.fields[doppler].empty();
     if (tells_doppler) read.doppler_hz = table.number(row, doppler);

@@ -17,8 +17,8 @@ namespace tagfield {
 namespace {
 
 /// Methods that may be chosen.
-constexpr const char* kChosen[] = {"joint",         "ml",      "sar", "robust", "scan",
-                                   "trilateration", "landmarc"};
+constexpr const char* kChosen[] = {"joint",         "ml",    "sar",     "robust", "scan",
+                                   "trilateration", "fixed", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
@@ -119,9 +119,11 @@ void add_scans(const std::vector<Look>& looks, DataTraits& traits) {
 }
 
 void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
+  traits.has_phases = problem.has_phases;
   std::set<double> carriers;
   for (const auto& [tag, of_tag] : problem.samples) {
-    traits.has_phase = traits.has_phase || count_reads(of_tag) >= kFewestReads;
+    traits.has_reads = traits.has_reads || count_reads(of_tag) >= kFewestReads;
+    traits.antennas = std::max(traits.antennas, of_tag.size());
     for (const auto& [antenna, series] : of_tag) {
       traits.antennas_move = traits.antennas_move || extent_of(series) >= kStillExtent;
       for (const PhaseSample& sample : series) carriers.insert(sample.frequency_hz);
@@ -224,7 +226,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   look_at_all(problem, traits);
   traits.pose_is_exact = problem.pose_error && problem.pose_error->sigma_m <= 0.0 &&
                          problem.pose_error->yaw_sigma_rad <= 0.0;
-  if (!traits.antennas_move) return traits;
+  if (!traits.antennas_move || !traits.has_phases) return traits;
   const auto tags = some_tags(problem);
   std::vector<Look> looks(tags.size());
   parallel_for(tags.size(), threads, [&](std::size_t i) {
@@ -249,13 +251,19 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
 }
 
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
-  if (!traits.has_phase) return {"ml", "too few reads of any tag for a choice"};
-  if (!traits.antennas_move && reference_tags >= 3) {
-    return {"landmarc", "the antennas stand still, and there are reference tags to compare with"};
+  if (!traits.has_reads) return {"ml", "too few reads of any tag for a choice"};
+  // By three or more antennas a law of distance places tags better than their neighbours do.
+  if (!traits.antennas_move && traits.antennas < 3 && reference_tags >= 3) {
+    return {"landmarc",
+            "two antennas at most stand still, and there are reference tags to compare "
+            "with"};
   }
   if (!traits.antennas_move) {
-    return {"trilateration", "the antennas stand still: only signal strength tells distances"};
+    return {"fixed",
+            "the antennas stand still: strengths tell distances, and phases over channels "
+            "where their offsets are known"};
   }
+  if (!traits.has_phases) return {"trilateration", "the reads have no phases"};
   if (traits.short_scans >= kMost && traits.unexplained >= kMost) {
     return {"scan", fmt::format("a short straight scan, and {:.0f} % of its phases are "
                                 "bent, as by reflections",

@@ -11,11 +11,13 @@ namespace tagfield {
 /// What of the data decides.
 struct DataTraits {
   bool antennas_move = false;  ///< Any.
-  bool has_phase = false;      ///< Some tag has as many phases as a fit needs.
+  bool has_reads = false;      ///< Some tag has as many as a fit needs.
+  bool has_phases = true;
   bool pose_is_exact = false;  ///< The pose error is known to be 0.
   double short_scans = 0.0;    ///< Share of reads from a straight way of at most 3 m,
   double unexplained = 0.0;  ///< and of those the share whose misfit at the best place is no noise.
   double bent = 0.0;  ///< Share of all reads from tags whose misfit at the best place is no noise.
+  std::size_t antennas = 0;      ///< Most that read a tag.
   std::size_t channels = 0;      ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median

@@ -4,6 +4,7 @@
 
 #include "tagfield/localization/aim.h"
 #include "tagfield/localization/automatic.h"
+#include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
 #include "tagfield/localization/holograms/robust.h"
@@ -56,7 +57,8 @@ std::vector<Method> built_in_methods() {
       hyperbola_method(), least_squares_method(), maximum_likelihood_method(),
       joint_method(),     multipath_method(),     sar_method(),
       robust_method(),    dah_method(),           particle_method(),
-      scan_method(),      trilateration_method(), landmarc_method(),
+      scan_method(),      trilateration_method(), fixed_method(),
+      landmarc_method(),
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;
@@ -65,7 +67,9 @@ std::vector<Method> built_in_methods() {
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
                                   int threads, Diagnostics& diagnostics) {
   LocalizationResult result = method.locate(problem, threads, diagnostics);
-  if (is_by_phase(result.method)) {
+  if (is_by_phase(result.method) && !problem.has_phases) {
+    refuse_without_phases(problem, result);
+  } else if (is_by_phase(result.method)) {
     drop_places_behind(problem, result);
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);

@@ -25,9 +25,9 @@ struct LocalizationOptions {
   std::vector<Method> methods = built_in_methods();  ///< To which one's own can be added.
 };
 
-/// Runs a method and holds what it says against the phases once more: places that chance explains as
-/// well, that a phase of the other sign does, or that antennas would have to look away from are taken
-/// back (plausibility.h, aim.h), as are those where no tag can be.
+/// Runs a method and holds what it says against the phases once more: places that chance explains
+/// as well, that a phase of the other sign does, or that antennas would have to look away from are
+/// taken back (plausibility.h, aim.h), as are those where no tag can be.
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
                                   int threads, Diagnostics& diagnostics);
 

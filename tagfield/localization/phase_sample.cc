@@ -194,6 +194,14 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
   return tracks;
 }
 
+bool has_phases(const std::vector<TagRead>& reads) {
+  constexpr std::size_t kEnough = 8;
+  if (reads.size() < kEnough) return true;
+  return std::any_of(reads.begin(), reads.end(), [&](const TagRead& read) {
+    return read.phase_rad != reads.front().phase_rad;
+  });
+}
+
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics) {

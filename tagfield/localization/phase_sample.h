@@ -40,6 +40,10 @@ struct BelievedTrack;
 std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
                                                Diagnostics& diagnostics);
 
+/// Whether the reads have phases: false of eight or more whose phases are all one, as of readers
+/// and tables that have none and say 0.
+bool has_phases(const std::vector<TagRead>& reads);
+
 /// Joins reads with the antennas' poses, interpolated at each read's stamp. A read whose antenna
 /// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
 /// the stamp before the first or after the last) is left out and counted in one warning for each

@@ -133,6 +133,12 @@ double log_chance(const std::vector<double>& reads, double sum, double places) {
   return std::log(places) + least;
 }
 
+void refuse_without_phases(const LocalizationProblem& problem, LocalizationResult& result) {
+  for_each_place(problem, result, [](const SamplesOfTag&, TagEstimate& estimate) {
+    refuse(estimate, "the reads have no phases, or all the same one: use a method by strength");
+  });
+}
+
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double chance =

@@ -14,6 +14,9 @@ namespace tagfield {
 /// that are free thereby count: of one read each, the sum is that of all reads for any phases.
 double log_chance(const std::vector<double>& reads, double sum, double places);
 
+/// Refuses all tags: no read has a phase.
+void refuse_without_phases(const LocalizationProblem& problem, LocalizationResult& result);
+
 /// Refuses tags whose best place chance explains with a probability of over 1e-4: over apertures of
 /// any length none fits better.
 void refuse_chance(const LocalizationProblem& problem, LocalizationResult& result);

@@ -106,7 +106,9 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
   problem.samples =
       join_reads_with_tracks(reads, problem.tracks, known.max_pose_gap_s, diagnostics);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
-  problem.half_turns = known.half_turns.value_or(has_half_turns(problem.samples));
+  problem.has_phases = has_phases(reads);
+  problem.half_turns =
+      problem.has_phases && known.half_turns.value_or(has_half_turns(problem.samples));
   if (problem.half_turns) {
     if (!known.half_turns) {
       diagnostics.warn("phases jump by half turns: they are taken as known but for π");

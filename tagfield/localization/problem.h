@@ -87,6 +87,7 @@ struct LocalizationProblem {
   std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known places [m, world].
   std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
   std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
+  bool has_phases = true;                    ///< False where they are all one: the reads have none.
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;

@@ -156,7 +156,7 @@ DatasetForm read_dataset_form(const std::string& path) {
   form.tag_column = column_of(tag);
   tag.finish();
   form.antenna = antenna_of(YamlMap(map.at("antenna")));
-  form.phase = phase_of(YamlMap(map.at("phase")));
+  if (map.has("phase")) form.phase = phase_of(YamlMap(map.at("phase")));
   if (map.has("rssi")) {
     YamlMap rssi(map.at("rssi"));
     form.rssi_column = column_of(rssi);

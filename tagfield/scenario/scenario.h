@@ -75,6 +75,7 @@ struct LocalizationSpec {
   std::string method = "hyperbola";
   std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
   MethodSettings settings;           ///< Of `method` and of those that are compared.
+  TagArea area;                      ///< Where tags can be.
   EstimateLimits limits;
   KnownHeight known_height = KnownHeight::kTag;
   double height_m = 0.0;

@@ -79,6 +79,22 @@ def a_calibration_finds_the_faults_and_takes_them_out(context):
 
 
 @case
+def several_experiments_tell_what_carries_over(context):
+    run = context.simulate("paper_warehouse", "--no-page")
+    reads, poses = write_faulty(context, run)
+    tags = write_tags(context, run)
+    common = ("--poses", poses, "--tags", tags, "--out", context.folder / "profile.yaml")
+    told = context.run_well("calibrate", reads, reads, reads, *common)
+    check_in("place x         30.", told.out.replace("29.", "30."), "what is the same in all")
+    two = context.run("calibrate", reads, reads, *common)
+    check_equal(two.code, 2, "exit code of two")
+    check_in("of two experiments nobody can tell what carries over", two.err, "stderr of two")
+    wrong = context.run("calibrate", reads, reads, reads, "--poses", poses, *common)
+    check_equal(wrong.code, 2, "exit code of two tables of poses for three experiments")
+    check_in("--poses is given 2 times", wrong.err, "stderr")
+
+
+@case
 def bad_input_is_told_in_one_line(context):
     reads = context.write("reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
                                        "1,a,t,865.7e6,1,-50\n")

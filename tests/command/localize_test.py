@@ -128,6 +128,53 @@ def auto_says_what_it_took_and_why(context):
     check_equal((summary["method_asked"], summary["method_why"]), ("ml", ""), "asked by name")
 
 
+@case
+def reads_without_phases_are_located_by_strength(context):
+    context.write("poses.csv", "\n".join(["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw",
+                                          *pose_rows()]) + "\n")
+    rows = ["stamp_s,antenna,tag,frequency_hz,rssi_dbm"]
+    for row in read_rows(TAGS):
+        stamp, _, antenna, tag, carrier, _, rssi = row.split(",")
+        rows.append(",".join((stamp, antenna, tag, carrier, rssi)))
+    reads = context.write("strengths.csv", "\n".join(rows) + "\n")
+    told = context.run_well("localize", reads, "--poses", "poses.csv", "--tag-height", HEIGHT,
+                            "--out", "out")
+    check_in("method: trilateration, chosen by auto: the reads have no phases", told.out, "stdout")
+    estimates = {row["tag"]: row for row in read_csv(context.folder / "out/estimates.csv")}
+    check_located(estimates, TAGS, "trilateration", most=0.5)
+    context.run_well("localize", reads, "--poses", "poses.csv", "--method", "sar", "--out", "out")
+    for row in read_csv(context.folder / "out/estimates.csv"):
+        check_equal(row["verdict"], "not_located", f"sar without phases: {row['tag']}")
+
+
+@case
+def a_portal_of_fixed_antennas(context):
+    """A log as of LLRP in the FCC's band, RSSI by a law of 34 dB, phases of which nobody knows the
+    offsets: placed by strength, and said what is missing."""
+    noise = random.Random(3)
+    corners = {"1": (0, 0), "2": (0, 4), "3": (4, 4), "4": (4, 0)}
+    tags = {f"t{i}": (noise.uniform(0.3, 3.7), noise.uniform(0.3, 3.7)) for i in range(20)}
+    rows = ["timestamp,antenna,rssi,epc,phase_angle,channel_index"]
+    for tag, place in tags.items():
+        for antenna, corner in corners.items():
+            rssi = -45 - 34 * math.log10(math.dist(place, corner)) + noise.gauss(0, 2)
+            for i in range(100):
+                rows.append(f"{1 + 0.05 * i:.3f},{antenna},{rssi:.1f},{tag},"
+                            f"{noise.randrange(4096)},{1 + i % 50}")
+    log = context.write("log.csv", "\n".join(rows) + "\n")
+    poses = context.write("portal.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n" + "".join(
+        f"0,{name},{x},{y},1.2,0,0,0,1\n" for name, (x, y) in corners.items()))
+    told = context.run_well("localize", log, "--format", "llrp_fcc", "--poses", poses,
+                            "--tag-height", "1.2", "--box", 0, 0, 4, 4, "--out", "out")
+    check_in("method: fixed, chosen by auto", told.out, "stdout")
+    check_in("the phases are not used", told.err, "stderr")
+    ratios = [math.dist(position(row)[:2], tags[row["tag"]]) / float(row["expected_error_m"])
+              for row in read_csv(context.folder / "out/estimates.csv")
+              if row["verdict"] == "located"]
+    check(len(ratios) >= 15, f"{len(ratios)} of 20 located")
+    check(all(ratio < 5 for ratio in ratios), f"error over expected: {ratios}")
+
+
 # --- What is known beforehand ---------------------------------------------------------------------
 
 @case

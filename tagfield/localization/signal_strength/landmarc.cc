@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "tagfield/base/random.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/signal_strength/rssi_samples.h"
 
@@ -25,6 +27,7 @@ struct Reference {
 struct References {
   std::vector<Reference> tags;
   double unread_dbm = 0.0;  ///< Stands for an RSSI of a tag that was not read.
+  bool go_by_place = false;
 };
 
 References references_of(const LocalizationProblem& problem, const LandmarcOptions& options) {
@@ -76,6 +79,49 @@ std::vector<Neighbour> nearest(const References& references, const RssiVector& r
   return neighbours;
 }
 
+/// Correlation of how far tags are apart with how much their strengths differ, over all pairs;
+/// `order` puts their places in another order.
+double likeness(const References& references, const std::vector<std::vector<double>>& signal_db,
+                const std::vector<std::size_t>& order) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const double apart = (references.tags[order[i]].p_WT - references.tags[order[j]].p_WT).norm();
+      const double differ = signal_db[i][j];
+      n += 1.0, x += apart, y += differ;
+      xx += apart * apart, xy += apart * differ, yy += differ * differ;
+    }
+  }
+  const double spread = (xx - x * x / n) * (yy - y * y / n);
+  return spread > 0.0 ? (xy - x * y / n) / std::sqrt(spread) : 0.0;
+}
+
+/// Whether tags that are near each other are read alike: Mantel's test (Cancer Research 27, 1967),
+/// at most one of a hundred random orders of their places as much as the true one.
+bool go_by_place(const References& references) {
+  constexpr int kOrders = 1000;
+  const std::size_t count = references.tags.size();
+  std::vector<std::vector<double>> signal_db(count, std::vector<double>(count));
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    order[i] = i;
+    for (std::size_t j = 0; j < count; ++j) {
+      signal_db[i][j] =
+          signal_distance(references.tags[i].rssi, references.tags[j].rssi, references.unread_dbm);
+    }
+  }
+  const double told = likeness(references, signal_db, order);
+  RandomStream stream(1, Purpose::kTagSearch, count);
+  int as_good = 0;
+  for (int k = 0; k < kOrders; ++k) {
+    for (std::size_t left = count; left > 1; --left) {
+      std::swap(order[left - 1], order[static_cast<std::size_t>(stream() % left)]);
+    }
+    if (likeness(references, signal_db, order) >= told) ++as_good;
+  }
+  return 100 * as_good <= kOrders;
+}
+
 /// Mean of the neighbours' places by the weights 1/E², with their weighted scatter as covariance.
 Candidate between(const std::vector<Neighbour>& neighbours) {
   double sum = 0.0;
@@ -118,6 +164,12 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
                                    "needed",
                                    references.tags.size(), kFewestReferences));
   }
+  if (!references.go_by_place) {
+    return not_located(std::move(estimate),
+                       fmt::format("the strengths of the {} reference tags do not go by their "
+                                   "places, or these are too few to tell (five at least)",
+                                   references.tags.size()));
+  }
   if (estimate.reads == 0)
     return not_located(std::move(estimate), "no reads that have an antenna pose");
   const RssiVector rssi = rssi_over_time(samples, options.bin_s);
@@ -134,7 +186,8 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
 
 std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
                                     const LandmarcOptions& options) {
-  const References references = references_of(problem, options);
+  References references = references_of(problem, options);
+  references.go_by_place = go_by_place(references);
   return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
     return locate_by_neighbours(problem, references, tag, samples, options);
   });

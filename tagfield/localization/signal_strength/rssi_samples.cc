@@ -5,10 +5,6 @@
 namespace tagfield {
 namespace {
 
-bool has_rssi(const PhaseSample& sample) {
-  return std::isfinite(sample.rssi_dbm) && sample.rssi_dbm > kNoRssi;
-}
-
 void add(const PhaseSample& sample, RssiBin& bin) {
   bin.reads += 1.0;
   bin.p_WA += (sample.p_WA - bin.p_WA) / bin.reads;
@@ -16,6 +12,10 @@ void add(const PhaseSample& sample, RssiBin& bin) {
 }
 
 }  // namespace
+
+bool has_rssi(const PhaseSample& sample) {
+  return std::isfinite(sample.rssi_dbm) && sample.rssi_dbm > kNoRssi;
+}
 
 std::map<std::string, std::vector<RssiBin>> rssi_along_paths(const SamplesOfTag& samples,
                                                              double length) {
@@ -26,7 +26,7 @@ std::map<std::string, std::vector<RssiBin>> rssi_along_paths(const SamplesOfTag&
       if (!has_rssi(sample)) continue;
       std::vector<RssiBin>& of_antenna = bins[antenna];
       if (of_antenna.empty() || (sample.p_WA - first).norm() > length) {
-        of_antenna.push_back({Eigen::Vector3d::Zero(), 0.0, 0.0});
+        of_antenna.push_back({sample.stamp, Eigen::Vector3d::Zero(), 0.0, 0.0});
         first = sample.p_WA;
       }
       add(sample, of_antenna.back());

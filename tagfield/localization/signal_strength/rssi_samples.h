@@ -16,10 +16,14 @@ namespace tagfield {
 
 /// Mean over the reads of one antenna while it went a short way.
 struct RssiBin {
+  Time stamp;             ///< Of the first read.
   Eigen::Vector3d p_WA;   ///< Mean place [m].
   double rssi_dbm = 0.0;  ///< Mean; of whole decibels that vary this is finer than they are.
   double reads = 0.0;
 };
+
+/// Whether it was reported.
+bool has_rssi(const PhaseSample& sample);
 
 /// Bins of at most `length` [m] of travel, by antenna, in order of time. Reads without RSSI
 /// (kNoRssi or not finite) are left out, antennas without any too.

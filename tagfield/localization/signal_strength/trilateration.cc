@@ -9,6 +9,7 @@
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
+#include "tagfield/localization/signal_strength/lobe.h"
 #include "tagfield/localization/signal_strength/rssi_samples.h"
 
 namespace tagfield {
@@ -39,12 +40,26 @@ struct Law {
 struct Bins {
   Eigen::ArrayXd x, y, z, rssi, weight;
   Spans spans;
+  std::vector<Eigen::Vector3d> boresights_W;  ///< Where antennas looked.
+  Lobe lobe;
 };
 
-Bins bins_of(const SamplesOfTag& samples, double length) {
+Eigen::Vector3d boresight_of(const LocalizationProblem& problem, const std::string& antenna,
+                             Time stamp) {
+  const auto track = problem.tracks.find(antenna);
+  if (track == problem.tracks.end() || track->second.X_WA.empty()) return Eigen::Vector3d::UnitX();
+  return held_pose_at(track->second.X_WA, stamp).rotation * Eigen::Vector3d::UnitX();
+}
+
+Bins bins_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
+             const TrilaterationOptions& options) {
   Bins bins;
+  bins.lobe = options;
   std::vector<RssiBin> all;
-  for (const auto& [antenna, series] : rssi_along_paths(samples, length)) {
+  for (const auto& [antenna, series] : rssi_along_paths(samples, options.bin_m)) {
+    for (const RssiBin& bin : series) {
+      bins.boresights_W.push_back(boresight_of(problem, antenna, bin.stamp));
+    }
     bins.spans.push_back(
         {static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(series.size()), antenna});
     all.insert(all.end(), series.begin(), series.end());
@@ -72,6 +87,24 @@ Eigen::ArrayXd distances(const Bins& bins, const Eigen::Vector3d& p_WT) {
       .max(kNearest);
 }
 
+/// Of the lobes, towards a tag [dB].
+Eigen::ArrayXd gains(const Bins& bins, const Eigen::Vector3d& p_WT) {
+  Eigen::ArrayXd gain = Eigen::ArrayXd::Zero(bins.rssi.size());
+  if (bins.lobe.beam_width_deg <= 0.0) return gain;
+  for (Eigen::Index i = 0; i < gain.size(); ++i) {
+    const Eigen::Vector3d p_WA(bins.x[i], bins.y[i], bins.z[i]);
+    gain[i] = lobe_db(bins.lobe, bins.boresights_W[static_cast<std::size_t>(i)], p_WT - p_WA);
+  }
+  return gain;
+}
+
+/// By how much they change along an axis [dB/m].
+Eigen::ArrayXd gain_slopes(const Bins& bins, const Eigen::Vector3d& p_WT,
+                           const Eigen::Vector3d& axis) {
+  constexpr double kStep = 1e-4;  // [m]
+  return (gains(bins, p_WT + kStep * axis) - gains(bins, p_WT - kStep * axis)) / (2.0 * kStep);
+}
+
 Level level_of(const Law& law, const std::string& antenna) {
   const auto level = law.levels.find(antenna);
   return level == law.levels.end() ? Level{} : level->second;
@@ -93,7 +126,7 @@ struct Misfit {
 
 Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   Misfit misfit;
-  misfit.residuals = bins.rssi + law.slope_db * distances(bins, p_WT).log10();
+  misfit.residuals = bins.rssi - gains(bins, p_WT) + law.slope_db * distances(bins, p_WT).log10();
   for (const TagPhases::Span& span : bins.spans) {
     const Level known = level_of(law, span.antenna);
     const double level = best_level(bins, span, known, misfit.residuals);
@@ -115,8 +148,10 @@ Step step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
              const Eigen::ArrayXd& residuals) {
   const Eigen::ArrayXd square = distances(bins, p_WT).square();
   const double factor = -law.slope_db / std::log(10.0);
-  Eigen::ArrayXd ux = factor * (p_WT.x() - bins.x) / square;
-  Eigen::ArrayXd uy = factor * (p_WT.y() - bins.y) / square;
+  Eigen::ArrayXd ux =
+      factor * (p_WT.x() - bins.x) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitX());
+  Eigen::ArrayXd uy =
+      factor * (p_WT.y() - bins.y) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitY());
   Step step;
   for (const TagPhases::Span& span : bins.spans) {
     const auto weight = bins.weight.segment(span.begin, span.count);
@@ -235,21 +270,23 @@ struct LineSums {
 };
 
 std::map<std::string, LineSums> sums_of_references(const LocalizationProblem& problem,
-                                                   double bin_m) {
+                                                   const TrilaterationOptions& options) {
   std::map<std::string, LineSums> sums;
   for (const auto& [tag, p_WT] : problem.reference_tags) {
     const auto samples = problem.samples.find(tag);
     if (samples == problem.samples.end()) continue;
-    for (const auto& [antenna, series] : rssi_along_paths(samples->second, bin_m)) {
-      LineSums& sum = sums[antenna];
-      for (const RssiBin& bin : series) {
-        const double log = std::log10(std::max((p_WT - bin.p_WA).norm(), kNearest));
-        sum.weight += 1.0;
-        sum.log += log;
-        sum.rssi += bin.rssi_dbm;
-        sum.log_log += log * log;
-        sum.log_rssi += log * bin.rssi_dbm;
-      }
+    const Bins bins = bins_of(problem, samples->second, options);
+    const Eigen::ArrayXd logs = distances(bins, p_WT).log10();
+    const Eigen::ArrayXd rssi = bins.rssi - gains(bins, p_WT);
+    for (const TagPhases::Span& span : bins.spans) {
+      LineSums& sum = sums[span.antenna];
+      const auto log = logs.segment(span.begin, span.count);
+      const auto level = rssi.segment(span.begin, span.count);
+      sum.weight += static_cast<double>(span.count);
+      sum.log += log.sum();
+      sum.rssi += level.sum();
+      sum.log_log += log.square().sum();
+      sum.log_rssi += (log * level).sum();
     }
   }
   return sums;
@@ -263,7 +300,7 @@ double prior_weight(const TrilaterationOptions& options) {
 
 /// The law by the reference tags; levels only where there are any.
 Law law_of_references(const LocalizationProblem& problem, const TrilaterationOptions& options) {
-  const auto sums = sums_of_references(problem, options.bin_m);
+  const auto sums = sums_of_references(problem, options);
   Law law;
   law.slope_db = options.slope_db;
   double squares = 0.0;
@@ -302,7 +339,7 @@ double fitted_slope(const LocalizationProblem& problem, const TrilaterationOptio
   std::vector<Bins> tags;
   std::vector<double> heights;
   for (const auto& [tag, samples] : problem.samples) {
-    Bins bins = bins_of(samples, options.bin_m);
+    Bins bins = bins_of(problem, samples, options);
     if (bins.rssi.size() < kFewestBins || tags.size() == kMostTags) continue;
     tags.push_back(std::move(bins));
     heights.push_back(plane_height(problem, tag));
@@ -342,7 +379,7 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                const std::string& tag, const SamplesOfTag& samples,
                                const TrilaterationOptions& options) {
   TagEstimate estimate = begun(tag, samples);
-  const Bins bins = bins_of(samples, options.bin_m);
+  const Bins bins = bins_of(problem, samples, options);
   const std::string why = why_not(samples, bins);
   if (!why.empty()) return not_located(std::move(estimate), why);
   const std::vector<Fit> fits =
@@ -384,7 +421,7 @@ std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int thre
 /// The keys of its options.
 const OptionTable<TrilaterationOptions>& option_table() {
   using O = TrilaterationOptions;
-  static const OptionTable<O> of{
+  static const OptionTable<O> of{with_lobe<O>(
       {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
                   kOverZero),
        setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
@@ -397,7 +434,7 @@ const OptionTable<TrilaterationOptions>& option_table() {
        setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
                   &O::max_expected_error_m, kOverZero),
        setting<O>("max_misfit_db", "dB", "a worse rms is no law of distance", &O::max_misfit_db,
-                  kOverZero)}};
+                  kOverZero)})};
   return of;
 }
 

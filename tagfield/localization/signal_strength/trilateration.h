@@ -5,10 +5,11 @@
 #pragma once
 
 #include "tagfield/localization/method.h"
+#include "tagfield/localization/signal_strength/lobe.h"
 
 namespace tagfield {
 
-struct TrilaterationOptions {
+struct TrilaterationOptions : Lobe {
   /// RSSI falls by so many decibels for ten times the distance: 40 there and back in free space.
   double slope_db = 40.0;
   double slope_sigma_db = 8.0;  ///< How uncertain that is before the data are seen; 0: it is known.

@@ -65,13 +65,13 @@ TEST(Landmarc, WeightsAreTheInverseSquares) {
     return SamplesOfTag{{"a", {sample}}};
   };
   LocalizationProblem problem;
-  problem.samples = {{"r1", with_rssi(-51.0)},
-                     {"r2", with_rssi(-52.0)},
-                     {"r3", with_rssi(-53.0)},
-                     {"r4", with_rssi(-70.0)},
-                     {"a tag", with_rssi(-50.0)}};
+  problem.samples = {{"r1", with_rssi(-51.0)},  {"r2", with_rssi(-52.0)},
+                     {"r3", with_rssi(-53.0)},  {"r4", with_rssi(-70.0)},
+                     {"r5", with_rssi(-85.0)},  {"r6", with_rssi(-100.0)},
+                     {"r7", with_rssi(-115.0)}, {"a tag", with_rssi(-50.0)}};
   problem.reference_tags = {
-      {"r1", {1.0, 0.0, 0.5}}, {"r2", {0.0, 1.0, 0.5}}, {"r3", {0.0, 0.0, 0.5}}, {"r4", {9, 9, 9}}};
+      {"r1", {1.0, 0.0, 0.5}}, {"r2", {0.0, 1.0, 0.5}}, {"r3", {0.0, 0.0, 0.5}}, {"r4", {9, 9, 9}},
+      {"r5", {18, 18, 9}},     {"r6", {27, 27, 9}},     {"r7", {36, 36, 9}}};
   LandmarcOptions options;
   options.neighbours = 3;
   const TagEstimate estimate = locate_one(landmarc_method(options), problem);
@@ -88,6 +88,23 @@ TEST(Landmarc, WithoutReferenceTagsItSaysSo) {
   problem.samples["a tag"] = read_in_room({2.0, 2.0, 1.0}, 1.0, rng);
   EXPECT_EQ(locate_one(landmarc_method({}), problem).reason,
             "cannot localize: needs reference tags: 0 were read with RSSI, at least 3 are needed");
+}
+
+TEST(Landmarc, StrengthsThatDoNotGoByPlaceLocateNothing) {
+  Rng rng(4);
+  int located = 0;
+  for (int i = 0; i < 100; ++i) {
+    LocalizationProblem problem = room_with_references(rng, 2.0);
+    problem.samples["a tag"] = read_in_room({2.0, 2.0, 1.0}, 1.0, rng);
+    for (auto& [tag, samples] : problem.samples) {
+      for (auto& [antenna, series] : samples) {
+        const double rssi = uniform(rng, -75.0, -35.0);
+        for (PhaseSample& sample : series) sample.rssi_dbm = rssi;
+      }
+    }
+    if (locate_one(landmarc_method({}), problem).verdict == Verdict::kLocated) ++located;
+  }
+  EXPECT_LE(located, 5);  // One of a hundred by chance; Poisson's law has over 5 in 6 of 10⁴.
 }
 
 TEST(Landmarc, ReadsWithoutRssiAreNotCounted) {

@@ -1,0 +1,254 @@
+#include "tagfield/localization/fixed/strength_law.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kNearest = 0.1;      ///< Distances below this count as this [m].
+constexpr double kAnyLevel = 60.0;    ///< Standard deviation of the level beforehand [dB].
+constexpr double kUsualLevel = -45;   ///< [dBm at 1 m]
+constexpr double kWorth = 4.0;        ///< So many strengths the fading's prior is worth.
+constexpr int kRounds = 25;           ///< At most,
+constexpr double kSettled = 0.02;     ///< or until ln of the likelihood changes by less.
+constexpr double kNegligible = 1e-4;  ///< Weight of a cell.
+
+/// What a tag tells of the law: its normal equations, and its share of the fading.
+struct Told {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd right;
+  double squares = 0.0;
+  double strengths = 0.0;
+};
+
+Eigen::Index size_of(std::size_t antennas) { return static_cast<Eigen::Index>(antennas) + 2; }
+
+/// Rows of the linear law: strengths less gains = H θ.
+Eigen::MatrixXd design(const TagOnGrid& tag, Eigen::Index cell, Eigen::Index size) {
+  const auto count = static_cast<Eigen::Index>(tag.antennas.size());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, size);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rows(i, 0) = 1.0;
+    rows(i, 1 + static_cast<Eigen::Index>(tag.antennas[static_cast<std::size_t>(i)])) = 1.0;
+    rows(i, size - 1) = -tag.log_distance(cell, i);
+  }
+  return rows;
+}
+
+/// Of fading and of the tag itself.
+Eigen::MatrixXd scatter(Eigen::Index count, double fading_db, double tag_sigma_db) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, tag_sigma_db * tag_sigma_db);
+  covariance.diagonal().array() += fading_db * fading_db;
+  return covariance;
+}
+
+Eigen::VectorXd less_gain(const TagOnGrid& tag, Eigen::Index cell) {
+  return tag.rssi_dbm - tag.gain_db.row(cell).matrix().transpose();
+}
+
+double log_normal_density(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& covariance) {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const double log_det = 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (misfit.dot(root.solve(misfit)) + log_det +
+                 static_cast<double>(misfit.size()) * std::log(kTwoPi));
+}
+
+double log_mean_exp(const Eigen::ArrayXd& logs) {
+  const double most = logs.maxCoeff();
+  return most + std::log((logs - most).exp().mean());
+}
+
+Eigen::ArrayXd weights_of(const Eigen::ArrayXd& logs) {
+  const Eigen::ArrayXd weights = (logs - logs.maxCoeff()).exp();
+  return weights / weights.sum();
+}
+
+StrengthLaw before_data(std::size_t antennas, const StrengthPrior& prior) {
+  const Eigen::Index size = size_of(antennas);
+  StrengthLaw law;
+  law.mean = Eigen::VectorXd::Zero(size);
+  law.mean[0] = kUsualLevel;
+  law.mean[size - 1] = prior.slope_db;
+  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size, prior.antenna_sigma_db);
+  sigmas[0] = kAnyLevel;
+  sigmas[size - 1] = prior.slope_sigma_db;
+  law.covariance = sigmas.array().max(1e-3).square().matrix().asDiagonal();
+  law.fading_db = prior.fading_db;
+  return law;
+}
+
+Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd& weights,
+             const StrengthPrior& prior) {
+  const Eigen::Index size = law.mean.size();
+  const auto count = static_cast<Eigen::Index>(tag.antennas.size());
+  const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
+  const Eigen::MatrixXd inverse = scatter(count, law.fading_db, prior.tag_sigma_db)
+                                      .llt()
+                                      .solve(Eigen::MatrixXd::Identity(count, count));
+  // Of the tag's own deviation, given the others' mean misfit.
+  const double gain =
+      tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
+  Told told{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
+            static_cast<double>(count)};
+  for (Eigen::Index cell = 0; cell < weights.size(); ++cell) {
+    if (weights[cell] < kNegligible) continue;
+    const Eigen::MatrixXd rows = design(tag, cell, size);
+    const Eigen::VectorXd strengths = less_gain(tag, cell);
+    const Eigen::MatrixXd weighted = weights[cell] * rows.transpose() * inverse;
+    told.normal += weighted * rows;
+    told.right += weighted * strengths;
+    const Eigen::VectorXd misfit = strengths - rows * law.mean;
+    const double own = gain * misfit.sum();
+    told.squares +=
+        weights[cell] * ((misfit.array() - own).square().sum() +
+                         static_cast<double>(count) * gain * law.fading_db * law.fading_db +
+                         (rows * law.covariance * rows.transpose()).trace());
+  }
+  return told;
+}
+
+Told sum_of(const std::vector<Told>& all, Eigen::Index size) {
+  Told sum{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0, 0.0};
+  for (const Told& told : all) {
+    sum.normal += told.normal;
+    sum.right += told.right;
+    sum.squares += told.squares;
+    sum.strengths += told.strengths;
+  }
+  return sum;
+}
+
+/// The prior's law with what was told, less what one tag told of it.
+StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* without) {
+  Eigen::MatrixXd normal = before.covariance.inverse() + told.normal;
+  Eigen::VectorXd right = before.covariance.inverse() * before.mean + told.right;
+  double squares = kWorth * before.fading_db * before.fading_db + told.squares;
+  double strengths = kWorth + told.strengths;
+  if (without != nullptr) {
+    normal -= without->normal;
+    right -= without->right;
+    squares -= without->squares;
+    strengths -= without->strengths;
+  }
+  StrengthLaw law;
+  law.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  law.mean = law.covariance * right;
+  law.fading_db = std::sqrt(std::max(squares / strengths, 0.25));
+  return law;
+}
+
+/// ln of the strengths' density where they scatter by `fading_db` about levels that distance does
+/// not change, each tag's by the levels that all others tell.
+double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat,
+                     double tag_sigma_db) {
+  const Eigen::Index size = flat.mean.size();
+  std::vector<Told> told;
+  for (const TagOnGrid& tag : tags) {
+    const Eigen::MatrixXd rows = design(tag, 0, size);
+    const Eigen::MatrixXd weighted =
+        rows.transpose() * scatter(rows.rows(), flat.fading_db, tag_sigma_db).inverse();
+    told.push_back({weighted * rows, weighted * tag.rssi_dbm, 0.0, 0.0});
+  }
+  const Told sum = sum_of(told, size);
+  double log = 0.0;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const Eigen::MatrixXd rows = design(tags[i], 0, size);
+    const StrengthLaw law = law_by(flat, sum, &told[i]);
+    log += log_normal_density(tags[i].rssi_dbm - rows * law.mean,
+                              rows * law.covariance * rows.transpose() +
+                                  scatter(rows.rows(), flat.fading_db, tag_sigma_db));
+  }
+  return log;
+}
+
+/// Likewise where they scatter by anything from 1 to 16 dB.
+double log_of_chance(const std::vector<TagOnGrid>& tags, std::size_t antennas,
+                     StrengthPrior prior) {
+  prior.slope_db = 0.0;
+  prior.slope_sigma_db = 0.0;
+  Eigen::ArrayXd logs(9);
+  for (Eigen::Index i = 0; i < logs.size(); ++i) {
+    prior.fading_db = std::pow(2.0, 0.5 * static_cast<double>(i));
+    logs[i] = log_of_chance(tags, before_data(antennas, prior), prior.tag_sigma_db);
+  }
+  return log_mean_exp(logs);
+}
+
+}  // namespace
+
+TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<FixedReads>& reads,
+                  std::vector<Eigen::Vector3d> cells, const Lobe& lobe) {
+  std::vector<const FixedReads*> used;
+  TagOnGrid tag;
+  for (const FixedReads& of : reads) {
+    const auto found = std::find(names.begin(), names.end(), of.antenna);
+    if (of.strengths < 1.0 || found == names.end()) continue;
+    used.push_back(&of);
+    tag.antennas.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  const auto count = static_cast<Eigen::Index>(used.size());
+  const auto places = static_cast<Eigen::Index>(cells.size());
+  tag.rssi_dbm.resize(count);
+  tag.log_distance.resize(places, count);
+  tag.gain_db.resize(places, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const FixedReads& of = *used[static_cast<std::size_t>(i)];
+    tag.rssi_dbm[i] = of.rssi_dbm;
+    for (Eigen::Index j = 0; j < places; ++j) {
+      const Eigen::Vector3d way = cells[static_cast<std::size_t>(j)] - of.p_WA;
+      tag.log_distance(j, i) = std::log10(std::max(way.norm(), kNearest));
+      tag.gain_db(j, i) = lobe_db(lobe, of.boresight_W, way);
+    }
+  }
+  tag.cells = std::move(cells);
+  return tag;
+}
+
+Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
+                            const StrengthPrior& prior) {
+  const Eigen::MatrixXd own = scatter(tag.rssi_dbm.size(), law.fading_db, prior.tag_sigma_db);
+  Eigen::ArrayXd logs(static_cast<Eigen::Index>(tag.cells.size()));
+  for (Eigen::Index cell = 0; cell < logs.size(); ++cell) {
+    const Eigen::MatrixXd rows = design(tag, cell, law.mean.size());
+    logs[cell] = log_normal_density(less_gain(tag, cell) - rows * law.mean,
+                                    rows * law.covariance * rows.transpose() + own);
+  }
+  return logs;
+}
+
+LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
+                     const StrengthPrior& prior) {
+  const StrengthLaw before = before_data(antennas, prior);
+  LearnedLaw learned;
+  learned.of_all = before;
+  learned.of_tag.assign(tags.size(), before);
+  std::vector<Told> told(tags.size());
+  double log_of_law = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const double before_round = log_of_law;
+    log_of_law = 0.0;
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      const Eigen::ArrayXd logs = log_strength(tags[i], learned.of_tag[i], prior);
+      log_of_law += log_mean_exp(logs);
+      told[i] = told_by(tags[i], learned.of_all, weights_of(logs), prior);
+    }
+    const Told sum = sum_of(told, before.mean.size());
+    learned.of_all = law_by(before, sum, nullptr);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      learned.of_tag[i] = law_by(before, sum, &told[i]);
+    }
+    if (round > 0 && std::abs(log_of_law - before_round) < kSettled) break;
+  }
+  // Slope and places were fitted to so many strengths: by Schwarz's criterion ½ ln n for each of
+  // two.
+  double strengths = 1.0;
+  for (const TagOnGrid& tag : tags) strengths += static_cast<double>(tag.antennas.size());
+  learned.evidence = log_of_law - log_of_chance(tags, antennas, prior) - std::log(strengths);
+  return learned;
+}
+
+}  // namespace tagfield
