@@ -95,11 +95,12 @@ std::vector<double> thinned_out(std::vector<double> all) {
 }
 
 /// The stretch that the pieces make.
-Stretch stretch_of(const std::vector<Piece>& pieces, const std::vector<std::size_t>& numbers,
-                   const Eigen::ArrayXd& travel, double wavelength) {
+CoherentStretch stretch_of(const std::vector<Piece>& pieces,
+                           const std::vector<std::size_t>& numbers, const Eigen::ArrayXd& travel,
+                           double wavelength) {
   std::map<std::size_t, std::vector<std::size_t>> by_span;
   for (const std::size_t i : numbers) by_span[pieces[i].span].push_back(i);
-  Stretch stretch;
+  CoherentStretch stretch;
   std::vector<double> whole;
   double of_channels = 0.0;
   for (const auto& [span, of_span] : by_span) {
@@ -118,15 +119,16 @@ Stretch stretch_of(const std::vector<Piece>& pieces, const std::vector<std::size
   return stretch;
 }
 
-std::vector<Stretch> stretches_of(const std::vector<Piece>& pieces, const Eigen::ArrayXd& travel,
-                                  double wavelength, std::int64_t pieces_each, const Parts& parts) {
+std::vector<CoherentStretch> stretches_of(const std::vector<Piece>& pieces,
+                                          const Eigen::ArrayXd& travel, double wavelength,
+                                          std::int64_t pieces_each, const Parts& parts) {
   std::map<std::pair<std::string, std::int64_t>, std::vector<std::size_t>> numbers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     numbers[{pieces[i].antenna, pieces[i].number / pieces_each}].push_back(i);
   }
-  std::vector<Stretch> stretches;
+  std::vector<CoherentStretch> stretches;
   for (const auto& [key, of_stretch] : numbers) {
-    Stretch stretch = stretch_of(pieces, of_stretch, travel, wavelength);
+    CoherentStretch stretch = stretch_of(pieces, of_stretch, travel, wavelength);
     stretch.part = parts.of(pieces[of_stretch.front()].reads.begin);
     if (stretch.freedom > 0.0f) stretches.push_back(std::move(stretch));
   }
@@ -157,7 +159,7 @@ Waves waves_of(const StretchedReads& all, const Aperture& piece, const Tile& x, 
 }
 
 /// −f ln(1 − the share of the power that adds up).
-Tile likelihood_of(const StretchedReads& all, const Stretch& stretch,
+Tile likelihood_of(const StretchedReads& all, const CoherentStretch& stretch,
                    const std::vector<Waves>& of_pieces) {
   Tile power = Tile::Zero();
   for (const auto& channel : stretch.channels) {
@@ -214,7 +216,7 @@ Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice
   }
   Tile sum = Tile::Zero();
   for (int k = choice.first; k <= choice.last; ++k) {
-    for (const Stretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
+    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
       if (choice.part != kWholeWay && stretch.part != choice.part) continue;
       sum += likelihood_of(reads, stretch, of_pieces);
     }

@@ -28,7 +28,7 @@ inline constexpr int kWayParts = 4;
 inline constexpr int kWholeWay = -1;
 
 /// One antenna on a piece of its way.
-struct Stretch {
+struct CoherentStretch {
   std::vector<std::vector<std::size_t>> channels;  ///< Pieces that share an offset.
   float reads = 0.0f;
   /// Independent samples of the field, less one for each offset; at least 0.
@@ -40,7 +40,7 @@ struct Stretch {
 struct StretchedReads {
   SearchReads
       reads;  ///< Its apertures are the pieces: one channel on one of the shortest stretches.
-  std::array<std::vector<Stretch>, kStretchLengths> stretches;
+  std::array<std::vector<CoherentStretch>, kStretchLengths> stretches;
 };
 
 /// `wavelength` [m] is that of the carrier, whatever the phases are multiplied by; `height` and
