@@ -64,7 +64,7 @@ std::vector<Piece> pieces_of(const TagPhases& phases, const Eigen::ArrayXd& trav
 class Parts {
  public:
   explicit Parts(const TagPhases& phases) : time_s_(phases.time_s) {
-    std::vector<double> sorted(phases.time_s.begin(), phases.time_s.end());
+    std::vector<double> sorted(phases.time_s.data(), phases.time_s.data() + phases.size());
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t k = 1; k < kWayParts; ++k) {
       begins_.push_back(sorted[k * sorted.size() / kWayParts]);

@@ -127,8 +127,8 @@ bool is_before(const Vector3d& a, const Vector3d& b) {
 /// rounding errors apart.
 bool goes_forward(const Vector3d& way) {
   constexpr double kRounding = 1e-6;
-  for (const double part : way) {
-    if (std::abs(part) > kRounding * way.norm()) return part > 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(way[axis]) > kRounding * way.norm()) return way[axis] > 0.0;
   }
   return true;
 }
