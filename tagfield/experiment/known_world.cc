@@ -32,10 +32,16 @@ struct PlacedTag {
   ImageSet images;
 };
 
-/// A path as if it came straight, without what its length does to it.
-TracedWave wave_of(const Complex& gain, double length_m, const Eigen::Vector3d& arrival_W,
+/// A path as if it came straight, without what its length does to it. `reversed`: it was traced
+/// from the tag.
+TracedWave wave_of(const RadioPath& path, bool reversed, const Complex& gain,
                    const Eigen::Vector3d& p_WT, double wave_number) {
-  return {p_WT - length_m * arrival_W, gain * length_m * std::polar(1.0, wave_number * length_m)};
+  const Eigen::Vector3d arrival_W = reversed ? Eigen::Vector3d(-path.departure_W) : path.arrival_W;
+  const Eigen::Vector3d departure_W =
+      reversed ? Eigen::Vector3d(-path.arrival_W) : path.departure_W;
+  return {p_WT - path.length_m * arrival_W,
+          gain * path.length_m * std::polar(1.0, wave_number * path.length_m), departure_W,
+          path.bounce_count == 0};
 }
 
 std::vector<TracedWave> waves_from(const RadioModel& model, const RadioWorld& world,
@@ -54,14 +60,11 @@ std::vector<TracedWave> waves_from(const RadioModel& model, const RadioWorld& wo
                 tag.X_WT.translation, tracing, paths);
   }
   std::vector<TracedWave> waves;
+  waves.reserve(paths.size());
   for (const RadioPath& path : paths) {
     const Complex gain = reversed ? path_gain(path, at_tag, antenna, world, carrier, effects)
                                   : path_gain(path, antenna, at_tag, world, carrier, effects);
-    const Eigen::Vector3d arrival_W =
-        reversed ? Eigen::Vector3d(-path.departure_W) : path.arrival_W;
-    waves.push_back(
-        wave_of(gain, path.length_m, arrival_W, tag.X_WT.translation, carrier.wave_number));
-    waves.back().direct = path.bounce_count == 0;
+    waves.push_back(wave_of(path, reversed, gain, tag.X_WT.translation, carrier.wave_number));
   }
   return waves;
 }

@@ -124,6 +124,7 @@ double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d&
   constexpr double kLeastVariance = 1.0;  // [dB²]
   const double farthest = farthest_of_nearest(all, p_WT);
   std::vector<Nearest> nearest;
+  nearest.reserve(all.size());
   for (const AimedSeries& series : all) {
     nearest.push_back(nearest_of(series, p_WT, farthest));
     if (nearest.back().x.size() < 2) nearest.pop_back();
@@ -150,6 +151,7 @@ double forward_score(const std::vector<AimedSeries>& all, const Eigen::Vector3d&
 void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
   constexpr double kBehind = -2.33;  // One in a hundred.
   std::vector<double> scores;
+  scores.reserve(estimate.candidates.size());
   for (const Candidate& candidate : estimate.candidates) {
     scores.push_back(forward_score(all, candidate.p_WT));
   }

@@ -66,7 +66,8 @@ struct EstimateLimits {
 struct TracedWave {
   Eigen::Vector3d source_W;  ///< [m]
   std::complex<double> amplitude;
-  bool direct = false;  ///< The source is the antenna itself.
+  Eigen::Vector3d departure_W;  ///< Unit vector: direction of travel at the antenna.
+  bool direct = false;          ///< The source is the antenna itself.
 };
 
 /// All paths of a reply. `backward` is empty where one antenna sends and receives.

@@ -118,6 +118,7 @@ std::vector<double> greatest_about(const LikelihoodSpread& spread, double deviat
   for (int axis = 0; axis < (level ? 2 : 3); ++axis) half[axis] = std::max(half[axis], kLeast);
   const std::vector<Vector3d> places = places_of({spread.mean, half, cells});
   std::vector<double> greatest;
+  greatest.reserve(all.size());
   for (const LogLikelihood& one : all) {
     const std::vector<double> logs = likelihoods(one, places);
     greatest.push_back(*std::max_element(logs.begin(), logs.end()));

@@ -90,6 +90,7 @@ double disagreement(const Search& search, LikelihoodSpread spread) {
   spread.mean -= origin_of(search);
   constexpr double kDeviations = 6.0;
   std::vector<LogLikelihood> parts;
+  parts.reserve(kWayParts);
   for (int part = 0; part < kWayParts; ++part) parts.push_back(likelihood_of(search, part));
   double gained = -spread.log_peak;
   for (const double greatest : greatest_about(spread, kDeviations, parts)) gained += greatest;

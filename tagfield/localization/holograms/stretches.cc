@@ -90,6 +90,7 @@ std::vector<double> thinned_out(std::vector<double> all) {
   if (all.size() <= kEnough) return all;
   std::sort(all.begin(), all.end());
   std::vector<double> some;
+  some.reserve(kEnough);
   for (std::size_t i = 0; i < kEnough; ++i) some.push_back(all[i * all.size() / kEnough]);
   return some;
 }
@@ -199,6 +200,7 @@ StretchedReads stretched_reads(const TagPhases& phases, double wavelength, doubl
   const Eigen::ArrayXd travel = travel_of(phases);
   const std::vector<Piece> pieces = pieces_of(phases, travel, kShortestStretch * wavelength);
   const Parts parts(phases);
+  all.reads.apertures.reserve(pieces.size());
   for (const Piece& piece : pieces) all.reads.apertures.push_back(piece.reads);
   for (int k = 0; k < kStretchLengths; ++k) {
     all.stretches[static_cast<std::size_t>(k)] =

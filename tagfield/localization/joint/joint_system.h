@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,14 @@
 #include "tagfield/localization/tag_fit.h"
 
 namespace tagfield {
+
+/// How a tag's values were straightened (multipath.h): what their bends change by about there, by
+/// read, is part of the predicted value.
+struct BendSlopes {
+  Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< Where the bends were taken [m],
+  Eigen::Matrix2Xd moved;                          ///< with these displacements [m].
+  Eigen::Matrix3Xd by_place, by_antenna;           ///< [m/m]
+};
 
 /// A tag in the system.
 struct JointTag {
@@ -25,6 +34,7 @@ struct JointTag {
   // the antenna's place from its body's reference [m].
   Eigen::ArrayXi knot;
   Eigen::ArrayXd knot_weight, lever_x, lever_y;
+  std::optional<BendSlopes> slopes;
   int first_knot = 0;
   int knot_count = 0;  ///< Knots that its reads touch lie in [first_knot, first_knot + knot_count).
 };

@@ -25,6 +25,7 @@ constexpr double kWorstStart = 0.5;
 std::vector<RigidTransform> poses_of(const LocalizationProblem& problem, const std::string& antenna,
                                      const std::vector<PhaseSample>& series) {
   std::vector<RigidTransform> poses;
+  poses.reserve(series.size());
   const auto track = problem.tracks.find(antenna);
   for (const PhaseSample& sample : series) {
     RigidTransform X_WA;
@@ -47,6 +48,7 @@ TracedSamples traced(const LocalizationProblem& problem, const std::string& tag,
   TracedSamples all;
   for (const auto& [antenna, series] : samples) {
     std::vector<double> carriers_hz;
+    carriers_hz.reserve(series.size());
     for (const PhaseSample& sample : series) {
       carriers_hz.push_back(sample.frequency_hz / times_of(problem));
     }
@@ -61,6 +63,9 @@ struct Field {
   std::complex<double> all = 0.0;
   double direct = 0.0;      ///< Amplitude of the direct wave,
   double amplitudes = 0.0;  ///< and the sum of all.
+  // Each wave times its direction at the tag and at the antenna.
+  Eigen::Vector3cd at_tag = Eigen::Vector3cd::Zero();
+  Eigen::Vector3cd at_antenna = Eigen::Vector3cd::Zero();
   /// 0 where the direct way is blocked.
   [[nodiscard]] double directness() const { return amplitudes > 0.0 ? direct / amplitudes : 0.0; }
 };
@@ -68,11 +73,14 @@ struct Field {
 Field field_at(const std::vector<TracedWave>& waves, const Vector3d& p, double wavenumber) {
   Field field;
   for (const TracedWave& wave : waves) {
-    const double r = std::max((p - wave.source_W).norm(), 0.01);
-    const double amplitude = std::abs(wave.amplitude) / r;
-    field.all += wave.amplitude / r * std::polar(1.0, -wavenumber * r);
-    field.amplitudes += amplitude;
-    if (wave.direct) field.direct = amplitude;
+    const Vector3d way = p - wave.source_W;
+    const double r = std::max(way.norm(), 0.01);
+    const std::complex<double> here = wave.amplitude / r * std::polar(1.0, -wavenumber * r);
+    field.all += here;
+    field.at_tag += here * way / r;
+    field.at_antenna += here * wave.departure_W;
+    field.amplitudes += std::abs(here);
+    if (wave.direct) field.direct = std::abs(here);
   }
   return field;
 }
@@ -81,45 +89,63 @@ Field field_at(const std::vector<TracedWave>& waves, const Vector3d& p, double w
 struct Bend {
   double phase_rad = 0.0;
   double directness = 0.0;
+  // By how much 1/2k of the phase grows with the tag's and with the antenna's place.
+  Vector3d by_place = Vector3d::Zero();
+  Vector3d by_antenna = Vector3d::Zero();
 };
 
 Bend bend_at(const TracedReply& reply, const Vector3d& p_WA, const Vector3d& p, double carrier_hz) {
   const double k = kTwoPi / wavelength(carrier_hz);
   const Field forward = field_at(reply.forward, p, k);
   const Field backward = reply.backward.empty() ? forward : field_at(reply.backward, p, k);
-  const double straight = 2.0 * k * (p - p_WA).norm();
-  return {-std::arg(forward.all) - std::arg(backward.all) - straight,
-          std::min(forward.directness(), backward.directness())};
+  const double range = std::max((p - p_WA).norm(), 0.01);
+  Bend bend;
+  bend.directness = std::min(forward.directness(), backward.directness());
+  if (!(bend.directness > 0.0)) return bend;
+  const Vector3d straight = (p - p_WA) / range;
+  bend.phase_rad = -std::arg(forward.all) - std::arg(backward.all) - 2.0 * k * range;
+  bend.by_place =
+      0.5 * (forward.at_tag / forward.all + backward.at_tag / backward.all).real() - straight;
+  bend.by_antenna =
+      straight -
+      0.5 * (forward.at_antenna / forward.all + backward.at_antenna / backward.all).real();
+  return bend;
 }
 
-/// Samples freed of the bends that they have if the tag is at `p`, near the place that `replies`
-/// were traced to from `corrected`; those that hardly came the direct way are left out.
+/// Near a null of the field phases turn so fast that no slope holds for long [m/m].
+constexpr double kSteepest = 2.0;
+
+/// Calls `use(antenna, number, bend)` for each sample that came direct enough if the tag is at `p`,
+/// near the place that `replies` were traced to from `corrected`.
+template <typename Use>
+void for_each_bend(const LocalizationProblem& problem, const SamplesOfTag& corrected,
+                   const TracedSamples& replies, const Vector3d& p, double least_directness,
+                   const Use& use) {
+  for (const auto& [antenna, series] : corrected) {
+    const std::vector<TracedReply>& of_antenna = replies.at(antenna);
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const Bend bend =
+          bend_at(of_antenna[i], series[i].p_WA, p, series[i].frequency_hz / times_of(problem));
+      const bool is_used = bend.directness >= least_directness &&
+                           std::max(bend.by_place.norm(), bend.by_antenna.norm()) < kSteepest;
+      if (is_used) use(antenna, i, bend);
+    }
+  }
+}
+
+/// Samples freed of the bends.
 SamplesOfTag straightened(const LocalizationProblem& problem, const SamplesOfTag& samples,
                           const SamplesOfTag& corrected, const TracedSamples& replies,
                           const Vector3d& p, double least_directness) {
-  const double times = times_of(problem);
   SamplesOfTag straight;
-  for (const auto& [antenna, series] : samples) {
-    const std::vector<PhaseSample>& at = corrected.at(antenna);
-    const std::vector<TracedReply>& of_antenna = replies.at(antenna);
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const Bend bend = bend_at(of_antenna[i], at[i].p_WA, p, series[i].frequency_hz / times);
-      if (bend.directness < least_directness) continue;
-      PhaseSample sample = series[i];
-      sample.phase_rad = wrap_to_two_pi(sample.phase_rad - times * bend.phase_rad);
-      straight[antenna].push_back(sample);
-    }
-  }
+  for_each_bend(problem, corrected, replies, p, least_directness,
+                [&](const std::string& antenna, std::size_t i, const Bend& bend) {
+                  PhaseSample sample = samples.at(antenna)[i];
+                  sample.phase_rad =
+                      wrap_to_two_pi(sample.phase_rad - times_of(problem) * bend.phase_rad);
+                  straight[antenna].push_back(sample);
+                });
   return straight;
-}
-
-SamplesOfTag some_of(const SamplesOfTag& samples, std::size_t count) {
-  const std::size_t stride = count_reads(samples) / count + 1;
-  SamplesOfTag some;
-  for (const auto& [antenna, series] : samples) {
-    for (std::size_t i = 0; i < series.size(); i += stride) some[antenna].push_back(series[i]);
-  }
-  return some;
 }
 
 /// A tag's samples, and where the antennas truly are, as far as that is known.
@@ -149,6 +175,15 @@ struct Start {
   double log_likelihood = 0.0;
 };
 
+SamplesOfTag some_of(const SamplesOfTag& samples, std::size_t count) {
+  const std::size_t stride = count_reads(samples) / count + 1;
+  SamplesOfTag some;
+  for (const auto& [antenna, series] : samples) {
+    for (std::size_t i = 0; i < series.size(); i += stride) some[antenna].push_back(series[i]);
+  }
+  return some;
+}
+
 Sight some_of(const Sight& sight, std::size_t count) {
   return {some_of(sight.samples, count), some_of(sight.corrected, count)};
 }
@@ -169,6 +204,8 @@ struct Square {
 Starts look_about(const LocalizationProblem& problem, const Sight& sight,
                   const TracedSamples& replies, const Square& square, double least_directness) {
   Starts all;
+  const auto width = static_cast<std::size_t>(2 * square.steps + 1);
+  all.reserve(width * width);
   for (int i = -square.steps; i <= square.steps; ++i) {
     for (int j = -square.steps; j <= square.steps; ++j) {
       const Vector3d p = square.middle + square.step * Vector3d(i, j, 0.0);
@@ -259,24 +296,53 @@ Sight sight_of(const JointState& state, const SamplesOfTag& samples) {
   return {samples, corrected_samples(*state.problem, state.system.knots, state.system.u, samples)};
 }
 
-/// Samples of all tags in the state with their bends taken out where the state stands.
-std::vector<SamplesOfTag> straighten_all(const JointState& state,
-                                         const std::vector<const SamplesOfTag*>& given,
-                                         const MultipathOptions& options, int threads) {
-  std::vector<SamplesOfTag> straight(given.size());
-  parallel_for(given.size(), threads, [&](std::size_t i) {
-    const JointTag& tag = state.system.tags[i];
-    const Sight sight = sight_of(state, *given[i]);
-    const Vector3d p = to_place(tag.height, tag.fit.unknowns);
-    straight[i] = straightened(*state.problem, sight.samples, sight.corrected,
-                               traced(*state.problem, tag.id, sight.corrected, p), p,
-                               options.least_directness);
-  });
+/// By antenna and time [s], so that phases find those of their reads.
+using BendsByRead = std::map<std::pair<std::string, double>, Bend>;
+
+/// One tag's samples without their bends, which are those of where the state stands.
+struct Straight {
+  SamplesOfTag samples;
+  BendsByRead bends;
+};
+
+Straight straighten(const JointState& state, std::size_t index, const SamplesOfTag& given,
+                    double least_directness) {
+  const LocalizationProblem& problem = *state.problem;
+  const JointTag& tag = state.system.tags[index];
+  const Sight sight = sight_of(state, given);
+  const Vector3d p = to_place(tag.height, tag.fit.unknowns);
+  const TracedSamples replies = traced(problem, tag.id, sight.corrected, p);
+  Straight straight;
+  straight.samples =
+      straightened(problem, sight.samples, sight.corrected, replies, p, least_directness);
+  for_each_bend(problem, sight.corrected, replies, p, least_directness,
+                [&](const std::string& antenna, std::size_t i, const Bend& bend) {
+                  const Time stamp = given.at(antenna)[i].stamp;
+                  straight.bends[{antenna, to_seconds(stamp)}] = bend;
+                });
   return straight;
+}
+
+BendSlopes slopes_of(const JointState& state, const JointTag& tag, const BendsByRead& bends) {
+  BendSlopes slopes;
+  slopes.p_WT = to_place(tag.height, tag.fit.unknowns);
+  slopes.moved.resize(2, tag.phases.size());
+  slopes.by_place.resize(3, tag.phases.size());
+  slopes.by_antenna.resize(3, tag.phases.size());
+  for (const TagPhases::Span& span : tag.phases.spans) {
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      const Bend& bend = bends.at({span.antenna, tag.phases.time_s[i]});
+      slopes.moved.col(i) = displacement_at(state.system, tag, i);
+      slopes.by_place.col(i) = bend.by_place;
+      slopes.by_antenna.col(i) = bend.by_antenna;
+    }
+  }
+  return slopes;
 }
 
 std::vector<Vector3d> places_of(const JointState& state) {
   std::vector<Vector3d> places;
+  places.reserve(state.system.tags.size());
   for (const JointTag& tag : state.system.tags) {
     places.push_back(to_place(tag.height, tag.fit.unknowns));
   }
@@ -300,14 +366,18 @@ double share_at(const JointState& state, std::size_t index) {
   return coherent_share(phases, tag.height, tag.fit.unknowns);
 }
 
-constexpr double kLeastShare = 0.5;  ///< That adds up; less is a wrong place.
+/// Less is a wrong place, or a wrong world: noise alone leaves e^(−σ²/2).
+double least_share(const JointState& state) {
+  constexpr double kOfNoiseAlone = 0.85;
+  return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
+}
 
 /// A run of the method under way.
 struct Run {
   JointState state;
   std::vector<TagEstimate> starts;         ///< By tag of the state, as are
   std::vector<const SamplesOfTag*> given;  ///< the samples as they were measured,
-  std::vector<SamplesOfTag> straight;      ///< and without their bends.
+  std::vector<Straight> straight;          ///< and without their bends.
 };
 
 /// Tags whose waves don't add up are looked for anew, now that others tell the pose error.
@@ -315,12 +385,27 @@ void find_lost(Run& run, const MultipathOptions& options, int threads) {
   JointState& state = run.state;
   parallel_for(run.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
-    if (tag.fixed || share_at(state, i) >= kLeastShare) return;
+    if (tag.fixed || share_at(state, i) >= least_share(state)) return;
     const Sight sight = sight_of(state, *run.given[i]);
     tag.fit.unknowns = to_unknowns(
         tag.height,
         best_start(*state.problem, run.starts[i], sight, options.least_directness).p_WT);
   });
+}
+
+/// Takes the bends out where the state stands.
+void straighten_all(Run& run, const MultipathOptions& options, int threads) {
+  JointState& state = run.state;
+  std::vector<Straight> next(run.given.size());
+  parallel_for(run.given.size(), threads, [&](std::size_t i) {
+    next[i] = straighten(state, i, *run.given[i], options.least_directness);
+  });
+  run.straight = std::move(next);
+  for (std::size_t i = 0; i < run.straight.size(); ++i) {
+    take_samples(state, i, run.straight[i].samples);
+    JointTag& tag = state.system.tags[i];
+    tag.slopes = slopes_of(state, tag, run.straight[i].bends);
+  }
 }
 
 /// Traces and fits, again and again.
@@ -329,10 +414,7 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
   JointState& state = run.state;
   for (int round = 0; round < options.rounds; ++round) {
     const std::vector<Vector3d> before = places_of(state);
-    std::vector<SamplesOfTag> next = straighten_all(state, run.given, options, threads);
-    for (std::size_t i = 0; i < next.size(); ++i) take_samples(state, i, next[i]);
-    run.straight = std::move(next);
-    for (std::size_t i = 0; i < run.straight.size(); ++i) state.samples[i] = &run.straight[i];
+    straighten_all(run, options, threads);
     fit_unwrapped_jointly(state, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2 || round == 4) {
@@ -343,11 +425,29 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
   }
 }
 
+/// Whether what is left of the tag's phases is about their noise: its reads count for at least so
+/// much.
+bool fits_world(const JointState& state, std::size_t index, double least_weight) {
+  return state.system.tags[index].weight >= least_weight &&
+         share_at(state, index) >= least_share(state);
+}
+
+/// A wrong world fits a tag here and there, a right one most.
+bool is_right_world(const JointState& state) {
+  constexpr double kLeastWeight = 0.2;
+  std::size_t fitting = 0;
+  for (std::size_t i = 0; i < state.system.tags.size(); ++i) {
+    if (fits_world(state, i, kLeastWeight)) ++fitting;
+  }
+  return 2 * fitting > state.system.tags.size();
+}
+
 /// Where the waves don't add up the robust estimate stays, by the limits that were asked for.
 TagEstimate estimate_of(const Run& run, const JointCovariance& covariance, std::size_t index) {
+  constexpr double kLeastWeight = 0.1;
   const JointState& state = run.state;
   TagEstimate estimate = run.starts[index];
-  if (share_at(state, index) >= kLeastShare) {
+  if (fits_world(state, index, kLeastWeight)) {
     estimate.reads = static_cast<std::size_t>(state.system.tags[index].phases.size());
     estimate.candidates = {candidate_of(state.system, index, covariance.of_tag[index])};
   }
@@ -358,6 +458,7 @@ TagEstimate estimate_of(const Run& run, const JointCovariance& covariance, std::
 LocalizationResult without_world(const LocalizationProblem& problem) {
   LocalizationResult result;
   result.method = "multipath";
+  result.estimates.reserve(problem.samples.size());
   for (const auto& [tag, samples] : problem.samples) {
     const auto known = problem.reference_tags.find(tag);
     result.estimates.push_back(
@@ -399,6 +500,15 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
   });
   run.state = begin_at(problem, placed);
   fit_through_world(run, options, threads);
+  if (!is_right_world(run.state)) {
+    diagnostics.warn(
+        "the phases of most tags don't fit the known world: reflections are not taken out");
+    for (const std::size_t i : numbers) {
+      const bool is_known = problem.reference_tags.count(result.estimates[i].tag) > 0;
+      if (!is_known) judge(problem.limits, result.estimates[i]);
+    }
+    return result;
+  }
   const JointCovariance covariance = covariance_of(run.state.system, threads);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (run.state.system.tags[k].fixed) continue;

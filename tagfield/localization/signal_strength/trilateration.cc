@@ -54,7 +54,8 @@ Eigen::Vector3d boresight_of(const LocalizationProblem& problem, const std::stri
 Bins bins_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
              const TrilaterationOptions& options) {
   Bins bins;
-  bins.lobe = options;
+  const Lobe& lobe = options;
+  bins.lobe = lobe;
   std::vector<RssiBin> all;
   for (const auto& [antenna, series] : rssi_along_paths(samples, options.bin_m)) {
     for (const RssiBin& bin : series) {

@@ -13,19 +13,24 @@ namespace {
 
 using namespace made;
 
+Eigen::Vector3d mirrored(Eigen::Vector3d v, const Mirror& mirror, double at) {
+  v[mirror.axis] = 2.0 * at - v[mirror.axis];
+  return v;
+}
+
 /// Mirrors as `reflect()` has them, as a known world.
 TraceReplies known(const std::vector<Mirror>& mirrors) {
-  return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& /*p_WT*/,
+  return [mirrors](const std::string& /*tag*/, const Eigen::Vector3d& p_WT,
                    const std::string& /*antenna*/, const std::vector<RigidTransform>& X_WA,
                    const std::vector<double>& /*carriers_hz*/) {
     std::vector<TracedReply> replies;
     for (const RigidTransform& X : X_WA) {
       TracedReply reply;
-      reply.forward.push_back({X.translation, 1.0, true});
+      reply.forward.push_back({X.translation, 1.0, (p_WT - X.translation).normalized(), true});
       for (const Mirror& mirror : mirrors) {
-        Eigen::Vector3d image = X.translation;
-        image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
-        reply.forward.push_back({image, -mirror.gain});
+        const Eigen::Vector3d image = mirrored(X.translation, mirror, mirror.at);
+        const Eigen::Vector3d arrival = (p_WT - image).normalized();
+        reply.forward.push_back({image, -mirror.gain, mirrored(arrival, mirror, 0.0), false});
       }
       replies.push_back(std::move(reply));
     }
@@ -42,14 +47,14 @@ struct Study {
 
 Tally with(const Method& method, const Study& study) {
   Tally tally;
-  for (const unsigned seed : {1U, 2U, 3U}) {
+  for (const unsigned seed : {1U, 2U}) {
     Noise noise;
     noise.pose_m = study.pose_m;
     Rng rng(seed);
     const Path path = aisles(0.03);
     const Path beliefs = believed(path, noise, kPathRate, rng);
     // Phases are bent at the true places of the antenna.
-    Hall hall = made::hall(path, path, 6, Noise{}, rng);
+    Hall hall = made::hall(path, path, 4, Noise{}, rng);
     reflect(walls(0.5), hall);
     hall.problem.tracks["a"] = track_along(beliefs);
     for (auto& [tag, of_tag] : hall.problem.samples) {
@@ -76,7 +81,7 @@ TEST(Multipath, WithTheWorldKnownReflectionsAreTakenOut) {
   for (const bool half_turns : {false, true}) {
     const Tally tally = with(multipath_method(), {.half_turns = half_turns});
     const Tally robust = with(robust_method(), {.half_turns = half_turns});
-    EXPECT_GE(tally.errors.size(), 17U) << half_turns;  // Of 18.
+    EXPECT_GE(tally.errors.size(), 7U) << half_turns;  // Of 8.
     EXPECT_LT(tally.part(0.5), 0.003) << half_turns;
     EXPECT_LT(tally.errors.back(), 0.05) << half_turns;
     EXPECT_LT(tally.part(0.5), 0.3 * robust.part(0.5)) << half_turns;
@@ -87,7 +92,7 @@ TEST(Multipath, WithTheWorldKnownReflectionsAreTakenOut) {
 TEST(Multipath, EstimatesThePoseErrorToo) {
   for (const bool told : {true, false}) {
     const Tally tally = with(multipath_method(), {.pose_m = 0.01, .pose_error_told = told});
-    EXPECT_GE(tally.errors.size(), 15U) << told;
+    EXPECT_GE(tally.errors.size(), 6U) << told;
     EXPECT_LT(tally.part(0.5), 0.015) << told;
     EXPECT_EQ(tally.worse_than(0.3), 0U) << told;
     EXPECT_LT(tally.calibration(), 2.0) << told;

@@ -21,7 +21,7 @@ ChainPart<D> empty_chain(Index knots) {
 /// Derivative of a read's range by the unknowns of a knot: the antenna moves back by the error.
 template <int D>
 Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
-                                    const PlaceVector& gradient, Index knot) {
+                                    const Eigen::Vector3d& gradient, Index knot) {
   const Eigen::Vector3d by_error(gradient[0], gradient[1],
                                  -gradient[0] * tag.lever_y[i] + gradient[1] * tag.lever_x[i]);
   const Eigen::Matrix3d& scale = system.knots.scale[static_cast<std::size_t>(knot)];
@@ -37,8 +37,8 @@ void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int c
   const double w = tag.knot_weight[i];
   using Vector = Eigen::Matrix<double, D, 1>;
   const Eigen::Vector3d& g = now.range.gradient;
-  const Vector a = (1.0 - w) * by_knot<D>(system, tag, i, g, tag.knot[i]);
-  const Vector b = w * by_knot<D>(system, tag, i, g, tag.knot[i] + 1);
+  const Vector a = (1.0 - w) * by_knot<D>(system, tag, i, now.by_antenna_error, tag.knot[i]);
+  const Vector b = w * by_knot<D>(system, tag, i, now.by_antenna_error, tag.knot[i] + 1);
   for (int c = 0; c < part.layout.place; ++c) {
     part.coupling.col(c).template segment<D>(before) += weight * g[c] * a;
     part.coupling.col(c).template segment<D>(after) += weight * g[c] * b;
@@ -131,11 +131,31 @@ Layout layout_of(const JointTag& tag) {
   return layout;
 }
 
+namespace {
+
+/// What the bend has changed by since it was taken, to first order.
+void add_bend(const JointTag& tag, Index i, const Eigen::Vector2d& moved, ReadNow& now) {
+  const BendSlopes& slopes = *tag.slopes;
+  const Eigen::Vector3d by_place = slopes.by_place.col(i);
+  const Eigen::Vector3d by_antenna = slopes.by_antenna.col(i);
+  const Eigen::Vector3d gone = to_place(tag.height, tag.fit.unknowns) - slopes.p_WT;
+  // The antenna truly is at the believed place less the displacement.
+  now.range.r += by_place.dot(gone) - by_antenna.head<2>().dot(moved - slopes.moved.col(i));
+  constexpr double kLeastVariance = 1e-6;
+  now.range.gradient +=
+      place_jacobian(tag.height, tag.fit.unknowns, kLeastVariance).transpose() * by_place;
+  now.by_antenna_error -= by_antenna;
+}
+
+}  // namespace
+
 ReadNow read_now(const JointSystem& system, const JointTag& tag, std::size_t span, Index i) {
   const Eigen::Vector2d moved = displacement_at(system, tag, i);
   ReadNow now;
   now.range = range_to(tag.height, tag.fit.unknowns, tag.phases.x[i] - moved.x(),
                        tag.phases.y[i] - moved.y(), tag.phases.z[i]);
+  now.by_antenna_error = now.range.gradient;
+  if (tag.slopes) add_bend(tag, i, moved, now);
   now.error = nearest_to_zero(
       tag.phases, tag.phases.spans[span],
       tag.phases.value[i] - now.range.r - tag.fit.offsets[static_cast<Index>(span)]);

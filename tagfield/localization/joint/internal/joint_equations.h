@@ -59,6 +59,9 @@ double prior_cost(const JointSystem& system);
 /// the antenna truly is at the believed place less the displacement.
 struct ReadNow {
   Range range;
+  /// Derivative by the error of the antenna's believed place: the range's by the tag's place, but
+  /// for bends.
+  Eigen::Vector3d by_antenna_error;
   double error = 0.0;
 };
 

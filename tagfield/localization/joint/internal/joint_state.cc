@@ -8,6 +8,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/joint/internal/joint_equations.h"
 #include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
@@ -98,13 +99,14 @@ JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
 
 /// Residuals of one tag where the system stands [m], in the order of its reads.
 Eigen::ArrayXd residuals_of(const JointSystem& system, const JointTag& tag) {
-  TagPhases phases = tag.phases;
-  for (Index i = 0; i < phases.size(); ++i) {
-    const Eigen::Vector2d moved = displacement_at(system, tag, i);
-    phases.x[i] -= moved.x();
-    phases.y[i] -= moved.y();
+  Eigen::ArrayXd residuals(tag.phases.size());
+  for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
+    const TagPhases::Span& span = tag.phases.spans[s];
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      residuals[i] = read_now(system, tag, s, i).error;
+    }
   }
-  return tagfield::residuals_of(phases, tag.height, tag.fit);
+  return residuals;
 }
 
 /// Phase noise from residuals of neighbouring reads of all tags.
