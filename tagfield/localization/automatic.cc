@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
@@ -192,11 +193,20 @@ LocateFunction among(const std::vector<Method>& methods) {
     DataTraits traits = traits_of(given, threads);
     LocalizationProblem cleaned;
     // Amid reflections phases jump where the field fades: those are no outliers.
-    const std::string first = choose_method(traits, given.reference_tags.size()).method;
-    const bool is_bent = first == "scan" || first == "robust";
-    if (traits.has_outliers && !is_bent) {
-      cleaned = without_outliers(given, threads, diagnostics);
-      traits = traits_of(cleaned, threads);
+    const auto is_bent = [&] {
+      const std::string method = choose_method(traits, given.reference_tags.size()).method;
+      return method == "scan" || method == "robust";
+    };
+    if (traits.has_outliers) {
+      Diagnostics of_cleaning;
+      cleaned = without_outliers(given, threads, of_cleaning);
+      const DataTraits as_given = std::exchange(traits, traits_of(cleaned, threads));
+      if (is_bent()) {
+        cleaned = {};
+        traits = as_given;
+      } else {
+        for (const std::string& warning : of_cleaning.warnings()) diagnostics.warn(warning);
+      }
     }
     const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
     Choice choice = choose_method(traits, problem.reference_tags.size());
