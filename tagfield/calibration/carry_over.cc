@@ -71,6 +71,7 @@ CalibratedValue carried(const std::string& antenna, const Figure& figure, const 
 std::vector<Figure> figures() {
   std::vector<Figure> all;
   constexpr const char* kNames[] = {"place x", "place y", "place z"};
+  all.reserve(std::size(kNames));
   for (int i = 0; i < 3; ++i) {
     all.push_back(
         {kNames[i], "mm",

@@ -73,6 +73,7 @@ double spread_of(const std::vector<Eigen::Vector3d>& cells) {
 
 WayLine line_of(const std::vector<FixedReads>& reads) {
   std::vector<Eigen::Vector2d> places;
+  places.reserve(reads.size());
   for (const FixedReads& of : reads) places.emplace_back(of.p_WA.head<2>());
   return way_line(places);
 }

@@ -204,7 +204,7 @@ struct Square {
 Starts look_about(const LocalizationProblem& problem, const Sight& sight,
                   const TracedSamples& replies, const Square& square, double least_directness) {
   Starts all;
-  const auto width = static_cast<std::size_t>(2 * square.steps + 1);
+  const std::size_t width = 2 * static_cast<std::size_t>(square.steps) + 1;
   all.reserve(width * width);
   for (int i = -square.steps; i <= square.steps; ++i) {
     for (int j = -square.steps; j <= square.steps; ++j) {
