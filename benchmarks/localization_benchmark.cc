@@ -12,14 +12,11 @@ namespace {
 
 constexpr int kReads = 700;
 
-/// An S-shaped way of 14 m at 2 cm a read; the tag 2.5 m beside it, RSSI in whole decibels.
-LocalizationProblem one_tag() {
-  std::mt19937_64 rng(1);
+/// Read at `p_WT` from an S-shaped way of 14 m at 2 cm a read; RSSI in whole decibels.
+std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed) {
+  std::mt19937_64 rng(seed);
   std::normal_distribution<double> noise(0.0, 0.1);
-  const Eigen::Vector3d p_WT(6.0, 2.5, 0.9);
-  LocalizationProblem problem;
-  problem.heights.of_all = p_WT.z();
-  std::vector<PhaseSample>& samples = problem.samples["tag"]["antenna"];
+  std::vector<PhaseSample> samples;
   Eigen::Vector3d p_WA(0.0, 0.0, 0.4);
   for (int i = 0; i < kReads; ++i) {
     const double heading = 1.1 * std::sin(kTwoPi * 0.02 * i / 11.0);
@@ -33,19 +30,30 @@ LocalizationProblem one_tag() {
     sample.p_WA = p_WA;
     sample.rssi_dbm = std::round(-30.0 - 40.0 * std::log10(r) + 5.0 * noise(rng));
     samples.push_back(sample);
-    problem.tracks["antenna"].X_WA.push_back({sample.stamp, from_translation(p_WA)});
+  }
+  return samples;
+}
+
+/// The tag 2.5 m beside the way.
+LocalizationProblem one_tag() {
+  const Eigen::Vector3d p_WT(6.0, 2.5, 0.9);
+  LocalizationProblem problem;
+  problem.heights.of_all = p_WT.z();
+  problem.samples["tag"]["antenna"] = read_at(p_WT, 1);
+  for (const PhaseSample& sample : problem.samples["tag"]["antenna"]) {
+    problem.tracks["antenna"].X_WA.push_back({sample.stamp, from_translation(sample.p_WA)});
   }
   return problem;
 }
 
 /// For those that need them: four reference tags around it, as well read.
 void add_reference_tags(LocalizationProblem& problem) {
-  const std::vector<PhaseSample> samples = problem.samples.at("tag").at("antenna");
-  for (const double x : {5.0, 6.0}) {
-    for (const double y : {2.0, 3.0}) {
-      const std::string id = "reference" + std::to_string(problem.reference_tags.size());
+  for (const double x : {5.0, 7.0}) {
+    for (const double y : {1.5, 3.5}) {
+      const std::size_t number = problem.reference_tags.size();
+      const std::string id = "reference" + std::to_string(number);
       problem.reference_tags[id] = {x, y, 0.9};
-      problem.samples[id]["antenna"] = samples;
+      problem.samples[id]["antenna"] = read_at({x, y, 0.9}, static_cast<unsigned>(number) + 2);
     }
   }
 }

@@ -39,9 +39,7 @@ double independent_along(const LocalizationProblem& problem, const std::vector<A
     if (i > 0) gone += (reads[i].p_WA - reads[i - stride].p_WA).norm();
     along.push_back(gone);
   }
-  // Doubled phases are as of twice the carrier.
-  const double carrier = problem.half_turns ? 0.5 * frequency_hz : frequency_hz;
-  return independent_samples(along, wavelength(carrier));
+  return independent_samples(along, wavelength(frequency_hz / problem.multiple()));
 }
 
 std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,

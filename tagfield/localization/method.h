@@ -102,22 +102,41 @@ Options changed_options(const OptionTable<Options>& of, Options options,
   return options;
 }
 
+/// How a method with options locates.
+template <class Options>
+using LocateWith = std::function<LocalizationResult(const LocalizationProblem&, int threads,
+                                                    Diagnostics&, const Options&)>;
+
 /// A method with options. Throws Error on `options` out of their range.
 template <class Options>
 Method method_with(const std::string& name, const std::string& summary,
                    const OptionTable<Options>& table, const Options& options,
-                   const std::type_identity_t<std::function<std::vector<TagEstimate>(
-                       const LocalizationProblem&, int threads, const Options&)>>& locate) {
+                   const std::type_identity_t<LocateWith<Options>>& locate) {
   check_options(table, options);
-  const auto bound = [name, locate](const Options& of) {
-    return named(name, [locate, of](const LocalizationProblem& problem, int threads) {
-      return locate(problem, threads, of);
-    });
+  const auto bound = [locate](const Options& of) -> LocateFunction {
+    return [locate, of](const LocalizationProblem& problem, int threads, Diagnostics& diagnostics) {
+      return locate(problem, threads, diagnostics, of);
+    };
   };
   return {name, summary, bound(options), helps_of(table.table, options),
           [=](const MethodSettings& settings) {
             return bound(changed_options(table, options, settings));
           }};
+}
+
+/// Likewise one that only makes estimates.
+template <class Options>
+Method method_with(const std::string& name, const std::string& summary,
+                   const OptionTable<Options>& table, const Options& options,
+                   const std::type_identity_t<std::function<std::vector<TagEstimate>(
+                       const LocalizationProblem&, int threads, const Options&)>>& locate) {
+  const auto result = [name, locate](const LocalizationProblem& problem, int threads,
+                                     Diagnostics& diagnostics, const Options& of) {
+    return named(name, [&](const LocalizationProblem& asked, int on) {
+      return locate(asked, on, of);
+    })(problem, threads, diagnostics);
+  };
+  return method_with(name, summary, table, options, LocateWith<Options>(result));
 }
 
 /// Likewise one that takes one tag at a time.

@@ -93,6 +93,9 @@ struct LocalizationProblem {
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace;  ///< Through the world, where that is known; else null.
+
+  /// By which phases and carriers in `samples` were multiplied.
+  [[nodiscard]] double multiple() const { return half_turns ? 2.0 : 1.0; }
 };
 
 /// What a problem is made from, besides reads and poses.

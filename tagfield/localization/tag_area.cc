@@ -1,15 +1,12 @@
 #include "tagfield/localization/tag_area.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "tagfield/base/error.h"
 
 namespace tagfield {
 namespace {
-
-constexpr std::array<const char*, 6> kSides = {"left", "right", "+x", "-x", "+y", "-y"};
 
 /// Over 0 on the side that is meant, under 0 on the other.
 double side_of(TagSide side, const Eigen::Vector2d& along, const Eigen::Vector2d& apart) {
@@ -51,8 +48,8 @@ void drop_repeats(std::vector<Candidate>& candidates) {
 }  // namespace
 
 TagSide tag_side(const std::string& word) {
-  const auto found = std::find(kSides.begin(), kSides.end(), word);
-  if (found != kSides.end()) return static_cast<TagSide>(found - kSides.begin());
+  const auto found = std::find(kTagSides.begin(), kTagSides.end(), word);
+  if (found != kTagSides.end()) return static_cast<TagSide>(found - kTagSides.begin());
   throw Error("the side is '" + word + "', expected left, right, +x, -x, +y or -y");
 }
 

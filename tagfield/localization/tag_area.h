@@ -16,7 +16,10 @@ namespace tagfield {
 /// Of the antennas' way: as one goes along it, or towards an axis of the world.
 enum class TagSide { kLeft, kRight, kPlusX, kMinusX, kPlusY, kMinusY };
 
-/// "left", "right", "+x", "-x", "+y", "-y"; throws Error on another word.
+/// Its words, in the order of its values.
+inline const std::vector<std::string> kTagSides = {"left", "right", "+x", "-x", "+y", "-y"};
+
+/// Of one of these words; throws Error on another.
 TagSide tag_side(const std::string& word);
 
 /// Nothing told: anywhere.

@@ -219,12 +219,7 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
 
 TagArea area_of(YamlMap& map) {
   TagArea area;
-  if (map.has("side")) {
-    const YamlValue side = map.at("side");
-    constexpr TagSide kSides[] = {TagSide::kLeft,   TagSide::kRight, TagSide::kPlusX,
-                                  TagSide::kMinusX, TagSide::kPlusY, TagSide::kMinusY};
-    area.side = kSides[choice(side, {"left", "right", "+x", "-x", "+y", "-y"})];
-  }
+  if (map.has("side")) area.side = static_cast<TagSide>(choice(map.at("side"), kTagSides));
   if (map.has("box")) {
     const std::vector<double> n = map.at("box").lengths(4, 4);
     const Eigen::Vector2d one(n[0], n[1]);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -12,6 +14,29 @@ namespace tagfield {
 /// So many places are worked on at once.
 inline constexpr int kTile = 64;
 using Tile = Eigen::Array<float, kTile, 1>;
+
+/// What `of(x, y, z)` makes of each place, a tile at a time.
+template <class Place, class OfTile>
+std::vector<double> by_tiles(const std::vector<Place>& places, const OfTile& of) {
+  std::vector<double> all(places.size());
+  for (std::size_t begin = 0; begin < places.size(); begin += kTile) {
+    const std::size_t count = std::min<std::size_t>(kTile, places.size() - begin);
+    Tile x = Tile::Zero();
+    Tile y = Tile::Zero();
+    Tile z = Tile::Zero();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      x[at] = static_cast<float>(places[begin + k].x());
+      y[at] = static_cast<float>(places[begin + k].y());
+      z[at] = static_cast<float>(places[begin + k].z());
+    }
+    const Tile values = of(x, y, z);
+    for (std::size_t k = 0; k < count; ++k) {
+      all[begin + k] = static_cast<double>(values[static_cast<Eigen::Index>(k)]);
+    }
+  }
+  return all;
+}
 
 /// A cell is split into so many by so many.
 inline constexpr int kGridSplit = 3;

@@ -39,31 +39,9 @@ std::vector<Vector3d> places_of(const Box& box) {
   return places;
 }
 
-std::vector<double> likelihoods(const LogLikelihood& likelihood,
-                                const std::vector<Vector3d>& places) {
-  std::vector<double> all(places.size());
-  for (std::size_t begin = 0; begin < places.size(); begin += kTile) {
-    const std::size_t count = std::min<std::size_t>(kTile, places.size() - begin);
-    Tile x = Tile::Zero();
-    Tile y = Tile::Zero();
-    Tile z = Tile::Zero();
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      x[at] = static_cast<float>(places[begin + k].x());
-      y[at] = static_cast<float>(places[begin + k].y());
-      z[at] = static_cast<float>(places[begin + k].z());
-    }
-    const Tile values = likelihood(x, y, z);
-    for (std::size_t k = 0; k < count; ++k) {
-      all[begin + k] = static_cast<double>(values[static_cast<Eigen::Index>(k)]);
-    }
-  }
-  return all;
-}
-
 LikelihoodSpread over(const LogLikelihood& likelihood, const Box& box) {
   const std::vector<Vector3d> places = places_of(box);
-  const std::vector<double> logs = likelihoods(likelihood, places);
+  const std::vector<double> logs = by_tiles(places, likelihood);
   LikelihoodSpread spread;
   spread.log_peak = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
@@ -120,7 +98,7 @@ std::vector<double> greatest_about(const LikelihoodSpread& spread, double deviat
   std::vector<double> greatest;
   greatest.reserve(all.size());
   for (const LogLikelihood& one : all) {
-    const std::vector<double> logs = likelihoods(one, places);
+    const std::vector<double> logs = by_tiles(places, one);
     greatest.push_back(*std::max_element(logs.begin(), logs.end()));
   }
   return greatest;

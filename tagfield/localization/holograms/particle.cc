@@ -52,24 +52,9 @@ Tile coherence_in_space(const SearchReads& reads, const Tile& x, const Tile& y, 
 
 std::vector<double> coherence_of(const SearchReads& reads,
                                  const std::vector<Eigen::Vector3f>& places) {
-  std::vector<double> all(places.size());
-  for (std::size_t begin = 0; begin < places.size(); begin += kTile) {
-    const std::size_t count = std::min<std::size_t>(kTile, places.size() - begin);
-    Tile x = Tile::Zero();
-    Tile y = Tile::Zero();
-    Tile z = Tile::Zero();
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      x[at] = places[begin + k].x();
-      y[at] = places[begin + k].y();
-      z[at] = places[begin + k].z();
-    }
-    const Tile light = coherence_in_space(reads, x, y, z);
-    for (std::size_t k = 0; k < count; ++k) {
-      all[begin + k] = static_cast<double>(light[static_cast<Eigen::Index>(k)]);
-    }
-  }
-  return all;
+  return by_tiles(places, [&](const Tile& x, const Tile& y, const Tile& z) {
+    return coherence_in_space(reads, x, y, z);
+  });
 }
 
 Eigen::Vector3d in_world(const Search& search, const Eigen::Vector3f& place) {

@@ -21,11 +21,9 @@ constexpr double kLeastShare = 0.01;  ///< Of the probability, of a place that i
 constexpr double kPlanesApart = 0.7;  ///< Of unknown height [m].
 constexpr int kPlanes = 4;
 /// What stands within a wavelength of a tag shifts the place that its waves come from, along with
-/// it: standard deviation along each axis, fitted over five halls and held against seven others
+/// it: standard deviation along each axis, chosen over twelve halls and held against twelve others
 /// (docs/methods.md) [λ].
 constexpr double kShift = 0.025;
-/// Shorter stretches only show the search where to look.
-constexpr int kFirstLength = 1;
 
 /// What the steps of one tag share.
 struct Search {
@@ -38,7 +36,7 @@ struct Search {
 };
 
 double wavelength_of(const LocalizationProblem& problem, const TagPhases& phases) {
-  return (problem.half_turns ? 4.0 : 2.0) * longest_cycle(phases);
+  return 2.0 * problem.multiple() * longest_cycle(phases);
 }
 
 /// The best places at a height, with the plane's height.
@@ -56,7 +54,7 @@ std::vector<Vector3d> best_on_plane(const Search& search, const TagPhases& coars
   std::vector<Vector3d> places;
   for (const GridMaximum& maximum :
        search_grid(grid, within,
-                   {level(0, 0), level(1, 2), level(kFirstLength, kStretchLengths - 1)}, kMaxima)) {
+                   {level(0, 0), level(1, 2), level(kForPlaces.first, kForPlaces.last)}, kMaxima)) {
     places.emplace_back(maximum.p.x(), maximum.p.y(), z);
   }
   return places;
@@ -80,7 +78,7 @@ Vector3d origin_of(const Search& search) {
 /// Of a part of the way, or of all.
 LogLikelihood likelihood_of(const Search& search, int part) {
   return [&search, part](const Tile& x, const Tile& y, const Tile& z) {
-    return stretch_likelihood(search.all, {kFirstLength, kStretchLengths - 1, part}, x, y, z);
+    return stretch_likelihood(search.all, {kForPlaces.first, kForPlaces.last, part}, x, y, z);
   };
 }
 

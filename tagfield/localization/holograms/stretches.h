@@ -16,16 +16,19 @@ namespace tagfield {
 inline constexpr int kStretchLengths = 7;
 inline constexpr double kShortestStretch = 2.5;
 
-/// Which of the lengths, and which part of the way, or kWholeWay.
-struct StretchChoice {
-  int first = 0;
-  int last = kStretchLengths - 1;
-  int part = -1;
-};
-
 /// The way is held against itself in so many parts, each with as many reads.
 inline constexpr int kWayParts = 4;
 inline constexpr int kWholeWay = -1;
+
+/// Which of the lengths, and which part of the way.
+struct StretchChoice {
+  int first = 0;
+  int last = kStretchLengths - 1;
+  int part = kWholeWay;
+};
+
+/// What places are judged by. Shorter stretches only show a search where to look.
+inline constexpr StretchChoice kForPlaces{1, kStretchLengths - 1};
 
 /// One antenna on a piece of its way.
 struct CoherentStretch {

@@ -191,7 +191,7 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
   if (!scan.why_not.empty()) return scan;
   const std::vector<PhaseSample>& series = *longest_series(samples);
   const double carrier = mean_carrier(series);
-  const double lambda = wavelength(carrier) * (problem.half_turns ? 2.0 : 1.0);
+  const double lambda = wavelength(carrier) * problem.multiple();
   scan.line = line_of(series);
   scan.wavenumber = kTwoPi / lambda;
   scan.up_m = plane_height(problem, tag) - series.front().p_WA.z();

@@ -177,6 +177,17 @@ bool fits_as_well(const JointTag& wrapped, const JointTag& unwrapped) {
          kWorse * unwrapped.fit.cost / freedom;
 }
 
+/// What is known before any of so many tags is taken up.
+JointState without_tags(const LocalizationProblem& problem, std::size_t tags) {
+  JointState state;
+  state.problem = &problem;
+  state.system.noise_rad = first_noise(problem);
+  const PoseErrorModel model = model_of(problem);
+  state.system.knots = knots_of(problem, model, knot_spacing(problem, tags, model.time_constant_s));
+  state.system.u = Eigen::VectorXd::Zero(state.system.knots.count() * state.system.knots.size);
+  return state;
+}
+
 }  // namespace
 
 JointState begin_jointly(const LocalizationProblem& problem, int threads) {
@@ -186,14 +197,7 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
   parallel_for(tags.size(), threads, [&](std::size_t i) {
     fits[i] = fit_unwrapped(problem, tags[i]->first, tags[i]->second);
   });
-  JointState state;
-  state.problem = &problem;
-  state.system.noise_rad = first_noise(problem);
-  const PoseErrorModel model = model_of(problem);
-  state.system.knots =
-      knots_of(problem, model, knot_spacing(problem, tags.size(), model.time_constant_s));
-  const PoseKnots& knots = state.system.knots;
-  state.system.u = Eigen::VectorXd::Zero(knots.count() * knots.size);
+  JointState state = without_tags(problem, tags.size());
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const auto& [tag, samples] = *tags[i];
     if (!fits[i].why_not.empty()) {
@@ -201,7 +205,7 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
       continue;
     }
     JointTag joint = joint_tag(problem, tag, fits[i]);
-    attach(problem, knots, joint);
+    attach(problem, state.system.knots, joint);
     state.system.tags.push_back(std::move(joint));
     state.samples.push_back(&samples);
   }
@@ -210,13 +214,7 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
 }
 
 JointState begin_at(const LocalizationProblem& problem, const std::vector<PlacedTag>& placed) {
-  JointState state;
-  state.problem = &problem;
-  state.system.noise_rad = first_noise(problem);
-  const PoseErrorModel model = model_of(problem);
-  state.system.knots =
-      knots_of(problem, model, knot_spacing(problem, placed.size(), model.time_constant_s));
-  state.system.u = Eigen::VectorXd::Zero(state.system.knots.count() * state.system.knots.size);
+  JointState state = without_tags(problem, placed.size());
   for (const PlacedTag& tag : placed) {
     JointTag joint;
     joint.id = tag.id;

@@ -1,0 +1,67 @@
+#include "tagfield/localization/fixed/internal/swapped_antennas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "tagfield/base/parallel.h"
+
+namespace tagfield {
+namespace {
+
+/// The same tags with two antennas' places exchanged.
+std::vector<TagOnGrid> with_exchanged(const FixedScene& scene,
+                                      const std::vector<std::size_t>& numbers,
+                                      const FixedReads& one, const FixedReads& other,
+                                      const FixedOptions& options) {
+  std::vector<TagOnGrid> grids;
+  for (const std::size_t number : numbers) {
+    std::vector<FixedReads> reads = scene.tags[number].reads;
+    for (FixedReads& of : reads) {
+      const bool is_one = of.antenna == one.antenna;
+      if (!is_one && of.antenna != other.antenna) continue;
+      of.p_WA = is_one ? other.p_WA : one.p_WA;
+      of.boresight_W = is_one ? other.boresight_W : one.boresight_W;
+    }
+    grids.push_back(on_grid(scene.antennas, reads, scene.tags[number].grid.cells, options));
+  }
+  return grids;
+}
+
+}  // namespace
+
+std::string swapped_antennas(const FixedScene& scene, const std::vector<std::size_t>& numbers,
+                             const FixedOptions& options, int threads) {
+  constexpr std::size_t kEnough = 16;
+  std::vector<std::size_t> some = numbers;
+  if (some.size() > kEnough) some.resize(kEnough);
+  std::map<std::string, FixedReads> antennas;
+  std::vector<TagOnGrid> grids;
+  for (const std::size_t number : some) {
+    grids.push_back(scene.tags[number].grid);
+    for (const FixedReads& of : scene.tags[number].reads) antennas.emplace(of.antenna, of);
+  }
+  std::vector<std::pair<const FixedReads*, const FixedReads*>> pairs;
+  for (auto one = antennas.begin(); one != antennas.end(); ++one) {
+    for (auto other = std::next(one); other != antennas.end(); ++other) {
+      pairs.emplace_back(&one->second, &other->second);
+    }
+  }
+  std::vector<double> evidences(pairs.size());
+  parallel_for(pairs.size(), threads, [&](std::size_t i) {
+    const auto exchanged = with_exchanged(scene, some, *pairs[i].first, *pairs[i].second, options);
+    evidences[i] = learn_law(exchanged, scene.antennas.size(), options).evidence;
+  });
+  const double told = learn_law(grids, scene.antennas.size(), options).evidence;
+  const auto best = std::max_element(evidences.begin(), evidences.end());
+  if (best == evidences.end()) return "";
+  if (*best < told + kLeastLogEvidence + std::log(static_cast<double>(pairs.size()))) return "";
+  const auto& [one, other] = pairs[static_cast<std::size_t>(best - evidences.begin())];
+  return fmt::format("'{}' and '{}'", one->antenna, other->antenna);
+}
+
+}  // namespace tagfield

@@ -1,0 +1,50 @@
+/// @file
+/// What the paths of a known world do to a tag's phases about a place, and the phases without it.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tagfield/localization/problem.h"
+
+namespace tagfield {
+
+/// Replies of a tag about a place, by antenna and sample.
+using TracedSamples = std::map<std::string, std::vector<TracedReply>>;
+
+/// Traced to `p_WT` [m] from where the samples say that the antennas are.
+TracedSamples traced(const LocalizationProblem& problem, const std::string& tag,
+                     const SamplesOfTag& samples, const Eigen::Vector3d& p_WT);
+
+/// Phase of a reply less that of the direct path alone, 2k|p − p_WA|, and how direct it came.
+struct Bend {
+  double phase_rad = 0.0;
+  /// Amplitude of the direct path over the sum of all paths' amplitudes: 0 where it is blocked.
+  double directness = 0.0;
+  // By how much 1/2k of the phase grows with the tag's and with the antenna's place [m/m].
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_antenna = Eigen::Vector3d::Zero();
+};
+
+/// A tag's samples, and the same with the antennas where they truly are, as far as that is known.
+struct Sight {
+  SamplesOfTag samples;
+  SamplesOfTag corrected;
+};
+
+/// Samples without their bends, and the bends, by antenna, one for each sample.
+struct Straightened {
+  SamplesOfTag samples;
+  std::map<std::string, std::vector<Bend>> bends;
+};
+
+/// With the tag at `p`, near the place that `replies` were traced to from `sight.corrected`.
+/// Samples that hardly came the direct way are left out, and those near a null of the field, where
+/// phases turn so fast that no slope holds for long.
+Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
+                          const TracedSamples& replies, const Eigen::Vector3d& p,
+                          double least_directness);
+
+}  // namespace tagfield
