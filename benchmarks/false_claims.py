@@ -23,7 +23,7 @@ import tempfile
 import made_tables as made
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-METHODS = "auto,hyperbola,least_squares,ml,joint,sar,dah,particle,scan,trilateration"
+METHODS = "auto,hyperbola,least_squares,ml,joint,sar,robust,dah,particle,scan,trilateration"
 ROOM_METHODS = "auto,fixed,trilateration,landmarc"
 BATCH = 50  # Tags in one run.
 

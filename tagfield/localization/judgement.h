@@ -12,6 +12,10 @@
 
 namespace tagfield {
 
+/// ln 100, by which strengths must go by a law of distance: chance makes so much in one case of a
+/// hundred.
+inline constexpr double kLeastLogEvidence = 4.6;
+
 /// Fewer reads of a tag than this locate nothing.
 inline constexpr std::size_t kFewestReads = 8;
 

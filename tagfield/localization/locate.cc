@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "tagfield/localization/aim.h"
+#include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/automatic.h"
+#include "tagfield/localization/confirmation.h"
 #include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/holograms/dah.h"
 #include "tagfield/localization/holograms/particle.h"
@@ -73,9 +75,13 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
     drop_places_behind(problem, result);
     refuse_chance(problem, result);
     refuse_mixtures(problem, result);
-    span_mirror_images(problem, result);
+    refuse_unconfirmed(problem, threads, result);
+    span_line(problem, result);
     refuse_wrong_sign(problem, result, diagnostics);
+  } else if (problem.has_phases) {
+    refuse_mixtures_by_phase(problem, result);
   }
+  if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   keep_within_area(problem, result.estimates);
   return result;
 }

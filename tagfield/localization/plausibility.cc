@@ -10,6 +10,7 @@
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
+#include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
 
 namespace tagfield {
@@ -119,6 +120,65 @@ std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {
   return places;
 }
 
+/// By the residuals of the phases at a place [rad].
+void refuse_mixture(const Eigen::ArrayXd& angles, TagEstimate& estimate) {
+  constexpr double kMostElsewhere = 0.25;
+  constexpr double kFits = 0.5;  // [rad]
+  const OutlierMixture mixture = outlier_mixture(angles);
+  const double certain = std::log(static_cast<double>(angles.size()));
+  if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
+    refuse(estimate, fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads "
+                                 "belong elsewhere",
+                                 100.0 * mixture.share));
+  }
+}
+
+constexpr double kNearLine = 0.5;  ///< Of a straight way [m].
+
+Eigen::Vector2d across(const WayLine& way) { return {-way.along.y(), way.along.x()}; }
+
+bool is_straight(const std::vector<Eigen::Vector2d>& places, const WayLine& way) {
+  constexpr double kStraight = 0.05;  // [m]
+  return std::all_of(places.begin(), places.end(), [&](const auto& place) {
+    return std::abs(across(way).dot(place - way.middle)) < kStraight;
+  });
+}
+
+/// Mean squares about the best place over all about it, each as likely as the phases say. Ranges
+/// hardly change across the line there, so that no covariance by slopes tells it.
+Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                              const WayLine& way, const TagEstimate& estimate) {
+  constexpr int kAlong = 60;
+  constexpr int kAcross = 30;
+  constexpr double kStepAlong = 0.05;   // [m]
+  constexpr double kStepAcross = 0.02;  // [m]
+  const TagPhases phases = coherent_reads(problem, samples);
+  const HeightModel height = height_model(problem, estimate.tag, phases);
+  const PlaceVector best = to_unknowns(height, estimate.candidates.front().p_WT);
+  const auto errors_at = [&](const PlaceVector& place) {
+    return residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
+  };
+  const Eigen::ArrayXd least = errors_at(best);
+  const double noise =
+      residual_variance(phases.spans, least) * correlation_factor(phases.spans, least);
+  const Eigen::Vector2d on_line =
+      best.head<2>() - across(way).dot(best.head<2>() - way.middle) * across(way);
+  double sum = 0.0;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int i = -kAlong; i <= kAlong; ++i) {
+    for (int j = -kAcross; j <= kAcross; ++j) {
+      PlaceVector place = best;
+      place.head<2>() = on_line + i * kStepAlong * way.along + j * kStepAcross * across(way);
+      const double more = (errors_at(place).square() - least.square()).sum() / noise;
+      const double weight = std::exp(-0.5 * std::max(more, 0.0));
+      const Eigen::Vector2d off = (place - best).head<2>();
+      sum += weight;
+      squares += weight * off * off.transpose();
+    }
+  }
+  return sum > 0.0 ? Eigen::Matrix2d(squares / sum) : Eigen::Matrix2d(Eigen::Matrix2d::Zero());
+}
+
 }  // namespace
 
 double log_chance(const std::vector<double>& reads, double sum, double places) {
@@ -150,8 +210,6 @@ void refuse_chance(const LocalizationProblem& problem, LocalizationResult& resul
 }
 
 void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result) {
-  constexpr double kMostElsewhere = 0.25;
-  constexpr double kFits = 0.5;  // [rad]
   if (!result.corrected_poses.empty()) return;
   for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const TagPhases phases = coherent_reads(problem, samples);
@@ -160,36 +218,36 @@ void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& res
     const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
     const Eigen::ArrayXd errors =
         residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
-    const OutlierMixture mixture = outlier_mixture(errors * phases.wavenumber);
-    const double certain = std::log(static_cast<double>(phases.size()));
-    if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
-      refuse(estimate, fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads "
-                                   "belong elsewhere",
-                                   100.0 * mixture.share));
-    }
+    refuse_mixture(errors * phases.wavenumber, estimate);
   });
 }
 
-void span_mirror_images(const LocalizationProblem& problem, LocalizationResult& result) {
-  constexpr double kNear = 0.05;      // [m]
-  constexpr double kStraight = 0.05;  // [m]
+void refuse_mixtures_by_phase(const LocalizationProblem& problem, LocalizationResult& result) {
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const BrightestPlace there = brightest_place(problem, estimate.tag, samples);
+    if (there.residuals_rad.size() > 0) refuse_mixture(there.residuals_rad, estimate);
+  });
+}
+
+void span_line(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     if (estimate.verdict != Verdict::kLocated) return;
     const std::vector<Eigen::Vector2d> places = places_of(samples);
     const WayLine way = way_line(places);
-    const Eigen::Vector2d across(-way.along.y(), way.along.x());
-    const bool is_straight = std::all_of(places.begin(), places.end(), [&](const auto& place) {
-      return std::abs(across.dot(place - way.middle)) < kStraight;
-    });
+    if (!is_straight(places, way)) return;
     Candidate& best = estimate.candidates.front();
-    const double away = across.dot(best.p_WT.head<2>() - way.middle);
-    if (!is_straight || std::abs(away) > kNear) return;
-    // One of two places 2·away apart, either as likely, less the one that is given.
-    const double variance = 2.0 * away * away;
+    if (std::abs(across(way).dot(best.p_WT.head<2>() - way.middle)) > kNearLine) return;
+    const Eigen::Matrix2d squares = squares_about(problem, samples, way, estimate);
+    if (squares.trace() <= best.expected_error_m * best.expected_error_m) return;
+    // Some methods have wider limits of their own.
+    const bool was_within = best.expected_error_m <= problem.limits.max_expected_error_m;
     if (best.covariance) {
-      best.covariance->topLeftCorner<2, 2>() += variance * across * across.transpose();
+      best.covariance->topLeftCorner<2, 2>() += squares;
+      best.expected_error_m = std::sqrt(best.covariance->topLeftCorner<2, 2>().trace());
+    } else {
+      best.expected_error_m = std::hypot(best.expected_error_m, std::sqrt(squares.trace()));
     }
-    best.expected_error_m = std::hypot(best.expected_error_m, std::sqrt(variance));
+    if (was_within) judge(problem.limits, estimate);
   });
 }
 

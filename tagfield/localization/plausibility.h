@@ -26,9 +26,14 @@ void refuse_chance(const LocalizationProblem& problem, LocalizationResult& resul
 /// residuals are not those of the believed ones.
 void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result);
 
-/// Tags within 5 cm of a straight way's line: the mirror image beyond it is as likely and so near
-/// that methods take both for one place, so the covariance gets what spans both.
-void span_mirror_images(const LocalizationProblem& problem, LocalizationResult& result);
+/// Likewise of places by signal strength: by the place that most waves agree on.
+void refuse_mixtures_by_phase(const LocalizationProblem& problem, LocalizationResult& result);
+
+/// Tags within 0.5 m of a straight way's line: the mirror image beyond it is as likely and may be
+/// so near that methods take both for one place, and ahead of the way or behind it places far from
+/// each other show the same phases. The covariance gets the mean square over all places about, each
+/// as likely as the phases say.
+void span_line(const LocalizationProblem& problem, LocalizationResult& result);
 
 /// Where most of some tags' phases fit a place much better with the other sign: warns, and refuses
 /// all places.

@@ -222,8 +222,8 @@ bool in_reach(const Bins& bins, const Eigen::Vector3d& p_WT, double max_range) {
   return distances(bins, p_WT).maxCoeff() <= max_range;
 }
 
-/// Minima of the misfit, best first; none where no place is in reach of all reads.
-std::vector<Fit> minima_of(const Bins& bins, const Law& law, double height, double max_range) {
+/// Misfits over all the area that is in reach of all reads.
+std::vector<Fit> cells_of(const Bins& bins, const Law& law, double height, double max_range) {
   const Eigen::Vector3d middle(0.5 * (bins.x.minCoeff() + bins.x.maxCoeff()),
                                0.5 * (bins.y.minCoeff() + bins.y.maxCoeff()), height);
   std::vector<Fit> cells;
@@ -235,6 +235,11 @@ std::vector<Fit> minima_of(const Bins& bins, const Law& law, double height, doub
       cells.push_back({p_WT, misfit_at(bins, law, p_WT).cost});
     }
   }
+  return cells;
+}
+
+/// Minima of the misfit about its least cells, best first.
+std::vector<Fit> minima_of(const Bins& bins, const Law& law, std::vector<Fit> cells) {
   std::vector<Fit> fits;
   for (const Fit& cell : distinct(std::move(cells), 2.0 * kCell, kStarts)) {
     fits.push_back(refined(bins, law, cell.p_WT));
@@ -242,11 +247,15 @@ std::vector<Fit> minima_of(const Bins& bins, const Law& law, double height, doub
   return distinct(std::move(fits), kSame, kStarts);
 }
 
+/// Variance of a residual, of which so many are independent [dB²].
+double noise_of(const Bins& bins, const Eigen::ArrayXd& residuals) {
+  return std::max(residual_variance(bins.spans, residuals), kLeastNoise * kLeastNoise) *
+         correlation_factor(bins.spans, residuals);
+}
+
 Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   const Misfit misfit = misfit_at(bins, law, p_WT);
-  const double noise =
-      std::max(residual_variance(bins.spans, misfit.residuals), kLeastNoise * kLeastNoise) *
-      correlation_factor(bins.spans, misfit.residuals);
+  const double noise = noise_of(bins, misfit.residuals);
   const Eigen::Matrix2d inverse =
       noise * step_at(bins, law, p_WT, misfit.residuals).normal.inverse();
   Candidate candidate;
@@ -262,6 +271,60 @@ Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& 
   candidate.rms_m = std::sqrt(misfit.residuals.square().mean()) * std::log(10.0) / law.slope_db *
                     distances(bins, p_WT).mean();
   return candidate;
+}
+
+/// ln of how much likelier places anywhere in reach make the RSSI, in the mean, than a strength
+/// that does not change with the place at all; either with the noise that it leaves.
+double log_evidence(const Bins& bins, const Law& law, const std::vector<Fit>& cells,
+                    const Eigen::ArrayXd& best) {
+  Law flat = law;
+  flat.slope_db = 0.0;
+  Bins unaimed = bins;
+  unaimed.lobe.beam_width_deg = 0.0;
+  const double without = misfit_at(unaimed, flat, cells.front().p_WT).cost;
+  const auto count = static_cast<double>(best.size());
+  const double independent = count / correlation_factor(bins.spans, best);
+  const double least = count * kLeastNoise * kLeastNoise;
+  double sum = 0.0;
+  for (const Fit& cell : cells) {
+    sum += std::pow(std::max(without, least) / std::max(cell.cost, least), 0.5 * independent);
+  }
+  return std::log(sum / static_cast<double>(cells.size()));
+}
+
+/// Where in a bin its reads were is not known any more: a tag among them is no better known.
+void add_bin_length(double bin_m, Candidate& candidate) {
+  candidate.covariance->diagonal().head<2>().array() += bin_m * bin_m / 12.0;
+  candidate.expected_error_m = std::hypot(candidate.expected_error_m, bin_m / std::sqrt(6.0));
+}
+
+/// Candidates' covariances where misfits over the area say that they are wider than slopes do: the
+/// mean squares about each over the cells that are nearest to it.
+void widen(const Bins& bins, const Law& law, const std::vector<Fit>& cells,
+           std::vector<Candidate>& candidates) {
+  const Misfit best = misfit_at(bins, law, candidates.front().p_WT);
+  const double noise = noise_of(bins, best.residuals);
+  std::vector<double> sums(candidates.size());
+  std::vector<Eigen::Matrix2d> squares(candidates.size(), Eigen::Matrix2d::Zero());
+  for (const Fit& cell : cells) {
+    const auto away = [&](const Candidate& c) { return (c.p_WT - cell.p_WT).head<2>().norm(); };
+    const auto nearest =
+        std::min_element(candidates.begin(), candidates.end(),
+                         [&](const Candidate& a, const Candidate& b) { return away(a) < away(b); });
+    const auto k = static_cast<std::size_t>(nearest - candidates.begin());
+    const Eigen::Vector2d off = (cell.p_WT - nearest->p_WT).head<2>();
+    const double weight = std::exp(-0.5 * (cell.cost - best.cost) / noise);
+    sums[k] += weight;
+    squares[k] += weight * off * off.transpose();
+  }
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    Candidate& candidate = candidates[k];
+    const Eigen::Matrix2d mean = squares[k] / std::max(sums[k], 1e-300);
+    const double error = std::sqrt(mean.trace());
+    if (!(error > candidate.expected_error_m)) continue;
+    candidate.covariance->topLeftCorner<2, 2>() = mean;
+    candidate.expected_error_m = error;
+  }
 }
 
 /// Straight line through RSSI over log-distance of the reference tags: slope with its prior, one
@@ -328,7 +391,8 @@ double cost_of(const std::vector<Bins>& tags, const std::vector<double>& heights
                const TrilaterationOptions& options) {
   double cost = prior_weight(options) * std::pow(law.slope_db - options.slope_db, 2);
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    const std::vector<Fit> fits = minima_of(tags[i], law, heights[i], options.max_range_m);
+    const std::vector<Fit> fits =
+        minima_of(tags[i], law, cells_of(tags[i], law, heights[i], options.max_range_m));
     if (!fits.empty()) cost += fits.front().cost;
   }
   return cost;
@@ -383,9 +447,10 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
   const Bins bins = bins_of(problem, samples, options);
   const std::string why = why_not(samples, bins);
   if (!why.empty()) return not_located(std::move(estimate), why);
-  const std::vector<Fit> fits =
-      minima_of(bins, law, plane_height(problem, tag), options.max_range_m);
-  if (fits.empty()) return not_located(std::move(estimate), "no place is in reach of all reads");
+  const std::vector<Fit> cells =
+      cells_of(bins, law, plane_height(problem, tag), options.max_range_m);
+  if (cells.empty()) return not_located(std::move(estimate), "no place is in reach of all reads");
+  const std::vector<Fit> fits = minima_of(bins, law, cells);
   const Eigen::ArrayXd best = misfit_at(bins, law, fits.front().p_WT).residuals;
   const double misfit_db = std::sqrt(best.square().mean());
   if (misfit_db > options.max_misfit_db) {
@@ -394,12 +459,18 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                    "{:.1f} dB",
                                    misfit_db, options.max_misfit_db));
   }
+  if (log_evidence(bins, law, cells, best) < kLeastLogEvidence) {
+    return not_located(std::move(estimate),
+                       "RSSI goes by no law of distance that chance would not make as well");
+  }
   for (const Fit& fit : fits) {
     const bool first = estimate.candidates.empty();
     if (first || !tells_apart(bins.spans, best, misfit_at(bins, law, fit.p_WT).residuals)) {
       estimate.candidates.push_back(candidate_at(bins, law, fit.p_WT));
     }
   }
+  widen(bins, law, cells, estimate.candidates);
+  for (Candidate& candidate : estimate.candidates) add_bin_length(options.bin_m, candidate);
   EstimateLimits limits;
   limits.max_expected_error_m = options.max_expected_error_m;
   limits.max_rms_m = std::numeric_limits<double>::infinity();  // The misfit was judged above.

@@ -99,12 +99,31 @@ TEST(Plausibility, ATagOnAStraightWaysLineMayBeOnEitherSide) {
   problem.pose_error = PoseErrorModel{};
   Diagnostics diagnostics;
   LocalizationResult result = find_method(built_in_methods(), "ml").locate(problem, 1, diagnostics);
-  span_mirror_images(problem, result);
+  span_line(problem, result);
   TagEstimate& estimate = result.estimates.front();
   if (estimate.verdict != Verdict::kLocated) return;
   const double error = (estimate.candidates.front().p_WT - tag).norm();
   EXPECT_LT(error, 5.0 * estimate.candidates.front().expected_error_m);
   EXPECT_GT(estimate.candidates.front().expected_error_m, 0.01);
+}
+
+TEST(Plausibility, AheadOfAStraightWayThereAreManyPlaces) {
+  Rng rng(6);
+  const made::Path path = made::straight(6.0, 0.02);
+  for (int i = 0; i < 40; ++i) {
+    LocalizationProblem problem;
+    const Eigen::Vector3d tag(made::uniform(rng, 6.1, 7.0), made::normal(rng, 0.03), 0.4);
+    problem.samples["t"]["a"] = made::read_along(path, tag, {}, rng);
+    problem.heights.of_all = 0.4;
+    Diagnostics diagnostics;
+    LocalizationResult result =
+        find_method(built_in_methods(), "ml").locate(problem, 1, diagnostics);
+    span_line(problem, result);
+    const TagEstimate& estimate = result.estimates.front();
+    if (estimate.verdict != Verdict::kLocated) continue;
+    const Candidate& best = estimate.candidates.front();
+    EXPECT_LT((best.p_WT - tag).norm(), 5.0 * best.expected_error_m) << i;
+  }
 }
 
 TEST(Plausibility, SaysThatTheSignIsWrong) {

@@ -9,6 +9,7 @@
 
 #include "tagfield/localization/fixed/internal/phase_field.h"
 #include "tagfield/localization/fixed/internal/swapped_antennas.h"
+#include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {

@@ -12,9 +12,6 @@
 
 namespace tagfield {
 
-/// ln 100: chance makes so much in one case of a hundred.
-inline constexpr double kLeastLogEvidence = 4.6;
-
 /// A tag and all that is known of it.
 struct FixedTag {
   const std::string* name = nullptr;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/localization/judgement.h"
 
 namespace tagfield {
 namespace {

@@ -1,0 +1,370 @@
+#include "tagfield/localization/at_rest.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tagfield/base/median.h"
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/holograms/hologram.h"
+#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/localization/residuals.h"
+#include "tagfield/localization/tag_fit.h"
+#include "tagfield/poses/trajectory.h"
+
+namespace tagfield {
+namespace {
+
+using Index = Eigen::Index;
+using Unknowns = Eigen::Matrix<double, 5, 1>;
+using Normal = Eigen::Matrix<double, 5, 5>;
+
+constexpr double kMostLateness = 10.0;  ///< [s]
+constexpr double kMostSpeed = 3.0;      ///< Of a tag [m/s].
+constexpr Index kFewestToJudge = 30;
+constexpr double kRidge = 1e-9;       ///< Keeps what can't be learnt from being singular.
+constexpr double kClimbedOver = 5.0;  ///< Aperture of the place without a departure [λ].
+
+/// What one tag's fit works on.
+struct Followed {
+  const LocalizationProblem* problem = nullptr;
+  HeightModel height;
+  TagPhases wrapped;  ///< As they were reported, and
+  TagPhases phases;   ///< followed from read to read.
+  double wavelength = 0.0;
+  double middle_s = 0.0;
+  Departure departure = Departure::kMotion;
+};
+
+/// One linearized residual.
+struct Row {
+  double error = 0.0;  ///< Measured less predicted, but for the offset [m].
+  Unknowns slope = Unknowns::Zero();
+};
+
+struct Point {
+  Unknowns unknowns;
+  Normal normal = Normal::Zero();
+  Unknowns right = Unknowns::Zero();
+  Eigen::ArrayXd errors;  ///< Offsets taken out [m].
+  double cost = 0.0;
+};
+
+double travel(const TagPhases& phases, Index from, Index to) {
+  return std::hypot(phases.x[to] - phases.x[from], phases.y[to] - phases.y[from],
+                    phases.z[to] - phases.z[from]);
+}
+
+/// Without the jumps by whole cycles that the differences to `place` show.
+TagPhases follow(TagPhases phases, const HeightModel& height, const PlaceVector& place) {
+  const TagFit there{place, offsets_at(phases, height, place), 0.0};
+  const Eigen::ArrayXd errors = residuals_of(phases, height, there);
+  std::vector<TagPhases::Span> pieces;
+  for (const TagPhases::Span& span : phases.spans) {
+    double before = 0.0;
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const bool begins = i == span.begin || travel(phases, i - 1, i) > 0.5 * span.cycle_m;
+      double error = errors[i];
+      if (begins) {
+        pieces.push_back(span);
+        pieces.back().begin = i;
+        pieces.back().count = 0;
+        pieces.back().offset_known = false;
+      } else {
+        error = before + std::remainder(error - before, span.cycle_m);
+      }
+      before = error;
+      ++pieces.back().count;
+      phases.value[i] = range_to(height, place, phases.x[i], phases.y[i], phases.z[i]).r + error;
+    }
+  }
+  phases.spans = std::move(pieces);
+  phases.unwrapped = true;
+  return phases;
+}
+
+/// Numbers of the unknowns that describe it.
+std::vector<Index> departures_of(Departure departure) {
+  return departure == Departure::kMotion ? std::vector<Index>{3, 4} : std::vector<Index>{3};
+}
+
+/// Where the antenna is in the frame in which the tag is at rest, its stamps put right.
+Eigen::Vector3d antenna_at(const Followed& of, const TagPhases::Span& span, Index i,
+                           const Eigen::Vector2d& departure) {
+  const double time_s = of.phases.time_s[i];
+  if (of.departure == Departure::kLateness) {
+    const Trajectory& track = of.problem->tracks.at(span.antenna).X_WA;
+    return held_pose_at(track, time_from_seconds(time_s - departure[0])).translation;
+  }
+  const Eigen::Vector2d moved = (time_s - of.middle_s) * departure;
+  return {of.phases.x[i] - moved.x(), of.phases.y[i] - moved.y(), of.phases.z[i]};
+}
+
+Range range_at(const Followed& of, const TagPhases::Span& span, Index i, const Unknowns& unknowns) {
+  const Eigen::Vector3d p_WA = antenna_at(of, span, i, unknowns.tail<2>());
+  return range_to(of.height, unknowns.head<3>(), p_WA.x(), p_WA.y(), p_WA.z());
+}
+
+/// Slopes by the departure are differences over about as much as poses are apart.
+Row row_of(const Followed& of, const TagPhases::Span& span, Index i, const Unknowns& unknowns) {
+  const double step = of.departure == Departure::kMotion ? 1e-3 : 0.05;  // [m/s], [s]
+  const Range range = range_at(of, span, i, unknowns);
+  Row row;
+  row.error = of.phases.value[i] - range.r;
+  row.slope.head<3>() = range.gradient;
+  for (const Index k : departures_of(of.departure)) {
+    const Unknowns side = step * Unknowns::Unit(k);
+    row.slope[k] =
+        (range_at(of, span, i, unknowns + side).r - range_at(of, span, i, unknowns - side).r) /
+        (2.0 * step);
+  }
+  return row;
+}
+
+/// Offsets are eliminated; what can't be learnt or is known stays where it is.
+Point at(const Followed& of, const Unknowns& unknowns) {
+  Point point;
+  point.unknowns = unknowns;
+  point.errors.resize(of.phases.size());
+  for (const TagPhases::Span& span : of.phases.spans) {
+    Unknowns sum = Unknowns::Zero();
+    double errors = 0.0;
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const Row row = row_of(of, span, i, unknowns);
+      point.errors[i] = row.error;
+      point.normal += row.slope * row.slope.transpose();
+      point.right += row.error * row.slope;
+      sum += row.slope;
+      errors += row.error;
+    }
+    const auto count = static_cast<double>(span.count);
+    point.normal -= sum * sum.transpose() / count;
+    point.right -= errors / count * sum;
+    point.errors.segment(span.begin, span.count) -= errors / count;
+  }
+  if (of.height.unknowns() == 2) point.normal(2, 2) = 1.0;
+  if (of.departure == Departure::kLateness) point.normal(4, 4) = 1.0;
+  point.cost = point.errors.square().sum();
+  return point;
+}
+
+bool is_possible(const Followed& of, const Unknowns& unknowns) {
+  return unknowns.allFinite() &&
+         (of.departure == Departure::kMotion ? unknowns.tail<2>().norm() < kMostSpeed
+                                             : std::abs(unknowns[3]) < kMostLateness);
+}
+
+/// ln of the likelihood of a place (stretches.h), with the antennas where a departure puts them.
+/// The way is cut as it was believed, so that likelihoods can be compared.
+double log_likelihood(const Followed& of, const Unknowns& unknowns) {
+  const Eigen::Vector3d p_WT = to_place(of.height, unknowns.head<3>());
+  StretchedReads reads = stretched_reads(of.wrapped, of.wavelength, p_WT.z(), p_WT.head<2>());
+  for (const TagPhases::Span& span : of.wrapped.spans) {
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const Eigen::Vector3d p_TA = antenna_at(of, span, i, unknowns.tail<2>()) - p_WT;
+      SearchRead& read = reads.reads.reads[static_cast<std::size_t>(i)];
+      read.x = static_cast<float>(p_TA.x());
+      read.y = static_cast<float>(p_TA.y());
+      read.z = static_cast<float>(p_TA.z());
+    }
+  }
+  const Tile here = Tile::Zero();
+  return static_cast<double>(stretch_likelihood(reads, kForPlaces, here, here, here)[0]);
+}
+
+/// xᵀ C⁻¹ x.
+double distance_of(const Eigen::Vector2d& x, const Eigen::Matrix2d& covariance) {
+  return x.dot(covariance.ldlt().solve(x));
+}
+
+/// χ² of two and of one degree of freedom that chance reaches in one case of a million, and ln of
+/// that.
+constexpr double kCertainOfTwo = 27.6;
+constexpr double kCertainOfOne = 23.9;
+constexpr double kCertainGain = 13.8;
+constexpr double kWorse = 3.0;  ///< Times the expected error.
+
+bool has_moved(const DepartureFit& fit, const Candidate& claim) {
+  return fit.departure.norm() * fit.duration_s > kWorse * claim.expected_error_m &&
+         distance_of(fit.departure, fit.covariance.bottomRightCorner<2, 2>()) > kCertainOfTwo;
+}
+
+bool is_elsewhere(const DepartureFit& fit, const Candidate& claim) {
+  const Eigen::Vector2d off = fit.place.head<2>() - claim.p_WT.head<2>();
+  return off.norm() > kWorse * claim.expected_error_m &&
+         fit.departure[0] * fit.departure[0] > kCertainOfOne * fit.covariance(3, 3) &&
+         distance_of(off, fit.covariance.topLeftCorner<2, 2>()) > kCertainOfTwo;
+}
+
+Point fitted(const Followed& of, const Unknowns& start) {
+  LevenbergMarquardt how;
+  how.most_damping = 1e8;
+  how.least_relative_gain = 1e-9;
+  using Next = std::optional<Point>;
+  return descend(at(of, start), how, [&](const Point& here, double damping) -> Next {
+    const Unknowns next =
+        here.unknowns + damped(here.normal, damping, kRidge).ldlt().solve(here.right);
+    return is_possible(of, next) ? Next(at(of, next)) : std::nullopt;
+  });
+}
+
+/// From the place and from some about it: one that was found without a departure can be far off.
+Point best_fit(const Followed& of, const PlaceVector& start) {
+  constexpr double kFarther[] = {0.25, 0.75};  // Of the rms distance to the antenna.
+  constexpr std::size_t kReads = 100;
+  Followed few = of;
+  few.phases = thinned(of.phases, kReads);
+  few.phases.unwrapped = true;
+  const Eigen::ArrayXd squares =
+      (few.phases.x - start.x()).square() + (few.phases.y - start.y()).square();
+  Unknowns begin = Unknowns::Zero();
+  begin.head<3>() = start;
+  Point best = fitted(few, begin);
+  for (const double farther : kFarther) {
+    for (int turn = 0; turn < 6; ++turn) {
+      Unknowns beside = begin;
+      const double angle = kTwoPi * turn / 6.0;
+      beside.head<2>() +=
+          farther * std::sqrt(squares.mean()) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      Point point = fitted(few, beside);
+      if (point.cost < best.cost) best = std::move(point);
+    }
+  }
+  return fitted(of, best.unknowns);
+}
+
+/// Whether what a place leaves of the phases is no noise: a departure leaves slow errors.
+bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
+                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
+  constexpr double kSlow = 3.0;  // Reads that are worth one; noise alone leaves 1 to 1.5.
+  const TagPhases phases = coherent_reads(problem, samples);
+  if (phases.size() < kFewestToJudge) return false;
+  const HeightModel height = height_model(problem, tag, phases);
+  const PlaceVector place = to_unknowns(height, p_WT);
+  const Eigen::ArrayXd errors =
+      residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
+  return correlation_factor(phases.spans, errors) > kSlow;
+}
+
+Followed followed(const LocalizationProblem& problem, const std::string& tag, TagPhases phases,
+                  const Eigen::Vector3d& p_WT, Departure departure) {
+  Followed of;
+  of.problem = &problem;
+  of.height = height_model(problem, tag, phases);
+  of.phases = follow(phases, of.height, to_unknowns(of.height, p_WT));
+  of.wavelength = 2.0 * problem.multiple() * longest_cycle(phases);
+  of.middle_s = phases.time_s.mean();
+  of.departure = departure;
+  of.wrapped = std::move(phases);
+  return of;
+}
+
+/// By how much a departure is likelier than the likeliest place near `start` without one.
+double log_gain_of(const Followed& of, const PlaceVector& start, const Unknowns& departed) {
+  const auto at_rest = [&](const PlaceVector& place) {
+    Unknowns unknowns = Unknowns::Zero();
+    unknowns.head<3>() = place;
+    return log_likelihood(of, unknowns);
+  };
+  const std::vector<Aperture> parts = apertures(of.wrapped, kClimbedOver * of.wavelength);
+  const PlaceVector top = climb(of.wrapped, parts, of.height, start);
+  return log_likelihood(of, departed) - std::max(at_rest(start), at_rest(top));
+}
+
+/// What speaks against a tag's place.
+struct Objection {
+  std::string why;
+  std::optional<double> late_s;
+};
+
+Objection of_lateness(const DepartureFit& fit, const Candidate& claim) {
+  const double late_s = fit.departure[0];
+  return {fmt::format("the phase fits a place {:.2f} m away, with reads stamped {:.2f} s {} "
+                      "against the poses",
+                      (fit.place.head<2>() - claim.p_WT.head<2>()).norm(), std::abs(late_s),
+                      late_s > 0.0 ? "late" : "early"),
+          late_s};
+}
+
+Objection of_motion(const DepartureFit& fit) {
+  return {fmt::format("the phase fits a tag that moves, by {:.2f} m while it is read",
+                      fit.departure.norm() * fit.duration_s),
+          std::nullopt};
+}
+
+Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                       const TagEstimate& estimate) {
+  const Candidate& claim = estimate.candidates.front();
+  if (!leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) return {};
+  const auto motion = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kMotion);
+  const auto late = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kLateness);
+  const double of_late = late && is_elsewhere(*late, claim) ? late->log_gain : -kCertainGain;
+  const double of_moving = motion && has_moved(*motion, claim) ? motion->log_gain : -kCertainGain;
+  if (std::max(of_late, of_moving) < kCertainGain) return {};
+  return of_late > of_moving ? of_lateness(*late, claim) : of_motion(*motion);
+}
+
+}  // namespace
+
+std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
+                                          const std::string& tag, const SamplesOfTag& samples,
+                                          const Eigen::Vector3d& p_WT, Departure departure) {
+  TagPhases phases = coherent_reads(problem, samples);
+  if (phases.size() < kFewestToJudge) return std::nullopt;
+  const bool has_tracks =
+      std::all_of(phases.spans.begin(), phases.spans.end(), [&](const TagPhases::Span& span) {
+        const auto track = problem.tracks.find(span.antenna);
+        return track != problem.tracks.end() && !track->second.X_WA.empty();
+      });
+  if (departure == Departure::kLateness && !has_tracks) return std::nullopt;
+  const Followed of = followed(problem, tag, std::move(phases), p_WT, departure);
+  const PlaceVector start = to_unknowns(of.height, p_WT);
+  const Point end = best_fit(of, start);
+  DepartureFit fit;
+  fit.place = end.unknowns.head<3>();
+  fit.departure = end.unknowns.tail<2>();
+  fit.covariance = residual_variance(of.phases.spans, end.errors) *
+                   correlation_factor(of.phases.spans, end.errors) *
+                   damped(end.normal, 0.0, kRidge).inverse();
+  if (!fit.covariance.allFinite()) return std::nullopt;
+  fit.duration_s = of.phases.time_s.maxCoeff() - of.phases.time_s.minCoeff();
+  fit.log_gain = log_gain_of(of, start, end.unknowns);
+  return fit;
+}
+
+void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
+                       Diagnostics& diagnostics) {
+  if (!result.corrected_poses.empty()) return;
+  std::vector<Objection> objections(result.estimates.size());
+  parallel_for(objections.size(), threads, [&](std::size_t i) {
+    const TagEstimate& estimate = result.estimates[i];
+    const auto samples = problem.samples.find(estimate.tag);
+    if (estimate.verdict != Verdict::kLocated || samples == problem.samples.end()) return;
+    if (problem.reference_tags.count(estimate.tag) > 0) return;
+    objections[i] = objection_to(problem, samples->second, estimate);
+  });
+  std::vector<double> late_s;
+  std::size_t located = 0;
+  for (std::size_t i = 0; i < objections.size(); ++i) {
+    TagEstimate& estimate = result.estimates[i];
+    if (estimate.verdict == Verdict::kLocated) ++located;
+    if (objections[i].late_s) late_s.push_back(*objections[i].late_s);
+    if (objections[i].why.empty()) continue;
+    estimate = not_located(std::move(estimate), objections[i].why);
+  }
+  if (late_s.empty() || 2 * late_s.size() <= located) return;
+  const double usual = median(late_s);
+  diagnostics.warn(fmt::format(
+      "most tags' phases fit better with reads stamped {:.2f} s {} against the poses: are their "
+      "clocks the same?",
+      std::abs(usual), usual > 0.0 ? "late" : "early"));
+}
+
+}  // namespace tagfield

@@ -1,0 +1,46 @@
+/// @file
+/// Whether phases say that a tag was at rest, and that the stamps of reads and poses are of one
+/// clock: a tag that moved and an antenna that was elsewhere fit some place, too.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "tagfield/localization/height_model.h"
+#include "tagfield/localization/method.h"
+
+namespace tagfield {
+
+/// What else may be so, besides the tag's place.
+enum class Departure {
+  kMotion,   ///< The tag moves at one velocity (x, y) [m/s] about its place at the mean stamp.
+  kLateness  ///< The stamps of reads are late by so many seconds, against those of the poses.
+};
+
+/// Least squares on followed phases with a departure from what methods take for granted.
+struct DepartureFit {
+  PlaceVector place = PlaceVector::Zero();
+  Eigen::Vector2d departure = Eigen::Vector2d::Zero();  ///< Of a lateness the second is 0.
+  /// Of both. Correlated residuals count as their correlation factor says (residuals.h).
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  /// ln of how much likelier this is (stretches.h) than the likeliest place nearby without it.
+  double log_gain = 0.0;
+  double duration_s = 0.0;  ///< From the first read to the last.
+};
+
+/// Phases are followed from read to read against what a tag at `p_WT` would show, over pieces with
+/// less than a quarter wavelength of travel between reads; each piece has an offset. None where too
+/// few can be followed.
+std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
+                                          const std::string& tag, const SamplesOfTag& samples,
+                                          const Eigen::Vector3d& p_WT, Departure departure);
+
+/// Refuses tags whose phases show that they moved while they were read, by more than three times
+/// what their places are expected to be off, and those that are elsewhere by as much once reads and
+/// poses are shifted in time against one another: where chance does so in less than one case of a
+/// million, amid reflections too. Where most tags agree in a shift a warning says by how much. Not
+/// of methods that correct poses.
+void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
+                       Diagnostics& diagnostics);
+
+}  // namespace tagfield

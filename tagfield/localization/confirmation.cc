@@ -1,0 +1,80 @@
+#include "tagfield/localization/confirmation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "tagfield/localization/holograms/coherent_fit.h"
+#include "tagfield/localization/holograms/robust.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kLeastPower = 0.5;
+constexpr double kDeviations = 3.0;
+
+/// Of the phases' power at the place, in [0, 1].
+double explained_power(const LocalizationProblem& problem, const TagEstimate& estimate) {
+  const TagPhases phases = coherent_reads(problem, problem.samples.at(estimate.tag));
+  if (phases.size() == 0) return 1.0;
+  const HeightModel height = height_model(problem, estimate.tag, phases);
+  const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+  return std::pow(coherent_share(phases, height, place), 2);
+}
+
+bool takes_way_as_coherent(const std::string& method) {
+  constexpr const char* kSuch[] = {"hyperbola", "least_squares", "ml", "sar", "dah", "particle"};
+  return std::any_of(std::begin(kSuch), std::end(kSuch),
+                     [&](const char* name) { return method == name; });
+}
+
+bool agree(const Candidate& one, const Candidate& other) {
+  return (one.p_WT - other.p_WT).head<2>().norm() <=
+         kDeviations * std::hypot(one.expected_error_m, other.expected_error_m);
+}
+
+/// Numbers of the estimates in question.
+std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
+                                  const LocalizationResult& result) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const TagEstimate& estimate = result.estimates[i];
+    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    if (explained_power(problem, estimate) < kLeastPower) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
+                        LocalizationResult& result) {
+  if (!takes_way_as_coherent(result.method) || told_pose_error(problem)) return;
+  const std::vector<std::size_t> numbers = doubtful(problem, result);
+  if (numbers.empty()) return;
+  LocalizationProblem those = problem;
+  those.samples.clear();
+  for (const std::size_t i : numbers) {
+    const std::string& tag = result.estimates[i].tag;
+    those.samples[tag] = problem.samples.at(tag);
+  }
+  Diagnostics unheard;
+  const LocalizationResult second = robust_method().locate(those, threads, unheard);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    TagEstimate& estimate = result.estimates[numbers[k]];
+    const TagEstimate& other = second.estimates[k];
+    if (other.verdict == Verdict::kLocated &&
+        agree(estimate.candidates.front(), other.candidates.front())) {
+      continue;
+    }
+    estimate = not_located(std::move(estimate),
+                           "the place explains less than half of the phases' power, and pieces of "
+                           "the way by themselves (robust) don't confirm it");
+  }
+}
+
+}  // namespace tagfield

@@ -1,0 +1,129 @@
+#include "tagfield/localization/at_rest.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tagfield/localization/locate.h"
+#include "tagfield/localization/test/problem_of.h"
+#include "tagfield/localization/test/reflections.h"
+
+namespace tagfield {
+namespace {
+
+using made::Rng;
+
+constexpr int kTags = 40;
+
+/// Tags that move at one velocity, or are at rest; true poses, which nobody told.
+made::Hall hall_of(const Eigen::Vector3d& velocity, Rng& rng) {
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Hall hall = made::hall(path, path, kTags, {}, rng);
+  hall.problem.pose_error.reset();
+  for (auto& [tag, samples] : hall.problem.samples) {
+    samples["a"] = made::read_along(path, path, hall.truth.at(tag), {}, rng, {}, velocity);
+  }
+  return hall;
+}
+
+/// Joined with where the antenna was believed to be at the late stamps.
+void make_late(LocalizationProblem& problem, double late_s) {
+  for (auto& [tag, samples] : problem.samples) {
+    for (PhaseSample& sample : samples["a"]) {
+      sample.stamp += duration_from_seconds(late_s);
+      sample.p_WA = held_pose_at(problem.tracks.at("a").X_WA, sample.stamp).translation;
+    }
+  }
+}
+
+DepartureFit fit_of(const made::Hall& hall, const std::string& tag, Departure departure) {
+  const auto fit = fit_departure(hall.problem, tag, hall.problem.samples.at(tag),
+                                 hall.truth.at(tag) + Eigen::Vector3d(0.05, -0.05, 0.0), departure);
+  EXPECT_TRUE(fit) << tag;
+  return fit.value_or(DepartureFit{});
+}
+
+LocalizationResult judged(const char* method, const made::Hall& hall, Diagnostics& diagnostics) {
+  LocalizationResult result =
+      find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics);
+  refuse_departures(hall.problem, 2, result, diagnostics);
+  return result;
+}
+
+std::size_t located(const LocalizationResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.estimates.begin(), result.estimates.end(),
+                    [](const auto& estimate) { return estimate.verdict == Verdict::kLocated; }));
+}
+
+TEST(AtRest, TellsAVelocityAsWellAsItSays) {
+  Rng rng(1);
+  const Eigen::Vector3d velocity(0.02, -0.01, 0.0);
+  const made::Hall hall = hall_of(velocity, rng);
+  double squares = 0.0;
+  for (const auto& [tag, truth] : hall.truth) {
+    const DepartureFit fit = fit_of(hall, tag, Departure::kMotion);
+    const Eigen::Vector2d off = fit.departure - velocity.head<2>();
+    squares += off.dot(fit.covariance.bottomRightCorner<2, 2>().inverse() * off);
+    EXPECT_GT(fit.log_gain, 13.8) << tag;
+  }
+  // χ² of 80 degrees of freedom: within 45 and 125 but for a chance of 1e-3; covariances may be
+  // wider by the correlation that noise seems to have.
+  EXPECT_GT(squares, 30.0);
+  EXPECT_LT(squares, 125.0);
+}
+
+TEST(AtRest, TellsHowLateStampsAre) {
+  Rng rng(2);
+  for (const double late_s : {-0.5, 0.2}) {
+    made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+    make_late(hall.problem, late_s);
+    double squares = 0.0;
+    for (const auto& [tag, truth] : hall.truth) {
+      const DepartureFit fit = fit_of(hall, tag, Departure::kLateness);
+      squares += std::pow(fit.departure[0] - late_s, 2) / fit.covariance(3, 3);
+    }
+    EXPECT_LT(squares, 73.0) << late_s;  // χ² of 40, 1e-3.
+  }
+}
+
+TEST(AtRest, TagsAtRestStay) {
+  Rng rng(3);
+  for (const bool reflected : {false, true}) {
+    made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+    if (reflected) made::reflect(made::walls(0.5), hall);
+    for (const char* method : {"ml", "sar", "robust"}) {
+      Diagnostics diagnostics;
+      const std::size_t before =
+          located(find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics));
+      const std::size_t after = located(judged(method, hall, diagnostics));
+      // Of wrong places in front of mirrors some are refused.
+      EXPECT_GE(after, reflected ? before - before / 10 : before) << method << reflected;
+    }
+  }
+}
+
+TEST(AtRest, TagsThatMoveAreRefused) {
+  Rng rng(4);
+  const made::Hall hall = hall_of({0.05, 0.03, 0.0}, rng);
+  for (const char* method : {"hyperbola", "ml", "sar", "robust", "trilateration"}) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(located(judged(method, hall, diagnostics)), 0U) << method;
+    EXPECT_TRUE(diagnostics.warnings().empty()) << method;
+  }
+}
+
+TEST(AtRest, SaysThatStampsAreLate) {
+  Rng rng(5);
+  made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+  make_late(hall.problem, 1.0);
+  Diagnostics diagnostics;
+  const LocalizationResult result = judged("ml", hall, diagnostics);
+  EXPECT_EQ(located(result), 0U);
+  ASSERT_EQ(diagnostics.warnings().size(), 1U);
+  EXPECT_NE(diagnostics.warnings().front().find("1.00 s late"), std::string::npos)
+      << diagnostics.warnings().front();
+}
+
+}  // namespace
+}  // namespace tagfield
