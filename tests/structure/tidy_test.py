@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 """clang-tidy has nothing to say of any source that is built, tests excepted.
 
-    tidy_test.py SOURCE_DIR BUILD_DIR [--part N/OF]
+    tidy_test.py SOURCE_DIR BUILD_DIR [--part N/OF] [--since FILE]
+
+With --since only what changed since the commit that FILE names: scripts/lint looked at all then. That is
+every source that changed, and of headers that changed a source each that includes it. All where .clang-tidy
+changed, too, or where there is no such commit, as in a shallow clone.
 
 Most of its time goes into headers that many sources include. So it looks at several sources at a time,
 included one after the other in one file; where those don't go together, at each by itself.
@@ -74,6 +78,54 @@ def sources_of(database, top):
         if is_looked_at(os.path.relpath(path, top)) and os.path.exists(path):
             found.setdefault(path, flags_of(entry))
     return found
+
+
+# --- What changed ---------------------------------------------------------------------------------
+
+def git(top, *words):
+    """What it prints, or None where it fails."""
+    done = subprocess.run(["git", "-c", "safe.directory=*", "-C", top, *words], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True, check=False)
+    return done.stdout if done.returncode == 0 else None
+
+
+def changed_since(commit, top):
+    """Names of files that differ from those of the commit, or are not in it; None where that can't be
+    told, or the rules changed as well."""
+    changed = git(top, "diff", "--name-only", commit)
+    added = git(top, "ls-files", "--others", "--exclude-standard")
+    if changed is None or added is None:
+        return None
+    names = set((changed + added).split("\n")) - {""}
+    return None if names & {".clang-tidy", "tests/structure/tidy_test.py"} else names
+
+
+def including(header, sources, top):
+    """The source that includes it, best that of its own name; None if none does."""
+    users = [path for path in sorted(sources)
+             if header in HEADER.findall(pathlib.Path(path).read_text(encoding="utf-8"))]
+    own = [path for path in users if pathlib.Path(path).stem == pathlib.Path(header).stem]
+    return (own or users or [None])[0]
+
+
+def those_of(sources, names, top):
+    """Of the sources those that changed, and one for each header that did."""
+    chosen = {path for path in sources if os.path.relpath(path, top) in names}
+    for name in names:
+        if name.endswith(".h") and (top / name).exists():
+            chosen.add(including(name, sources, top))
+    return {path: flags for path, flags in sources.items() if path in chosen}
+
+
+def looked_at(sources, since, top):
+    """Those that are to be looked at, and why."""
+    if since is None:
+        return sources, "all"
+    commit = since.read_text(encoding="utf-8").split()[0]
+    names = changed_since(commit, top)
+    if names is None:
+        return sources, f"all, as what changed since {commit[:12]} can't be told or the rules changed"
+    return those_of(sources, names, top), f"changed since {commit[:12]}"
 
 
 # --- Units ----------------------------------------------------------------------------------------
@@ -191,6 +243,7 @@ def main():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--part", default="1/1", help="of the units, as 2/3")
+    parser.add_argument("--since", type=pathlib.Path, help="names the commit before what changed")
     arguments = parser.parse_args()
     if shutil.which("clang-tidy") is None:
         print("skipped: clang-tidy is not installed")
@@ -199,8 +252,9 @@ def main():
     sources = sources_of(arguments.build / "compile_commands.json", top)
     if len(sources) < 50:
         sys.exit(f"only {len(sources)} sources in the compile database: looked in the wrong place?")
+    chosen, why = looked_at(sources, arguments.since, top)
     part, of = map(int, arguments.part.split("/"))
-    units = part_of(units_of(sources, top), part, of)
+    units = part_of(units_of(chosen, top), part, of)
     with tempfile.TemporaryDirectory(prefix="tidy_test-") as folder:
         tidy = Tidy(top, folder)
         if not notices(tidy):
@@ -208,7 +262,7 @@ def main():
         with concurrent.futures.ThreadPoolExecutor(1 if of > 1 else os.cpu_count()) as pool:
             said = list(filter(None, pool.map(tidy.look_at, units)))
     print("\n".join(said))
-    print(f"clang-tidy: {sum(len(unit.sources) for unit in units)} of {len(sources)} sources in "
+    print(f"clang-tidy: {sum(len(unit.sources) for unit in units)} of {len(sources)} sources ({why}) in "
           f"{len(units)} units, complaints about {len(said)} units")
     sys.exit(1 if said else 0)
 

@@ -113,7 +113,9 @@ CoherentStretch stretch_of(const std::vector<Piece>& pieces,
     stretch.channels.push_back(of_span);
   }
   // Channels that were read at the same places see the same reflections.
-  const double all = independent_samples(thinned_out(std::move(whole)), wavelength);
+  const double all = by_span.size() == 1
+                         ? of_channels
+                         : independent_samples(thinned_out(std::move(whole)), wavelength);
   const double offsets = static_cast<double>(by_span.size());
   stretch.freedom =
       static_cast<float>(std::max(0.0, of_channels - offsets) * std::min(1.0, all / of_channels));
@@ -179,16 +181,19 @@ Tile likelihood_of(const StretchedReads& all, const CoherentStretch& stretch,
 }  // namespace
 
 double independent_samples(const std::vector<double>& along_m, double wavelength) {
+  const auto count = static_cast<Index>(along_m.size());
+  const Eigen::ArrayXd angles =
+      kPi / wavelength * Eigen::Map<const Eigen::ArrayXd>(along_m.data(), count);
+  // sin(a − b) by those of a and b.
+  const Eigen::ArrayXd sines = angles.sin();
+  const Eigen::ArrayXd cosines = angles.cos();
   double pairs = 0.0;
-  for (const double a : along_m) {
-    for (const double b : along_m) {
-      const double angle = kPi * (a - b) / wavelength;
-      const double sinc = std::abs(angle) < 1e-6 ? 1.0 : std::sin(angle) / angle;
-      pairs += sinc * sinc;
-    }
+  for (Index i = 0; i < count; ++i) {
+    const Eigen::ArrayXd apart = angles[i] - angles;
+    const Eigen::ArrayXd sine = sines[i] * cosines - cosines[i] * sines;
+    pairs += (apart.abs() < 1e-6).select(1.0, (sine / apart).square()).sum();
   }
-  const auto count = static_cast<double>(along_m.size());
-  return count > 0.0 ? count * count / pairs : 0.0;
+  return count > 0 ? static_cast<double>(count) * static_cast<double>(count) / pairs : 0.0;
 }
 
 StretchedReads stretched_reads(const TagPhases& phases, double wavelength, double height,
