@@ -36,6 +36,15 @@ bool agree(const Candidate& one, const Candidate& other) {
          kDeviations * std::hypot(one.expected_error_m, other.expected_error_m);
 }
 
+/// The place is no better known than by who confirms it.
+void take_doubt(const Candidate& by, Candidate& place) {
+  const Eigen::Vector3d off = (by.p_WT - place.p_WT).cwiseProduct(Eigen::Vector3d(1.0, 1.0, 0.0));
+  const double error = std::hypot(by.expected_error_m, off.norm());
+  if (error <= place.expected_error_m) return;
+  place.expected_error_m = error;
+  if (by.covariance) place.covariance = *by.covariance + off * off.transpose();
+}
+
 /// Numbers of the estimates in question.
 std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
                                   const LocalizationResult& result) {
@@ -69,6 +78,8 @@ void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
     const TagEstimate& other = second.estimates[k];
     if (other.verdict == Verdict::kLocated &&
         agree(estimate.candidates.front(), other.candidates.front())) {
+      take_doubt(other.candidates.front(), estimate.candidates.front());
+      judge(problem.limits, estimate);
       continue;
     }
     estimate = not_located(std::move(estimate),
