@@ -5,6 +5,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/base/median.h"
@@ -88,6 +91,36 @@ TagPhases follow(TagPhases phases, const HeightModel& height, const PlaceVector&
   phases.spans = std::move(pieces);
   phases.unwrapped = true;
   return phases;
+}
+
+/// Times [s] without the pauses in which nothing was read and the antenna stood: nobody knows what
+/// happened then.
+Eigen::ArrayXd without_pauses(const TagPhases& phases) {
+  constexpr double kPause = 2.0;   // [s]
+  constexpr double kStood = 0.02;  // [m]
+  std::vector<std::pair<Index, const std::string*>> reads;
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      reads.emplace_back(i, &span.antenna);
+    }
+  }
+  std::stable_sort(reads.begin(), reads.end(), [&](const auto& a, const auto& b) {
+    return phases.time_s[a.first] < phases.time_s[b.first];
+  });
+  Eigen::ArrayXd times = phases.time_s;
+  std::map<std::string, Index> last;  // Read of an antenna.
+  double paused = 0.0;
+  for (std::size_t k = 0; k < reads.size(); ++k) {
+    const auto& [i, antenna] = reads[k];
+    const double gap = k > 0 ? phases.time_s[i] - phases.time_s[reads[k - 1].first] : 0.0;
+    const auto before = last.find(*antenna);
+    if (gap > kPause && before != last.end() && travel(phases, before->second, i) < kStood) {
+      paused += gap;
+    }
+    times[i] -= paused;
+    last[*antenna] = i;
+  }
+  return times;
 }
 
 /// Numbers of the unknowns that describe it.
@@ -191,8 +224,10 @@ constexpr double kCertainOfOne = 23.9;
 constexpr double kCertainGain = 13.8;
 constexpr double kWorse = 3.0;  ///< Times the expected error.
 
-bool has_moved(const DepartureFit& fit, const Candidate& claim) {
-  return fit.departure.norm() * fit.duration_s > kWorse * claim.expected_error_m &&
+/// Poses that are off for a while look like a motion. `pose_error_m`: by how much they may be.
+bool has_moved(const DepartureFit& fit, const Candidate& claim, double pose_error_m) {
+  return fit.misfit_at_rest_m > pose_error_m &&
+         fit.departure.norm() * fit.duration_s > kWorse * claim.expected_error_m &&
          distance_of(fit.departure, fit.covariance.bottomRightCorner<2, 2>()) > kCertainOfTwo;
 }
 
@@ -260,10 +295,16 @@ Followed followed(const LocalizationProblem& problem, const std::string& tag, Ta
   of.height = height_model(problem, tag, phases);
   of.phases = follow(phases, of.height, to_unknowns(of.height, p_WT));
   of.wavelength = 2.0 * problem.multiple() * longest_cycle(phases);
-  of.middle_s = phases.time_s.mean();
+  if (departure == Departure::kMotion) of.phases.time_s = without_pauses(phases);
+  of.middle_s = of.phases.time_s.mean();
   of.departure = departure;
   of.wrapped = std::move(phases);
   return of;
+}
+
+/// Variance of a residual, by how many that are correlated are worth one [m²].
+double slow_variance(const TagPhases& phases, const Eigen::ArrayXd& errors) {
+  return residual_variance(phases.spans, errors) * correlation_factor(phases.spans, errors);
 }
 
 /// By how much a departure is likelier than the likeliest place near `start` without one.
@@ -276,6 +317,20 @@ double log_gain_of(const Followed& of, const PlaceVector& start, const Unknowns&
   const std::vector<Aperture> parts = apertures(of.wrapped, kClimbedOver * of.wavelength);
   const PlaceVector top = climb(of.wrapped, parts, of.height, start);
   return log_likelihood(of, departed) - std::max(at_rest(start), at_rest(top));
+}
+
+/// None where much is left: other slow errors look like a departure, but none explains them whole.
+double gain_of(const DepartureFit& fit) {
+  constexpr double kLeftOver = 0.25;
+  return fit.left_over < kLeftOver ? fit.log_gain : -kCertainGain;
+}
+
+/// What poses that are off leave at the best place [m]. Over a pass of five time constants an
+/// Ornstein-Uhlenbeck process has 69 % of its variance in its three largest modes (1/(1 + ω²τ²),
+/// ω about kπ/T), as many as there are unknowns of place and offset.
+double pose_error_of(const LocalizationProblem& problem) {
+  constexpr double kLeftOfVariance = 0.31;
+  return problem.pose_error.value_or(kUsualPoseError).sigma_m * std::sqrt(kLeftOfVariance);
 }
 
 /// What speaks against a tag's place.
@@ -305,8 +360,10 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
   if (!leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) return {};
   const auto motion = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kMotion);
   const auto late = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kLateness);
-  const double of_late = late && is_elsewhere(*late, claim) ? late->log_gain : -kCertainGain;
-  const double of_moving = motion && has_moved(*motion, claim) ? motion->log_gain : -kCertainGain;
+  const double of_late = late && is_elsewhere(*late, claim) ? gain_of(*late) : -kCertainGain;
+  const double of_moving = motion && has_moved(*motion, claim, pose_error_of(problem))
+                               ? gain_of(*motion)
+                               : -kCertainGain;
   if (std::max(of_late, of_moving) < kCertainGain) return {};
   return of_late > of_moving ? of_lateness(*late, claim) : of_motion(*motion);
 }
@@ -330,11 +387,14 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
   DepartureFit fit;
   fit.place = end.unknowns.head<3>();
   fit.departure = end.unknowns.tail<2>();
-  fit.covariance = residual_variance(of.phases.spans, end.errors) *
-                   correlation_factor(of.phases.spans, end.errors) *
-                   damped(end.normal, 0.0, kRidge).inverse();
+  const double left = slow_variance(of.phases, end.errors);
+  fit.covariance = left * damped(end.normal, 0.0, kRidge).inverse();
   if (!fit.covariance.allFinite()) return std::nullopt;
   fit.duration_s = of.phases.time_s.maxCoeff() - of.phases.time_s.minCoeff();
+  const TagFit at_rest = fit_tag(of.phases, of.height, start);
+  const Eigen::ArrayXd errors = residuals_of(of.phases, of.height, at_rest);
+  fit.misfit_at_rest_m = std::sqrt(errors.square().mean());
+  fit.left_over = left / slow_variance(of.phases, errors);
   fit.log_gain = log_gain_of(of, start, end.unknowns);
   return fit;
 }

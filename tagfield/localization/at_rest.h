@@ -23,9 +23,12 @@ struct DepartureFit {
   Eigen::Vector2d departure = Eigen::Vector2d::Zero();  ///< Of a lateness the second is 0.
   /// Of both. Correlated residuals count as their correlation factor says (residuals.h).
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  double misfit_at_rest_m = 0.0;  ///< rms of what the best place nearby without it leaves.
+  /// Of the variance of slow errors that the best place nearby without it leaves.
+  double left_over = 1.0;
   /// ln of how much likelier this is (stretches.h) than the likeliest place nearby without it.
   double log_gain = 0.0;
-  double duration_s = 0.0;  ///< From the first read to the last.
+  double duration_s = 0.0;  ///< From the first read to the last, of a motion without pauses.
 };
 
 /// Phases are followed from read to read against what a tag at `p_WT` would show, over pieces with
@@ -38,8 +41,9 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
 /// Refuses tags whose phases show that they moved while they were read, by more than three times
 /// what their places are expected to be off, and those that are elsewhere by as much once reads and
 /// poses are shifted in time against one another: where chance does so in less than one case of a
-/// million, amid reflections too. Where most tags agree in a shift a warning says by how much. Not
-/// of methods that correct poses.
+/// million, amid reflections too, and hardly any slow errors are left; a motion, where it leaves
+/// more at rest than pose errors do. Where most tags agree in a shift a warning says by how much.
+/// Not of methods that correct poses.
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics);
 

@@ -12,6 +12,9 @@
 
 namespace tagfield {
 
+/// Of poses of which nothing is told.
+inline constexpr PoseErrorModel kUsualPoseError{0.02, 0.02, 5.0};
+
 /// ln 100, by which strengths must go by a law of distance: chance makes so much in one case of a
 /// hundred.
 inline constexpr double kLeastLogEvidence = 4.6;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tagfield/localization/locate.h"
@@ -105,12 +106,28 @@ TEST(AtRest, TagsAtRestStay) {
 
 TEST(AtRest, TagsThatMoveAreRefused) {
   Rng rng(4);
-  const made::Hall hall = hall_of({0.05, 0.03, 0.0}, rng);
+  made::Hall hall = hall_of({0.05, 0.03, 0.0}, rng);
+  hall.problem.pose_error = PoseErrorModel{};  // Told: none. Else it might be that.
   for (const char* method : {"hyperbola", "ml", "sar", "robust", "trilateration"}) {
     Diagnostics diagnostics;
     EXPECT_EQ(located(judged(method, hall, diagnostics)), 0U) << method;
     EXPECT_TRUE(diagnostics.warnings().empty()) << method;
   }
+}
+
+TEST(AtRest, PosesThatMayBeOffAreNoMotion) {
+  Rng rng(6);
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Path beliefs = path;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    beliefs[i].x() += 0.01 * std::sin(static_cast<double>(i) / made::kPathRate / 3.0);
+  }
+  made::Hall hall = made::hall(path, beliefs, kTags, {}, rng);
+  hall.problem.pose_error.reset();
+  Diagnostics diagnostics;
+  const std::size_t before =
+      located(find_method(built_in_methods(), "ml").locate(hall.problem, 2, diagnostics));
+  EXPECT_EQ(located(judged("ml", hall, diagnostics)), before);
 }
 
 TEST(AtRest, SaysThatStampsAreLate) {

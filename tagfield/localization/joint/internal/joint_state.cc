@@ -20,8 +20,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Where nothing is known of the pose error it is looked for from here.
-constexpr PoseErrorModel kFirstGuess{0.02, 0.02, 5.0};
 /// Knots a time constant: straight lines between them miss 2 % of the variance.
 constexpr double kKnotsPerTimeConstant = 40.0;
 /// With many tags, where the knots' own system is solved whole.
@@ -29,7 +27,7 @@ constexpr double kCoarseKnots = 20.0;
 constexpr double kMostUnknowns = 3000.0;  ///< Of the knots in that case.
 
 PoseErrorModel model_of(const LocalizationProblem& problem) {
-  return problem.pose_error.value_or(kFirstGuess);
+  return problem.pose_error.value_or(kUsualPoseError);
 }
 
 bool has_told_covariances(const LocalizationProblem& problem) {
