@@ -325,12 +325,10 @@ double gain_of(const DepartureFit& fit) {
   return fit.left_over < kLeftOver ? fit.log_gain : -kCertainGain;
 }
 
-/// What poses that are off leave at the best place [m]. Over a pass of five time constants an
-/// Ornstein-Uhlenbeck process has 69 % of its variance in its three largest modes (1/(1 + ω²τ²),
-/// ω about kπ/T), as many as there are unknowns of place and offset.
+/// By how much poses may be off [m]. Place and offset take up most of it, so that hardly any leaves
+/// so much at the best place.
 double pose_error_of(const LocalizationProblem& problem) {
-  constexpr double kLeftOfVariance = 0.31;
-  return problem.pose_error.value_or(kUsualPoseError).sigma_m * std::sqrt(kLeftOfVariance);
+  return problem.pose_error.value_or(kUsualPoseError).sigma_m;
 }
 
 /// What speaks against a tag's place.
