@@ -123,11 +123,6 @@ Eigen::ArrayXd without_pauses(const TagPhases& phases) {
   return times;
 }
 
-/// Numbers of the unknowns that describe it.
-std::vector<Index> departures_of(Departure departure) {
-  return departure == Departure::kMotion ? std::vector<Index>{3, 4} : std::vector<Index>{3};
-}
-
 /// Where the antenna is in the frame in which the tag is at rest, its stamps put right.
 Eigen::Vector3d antenna_at(const Followed& of, const TagPhases::Span& span, Index i,
                            const Eigen::Vector2d& departure) {
@@ -152,7 +147,8 @@ Row row_of(const Followed& of, const TagPhases::Span& span, Index i, const Unkno
   Row row;
   row.error = of.phases.value[i] - range.r;
   row.slope.head<3>() = range.gradient;
-  for (const Index k : departures_of(of.departure)) {
+  const Index last = of.departure == Departure::kMotion ? 4 : 3;
+  for (Index k = 3; k <= last; ++k) {
     const Unknowns side = step * Unknowns::Unit(k);
     row.slope[k] =
         (range_at(of, span, i, unknowns + side).r - range_at(of, span, i, unknowns - side).r) /

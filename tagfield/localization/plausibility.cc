@@ -165,18 +165,24 @@ Eigen::Matrix2d squares_about(const LocalizationProblem& problem, const SamplesO
       best.head<2>() - across(way).dot(best.head<2>() - way.middle) * across(way);
   double sum = 0.0;
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  const auto add = [&](const Eigen::Vector2d& p) {
+    PlaceVector place = best;
+    place.head<2>() = p;
+    const double more = (errors_at(place).square() - least.square()).sum() / noise;
+    const double weight = std::exp(-0.5 * std::max(more, 0.0));
+    const Eigen::Vector2d off = p - best.head<2>();
+    sum += weight;
+    squares += weight * off * off.transpose();
+  };
+  // Both peaks, which may be too narrow for the grid to meet them.
+  add(best.head<2>());
+  add(2.0 * on_line - best.head<2>());
   for (int i = -kAlong; i <= kAlong; ++i) {
     for (int j = -kAcross; j <= kAcross; ++j) {
-      PlaceVector place = best;
-      place.head<2>() = on_line + i * kStepAlong * way.along + j * kStepAcross * across(way);
-      const double more = (errors_at(place).square() - least.square()).sum() / noise;
-      const double weight = std::exp(-0.5 * std::max(more, 0.0));
-      const Eigen::Vector2d off = (place - best).head<2>();
-      sum += weight;
-      squares += weight * off * off.transpose();
+      add(on_line + i * kStepAlong * way.along + j * kStepAcross * across(way));
     }
   }
-  return sum > 0.0 ? Eigen::Matrix2d(squares / sum) : Eigen::Matrix2d(Eigen::Matrix2d::Zero());
+  return squares / sum;
 }
 
 }  // namespace

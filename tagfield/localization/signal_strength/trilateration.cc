@@ -274,22 +274,24 @@ Candidate candidate_at(const Bins& bins, const Law& law, const Eigen::Vector3d& 
 }
 
 /// ln of how much likelier places anywhere in reach make the RSSI, in the mean, than a strength
-/// that does not change with the place at all; either with the noise that it leaves.
-double log_evidence(const Bins& bins, const Law& law, const std::vector<Fit>& cells,
-                    const Eigen::ArrayXd& best) {
-  Law flat = law;
+/// that does not change with the place at all, whatever it is; either with the noise that it
+/// leaves.
+double log_evidence(const Bins& bins, const std::vector<Fit>& cells, const Eigen::ArrayXd& best) {
+  Law flat;
   flat.slope_db = 0.0;
   Bins unaimed = bins;
   unaimed.lobe.beam_width_deg = 0.0;
   const double without = misfit_at(unaimed, flat, cells.front().p_WT).cost;
   const auto count = static_cast<double>(best.size());
-  const double independent = count / correlation_factor(bins.spans, best);
+  const double half = 0.5 * count / correlation_factor(bins.spans, best);
   const double least = count * kLeastNoise * kLeastNoise;
-  double sum = 0.0;
-  for (const Fit& cell : cells) {
-    sum += std::pow(std::max(without, least) / std::max(cell.cost, least), 0.5 * independent);
+  Eigen::ArrayXd logs(static_cast<Eigen::Index>(cells.size()));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    logs[static_cast<Eigen::Index>(i)] =
+        half * std::log(std::max(without, least) / std::max(cells[i].cost, least));
   }
-  return std::log(sum / static_cast<double>(cells.size()));
+  const double most = logs.maxCoeff();
+  return most + std::log((logs - most).exp().mean());
 }
 
 /// Where in a bin its reads were is not known any more: a tag among them is no better known.
@@ -459,7 +461,7 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                    "{:.1f} dB",
                                    misfit_db, options.max_misfit_db));
   }
-  if (log_evidence(bins, law, cells, best) < kLeastLogEvidence) {
+  if (log_evidence(bins, cells, best) < kLeastLogEvidence) {
     return not_located(std::move(estimate),
                        "RSSI goes by no law of distance that chance would not make as well");
   }

@@ -97,6 +97,7 @@ TEST(AtRest, TagsAtRestStay) {
       Diagnostics diagnostics;
       const std::size_t before =
           located(find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics));
+      EXPECT_GT(before, 0U) << method << reflected;
       const std::size_t after = located(judged(method, hall, diagnostics));
       // Of wrong places in front of mirrors some are refused.
       EXPECT_GE(after, reflected ? before - before / 10 : before) << method << reflected;

@@ -49,6 +49,28 @@ Scene make_scene(const Strength& strength, std::uint64_t seed, int tags = 8) {
   return scene;
 }
 
+/// Random RSSI of all tags but those that are references.
+TEST(Trilateration, RssiThatSaysNothingLocatesNothing) {
+  for (const int references : {0, 3}) {
+    Scene scene = make_scene({}, 7, 8);
+    Rng rng(8);
+    int number = 0;
+    for (auto& [tag, samples] : scene.problem.samples) {
+      if (number++ < references) {
+        scene.problem.reference_tags[tag] = scene.truth.at(tag);
+        continue;
+      }
+      for (PhaseSample& s : samples["a"]) s.rssi_dbm = std::round(uniform(rng, -75.0, -35.0));
+    }
+    Diagnostics diagnostics;
+    for (const TagEstimate& estimate :
+         trilateration_method().locate(scene.problem, 1, diagnostics).estimates) {
+      if (scene.problem.reference_tags.count(estimate.tag) > 0) continue;
+      EXPECT_EQ(estimate.verdict, Verdict::kNotLocated) << references << " " << estimate.tag;
+    }
+  }
+}
+
 Tally judge_scene(const TrilaterationOptions& options, const Scene& scene) {
   Diagnostics diagnostics;
   Tally tally;
