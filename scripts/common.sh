@@ -14,6 +14,10 @@ become_owner() {
   if is_for_owner; then exec runuser --user "$(stat --format=%U .)" -- "$@"; fi
 }
 
+# What build/release is configured with wherever tests are built in it; only one set, as another would
+# build everything anew.
+with_tests=(-DTAGFIELD_TESTS=ON -DTAGFIELD_BENCHMARKS=ON -DTAGFIELD_GZ=ON)
+
 # build [TARGET…]: configures if need be and builds build/release.
 build() {
   mkdir -p build

@@ -101,11 +101,18 @@ def changed_since(commit, top):
 
 
 def including(header, sources, top):
-    """The source that includes it, best that of its own name; None if none does."""
+    """The source that includes it, best that of its own name, or that includes a header that does; None
+    if none does."""
     users = [path for path in sorted(sources)
              if header in HEADER.findall(pathlib.Path(path).read_text(encoding="utf-8"))]
     own = [path for path in users if pathlib.Path(path).stem == pathlib.Path(header).stem]
-    return (own or users or [None])[0]
+    if users:
+        return (own or users)[0]
+    through = [str(path.relative_to(top)) for folder in ("tagfield", "adapters", "apps")
+               for path in sorted((top / folder).rglob("*.h"))
+               if header in HEADER.findall(path.read_text(encoding="utf-8"))]
+    found = (including(other, sources, top) for other in through if other != header)
+    return next(filter(None, found), None)
 
 
 def those_of(sources, names, top):
