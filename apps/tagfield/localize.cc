@@ -71,6 +71,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   configured(method, told);
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
+  options.known.map_error = map_error_of(arguments, poses);
   return options;
 }
 

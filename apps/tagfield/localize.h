@@ -29,6 +29,8 @@ struct LocalizeArguments {
   std::optional<double> pose_sigma_m;
   std::optional<double> pose_yaw_sigma_deg;
   std::optional<double> pose_time_constant_s;
+  std::optional<double> map_sigma_m;
+  std::optional<double> map_yaw_sigma_deg;
   std::string calibration;  ///< Profile, or "".
   std::optional<double> tag_height_m;
   std::vector<std::string> settings;  ///< "KEY=VALUE", of the method.

@@ -123,6 +123,17 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "How long the poses' error takes to change [s] (default 5)")
       ->check(CLI::PositiveNumber)
       ->needs(sigma);
+  CLI::Option* map_sigma =
+      command
+          .add_option("--map-sigma", arguments.map_sigma_m,
+                      "Error of the map that the poses are on, as a whole: standard deviation of "
+                      "its shift in x and y [m]")
+          ->check(CLI::Range(0.0, kMostLength_m));
+  command
+      .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
+                  "Likewise of its turn about the first pose [deg]")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(map_sigma);
 }
 
 void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
@@ -135,6 +146,15 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
     known.reference_tags = read_tag_places_csv(arguments.references_file);
   }
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
+}
+
+std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses) {
+  if (!arguments.map_sigma_m || poses == "true") return std::nullopt;
+  const double sigma_m = *arguments.map_sigma_m;
+  const double sigma_rad = radians(arguments.map_yaw_sigma_deg.value_or(0.0));
+  MapError error;
+  error.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
+  return error;
 }
 
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,

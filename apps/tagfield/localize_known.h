@@ -27,4 +27,7 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
                                             const Scenario* scenario, const std::string& poses);
 
+/// Likewise of the map that they are on; none where nothing is told, and for true poses.
+std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses);
+
 }  // namespace tagfield

@@ -162,6 +162,12 @@ LocalizationOptions localization_options(const Scenario& scenario, int threads) 
   return options;
 }
 
+std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run) {
+  if (!run.navigation || !run.navigation->survey) return std::nullopt;
+  return MapError{position_of(mapping_robot(scenario).start),
+                  run.navigation->survey->start_covariance};
+}
+
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world) {
   if (scenario.pose.source == PoseSource::kSlam) {
@@ -187,7 +193,8 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 }
 
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
-  const LocalizationOptions options = localization_options(scenario, threads);
+  LocalizationOptions options = localization_options(scenario, threads);
+  options.known.map_error = map_error_of(scenario, run);
   const Recording& recording = run.recording;
   LocalizationResult result =
       located(scenario, recording, recording.believed_poses, options, diagnostics);
@@ -200,6 +207,7 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
   if (scenario.pose.source == PoseSource::kTrue) return;
   LocalizationOptions exact = options;
   exact.known.pose_error = PoseErrorModel{};
+  exact.known.map_error.reset();
   result = located(scenario, recording, recording.truth.antenna_poses, exact, diagnostics);
   run.errors_with_true_pose_m = errors_of(outcomes_of(run, options, result.estimates));
 }

@@ -47,6 +47,9 @@ struct SeedRun {
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world = nullptr);
 
+/// Of the map that the run's robot has made of the world; none where it was given or not needed.
+std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run);
+
 /// Locates the tags from the run's reads and believed poses, and fills in all that comes of it.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tagfield {
 namespace {
@@ -91,6 +92,12 @@ TagEstimate not_located(TagEstimate estimate, const std::string& why) {
   estimate.reason = fmt::format("cannot localize: {}", why);
   estimate.candidates.clear();
   return estimate;
+}
+
+void add_error(const Eigen::Matrix2d& covariance, Candidate& candidate) {
+  if (candidate.covariance) candidate.covariance->topLeftCorner<2, 2>() += covariance;
+  candidate.expected_error_m =
+      std::hypot(candidate.expected_error_m, std::sqrt(covariance.trace()));
 }
 
 void judge(const EstimateLimits& limits, TagEstimate& estimate) {

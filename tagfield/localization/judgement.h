@@ -44,6 +44,10 @@ TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
 /// The estimate without candidates, with the reason "cannot localize: WHY".
 TagEstimate not_located(TagEstimate estimate, const std::string& why);
 
+/// Adds an error of the place that the candidate does not know of, of this covariance in x and y
+/// [m²].
+void add_error(const Eigen::Matrix2d& covariance, Candidate& candidate);
+
 /// Sets verdict and reason by the candidates, of which there is at least one, best first.
 void judge(const EstimateLimits& limits, TagEstimate& estimate);
 

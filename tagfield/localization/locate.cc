@@ -13,6 +13,7 @@
 #include "tagfield/localization/holograms/sar.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/joint/multipath.h"
+#include "tagfield/localization/map_error.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
@@ -82,6 +83,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
     refuse_mixtures_by_phase(problem, result);
   }
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
+  add_map_error(problem, result);
   keep_within_area(problem, result.estimates);
   return result;
 }

@@ -247,12 +247,7 @@ void span_line(const LocalizationProblem& problem, LocalizationResult& result) {
     if (squares.trace() <= best.expected_error_m * best.expected_error_m) return;
     // Some methods have wider limits of their own.
     const bool was_within = best.expected_error_m <= problem.limits.max_expected_error_m;
-    if (best.covariance) {
-      best.covariance->topLeftCorner<2, 2>() += squares;
-      best.expected_error_m = std::sqrt(best.covariance->topLeftCorner<2, 2>().trace());
-    } else {
-      best.expected_error_m = std::hypot(best.expected_error_m, std::sqrt(squares.trace()));
-    }
+    add_error(squares, best);
     if (was_within) judge(problem.limits, estimate);
   });
 }

@@ -23,6 +23,14 @@ void check(const PoseErrorModel& model) {
   require_positive("time_constant_s", model.time_constant_s);
 }
 
+void check(const MapError& error) {
+  const bool has_place = !error.origin_W || error.origin_W->allFinite();
+  if (!has_place || !error.covariance.allFinite() ||
+      (error.covariance.diagonal().array() < 0.0).any()) {
+    throw Error("the map's error must be finite, and its variances at least 0");
+  }
+}
+
 void check(const KnownBeforehand& known) {
   if (known.heights.of_all) require_finite(*known.heights.of_all, "the height of all tags");
   for (const auto& [tag, height] : known.heights.of_tag) {
@@ -35,6 +43,7 @@ void check(const KnownBeforehand& known) {
     require_finite(offset.offset_rad, "the offset of antenna '" + offset.antenna + "'");
   }
   if (known.pose_error) check(*known.pose_error);
+  if (known.map_error) check(*known.map_error);
   require_positive("max_expected_error_m", known.limits.max_expected_error_m);
   require_positive("max_rms_m", known.limits.max_rms_m);
 }
@@ -89,6 +98,21 @@ double mean_antenna_height(const SamplesOfTag& samples) {
   return 0.0;
 }
 
+/// With an origin; none where there is no pose.
+std::optional<MapError> map_error_of(const KnownBeforehand& known,
+                                     const std::map<std::string, BelievedTrack>& tracks) {
+  std::optional<MapError> error = known.map_error;
+  if (!error || error->origin_W) return error;
+  const StampedPose* first = nullptr;
+  for (const auto& [antenna, track] : tracks) {
+    if (track.X_WA.empty()) continue;
+    if (first == nullptr || track.X_WA.front().stamp < first->stamp) first = &track.X_WA.front();
+  }
+  if (first == nullptr) return std::nullopt;
+  error->origin_W = first->X_WB.translation.head<2>();
+  return error;
+}
+
 std::optional<double> known_height(const LocalizationProblem& problem, const std::string& tag) {
   const auto known = problem.heights.of_tag.find(tag);
   if (known != problem.heights.of_tag.end()) return known->second;
@@ -120,6 +144,7 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
   problem.heights = known.heights;
   problem.reference_tags = known.reference_tags;
   problem.pose_error = known.pose_error;
+  problem.map_error = map_error_of(known, problem.tracks);
   problem.limits = known.limits;
   problem.trace = known.trace;
   return problem;

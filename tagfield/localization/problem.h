@@ -41,6 +41,13 @@ struct PoseErrorModel {
   double time_constant_s = 5.0;  ///< τ > 0.
 };
 
+/// Error of the map that the believed poses are on, as a whole: a shift and a turn about the
+/// origin, the same for all poses. For a map that a robot made the origin is where it began.
+struct MapError {
+  std::optional<Eigen::Vector2d> origin_W;               ///< [m]; none for that of the first pose.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y, yaw [m², m·rad, rad²].
+};
+
 /// Where an antenna was believed to be.
 struct BelievedTrack {
   Trajectory X_WA;  ///< In rising order of time.
@@ -88,6 +95,7 @@ struct LocalizationProblem {
   std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known places [m, world].
   std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
   std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
+  std::optional<MapError> map_error;         ///< Likewise; with an origin.
   bool has_phases = true;                    ///< False where they are all one: the reads have none.
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
   TagArea area;                              ///< Where tags can be.
@@ -104,6 +112,7 @@ struct KnownBeforehand {
   std::map<std::string, Eigen::Vector3d> reference_tags;
   std::vector<KnownOffset> offsets;
   std::optional<PoseErrorModel> pose_error;
+  std::optional<MapError> map_error;
   double max_pose_gap_s = 0.5;  ///< Reads between poses further apart than this are left out.
   /// Whether phases are known but for half a turn; where not told, the reads tell it.
   std::optional<bool> half_turns;

@@ -52,6 +52,18 @@ PlanarPose drawn_near(const ScanMatch& match, RandomStream& stream) {
   return {match.pose_M.x + d.x(), match.pose_M.y + d.y(), match.pose_M.yaw + d.z()};
 }
 
+/// The mean of poses that are near each other.
+PlanarPose mean_of(const PlanarPose* poses, std::size_t count) {
+  const PlanarPose& first = poses[0];
+  PlanarPose sum;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlanarPose off = between(first, poses[i]);
+    sum = {sum.x + off.x, sum.y + off.y, sum.yaw + off.yaw};
+  }
+  const auto n = static_cast<double>(count);
+  return compose(first, {sum.x / n, sum.y / n, sum.yaw / n});
+}
+
 /// Within what wheels jitter at rest.
 bool stands(const PlanarPose& increment) {
   constexpr double kStill = 1e-3;  // [m, rad]
@@ -84,6 +96,8 @@ bool GridMapper::update(const LaserScan& scan, const PlanarPose& odometry) {
   const std::vector<Eigen::Vector2d> to_match = thinned(points.ends_R, settings_.point_spacing_m);
   parallel_for(particles_.size(), settings_.threads,
                [&](std::size_t i) { advance(particles_[i], i, increment, to_match, points); });
+  if (still_at_start_ && !moved) ++start_scans_;
+  still_at_start_ = still_at_start_ && !moved;
   scans_.push_back(points);
   odometry_ = odometry;
   ++updates_;
@@ -124,8 +138,9 @@ void GridMapper::polish(int sweeps) {
                            polishing(settings_.match))
                     .pose_M;
     });
-    // What is common to all is not seen by the map: the first scan says where it is.
-    const PlanarPose back = compose(first, between(path.front(), {}));
+    // What is common to all is not seen by the map: the scans of the start, all made in one place,
+    // say where it is, and more of them say it better.
+    const PlanarPose back = compose(first, between(mean_of(path.data(), start_scans_), {}));
     HitGrid map(settings_.resolution_m);
     for (std::size_t i = 0; i < path.size(); ++i) {
       path[i] = compose(back, path[i]);
@@ -174,6 +189,15 @@ void GridMapper::resample() {
 const GridMapper::Particle& GridMapper::best() const {
   return *std::max_element(particles_.begin(), particles_.end(),
                            [](const Particle& a, const Particle& b) { return a.score < b.score; });
+}
+
+Eigen::Matrix3d GridMapper::start_covariance() const {
+  if (updates_ == 0) return Eigen::Matrix3d::Zero();
+  const PlanarPose& start_M = best().path_M.front();
+  const auto points = thinned(scans_.front().ends_R, settings_.point_spacing_m);
+  return match_scan(best().map, points, start_M, start_M, loose_information(),
+                    polishing(settings_.match))
+      .information.inverse();
 }
 
 PlanarPose GridMapper::pose_at(const PlanarPose& odometry) const {

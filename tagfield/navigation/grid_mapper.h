@@ -45,9 +45,14 @@ class GridMapper {
 
   /// Goes over the whole drive once more: leaves the best particle alone, and fits each of its
   /// scans anew to the map that all of them make, `sweeps` times. Early scans then profit from late
-  /// ones, which a filter's don't. The first scan stays where it is. To be done when the drive is
-  /// over; it can go on afterwards.
+  /// ones, which a filter's don't. The scans made at the start stay where they are in the mean. To
+  /// be done when the drive is over; it can go on afterwards.
   void polish(int sweeps = 4);
+
+  /// Covariance of x, y, yaw of the start on the map as it is now [m², m·rad, rad²]: of the match
+  /// of the first scan, which is by how much the map may be off as a whole. Zero before the first
+  /// scan.
+  [[nodiscard]] Eigen::Matrix3d start_covariance() const;
 
   /// Of the best particle, moved on by what the odometry has told since its last scan.
   [[nodiscard]] PlanarPose pose_at(const PlanarPose& odometry) const;
@@ -81,6 +86,8 @@ class GridMapper {
   std::vector<ScanPoints> scans_;  ///< All that were entered.
   PlanarPose odometry_;            ///< At the last entered scan.
   std::uint64_t updates_ = 0;
+  std::size_t start_scans_ = 0;  ///< Those entered before it first moved.
+  bool still_at_start_ = true;
 };
 
 }  // namespace tagfield

@@ -442,11 +442,12 @@ bool MonteCarloLocalizer::Impl::update(const LaserScan& scan, const PlanarPose& 
 
 MonteCarloLocalizer::MonteCarloLocalizer(const OccupancyGrid& map,
                                          const LocalizerSettings& settings,
-                                         const RigidTransform& X_RL, std::uint64_t seed) {
+                                         const RigidTransform& X_RL, std::uint64_t seed,
+                                         const HitGrid* walls) {
   require_usable(map);
-  impl_ = std::make_unique<Impl>(Impl{settings, X_RL, seed, map, walls_of(map), wall_distances(map),
-                                      LikelihoodField(map, settings.sigma_hit_m),
-                                      LikelihoodField(map, settings.search_sigma_m)});
+  impl_ = std::make_unique<Impl>(Impl{
+      settings, X_RL, seed, map, walls != nullptr ? *walls : walls_of(map), wall_distances(map),
+      LikelihoodField(map, settings.sigma_hit_m), LikelihoodField(map, settings.search_sigma_m)});
   impl_->search();
 }
 

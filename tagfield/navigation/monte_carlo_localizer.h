@@ -12,6 +12,7 @@
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/motion/odometry_noise.h"
 #include "tagfield/motion/unicycle.h"
+#include "tagfield/navigation/hit_grid.h"
 #include "tagfield/navigation/scan_matcher.h"
 #include "tagfield/poses/rigid_transform.h"
 
@@ -53,9 +54,12 @@ struct PoseEstimate {
 /// again. docs/localization_on_map.md has the method.
 class MonteCarloLocalizer {
  public:
-  /// Throws Error on a map without a free or without an occupied cell.
+  /// `walls`: where in their cells the walls are, as mapping found them; null where nobody knows,
+  /// so that they are taken to be in the cells' middles. Throws Error on a map without a free or
+  /// without an occupied cell.
   MonteCarloLocalizer(const OccupancyGrid& map, const LocalizerSettings& settings,
-                      const RigidTransform& X_RL, std::uint64_t seed);
+                      const RigidTransform& X_RL, std::uint64_t seed,
+                      const HitGrid* walls = nullptr);
   ~MonteCarloLocalizer();
   MonteCarloLocalizer(MonteCarloLocalizer&&) noexcept;
   MonteCarloLocalizer& operator=(MonteCarloLocalizer&&) noexcept;

@@ -59,7 +59,7 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell) {
       const HitCell& near = map.at(x, y);
       if (!near.is_occupied()) continue;
       const Eigen::Vector2d p = map.mean_of(x, y, near) - middle;
-      const double w = std::min<double>(near.hits, 20.0);
+      const auto w = static_cast<double>(near.hits);
       sum += w * p;
       squares += w * p * p.transpose();
       weight += w;

@@ -23,7 +23,7 @@ SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunCont
   const RobotSpec& robot = mapping_robot(scenario);
   if (world.given_map) {
     navigation.map = *world.given_map;
-    return {&world, &navigation.map, robot.start, placed_at(robot.start)};
+    return {&world, &navigation.map, nullptr, robot.start, placed_at(robot.start)};
   }
   const auto on_progress = [&](double simulated_s) {
     if (!control.on_progress) return;
@@ -32,7 +32,8 @@ SelfDriving find_map(const Scenario& scenario, std::uint64_t seed, const RunCont
   navigation.survey = survey(navigation_of(scenario), world, robot, scenario.time_step_s, seed,
                              control.threads, control.stop, on_progress);
   navigation.map = navigation.survey->map;
-  return {&world, &navigation.map, navigation.survey->true_end_W, navigation.survey->end};
+  const Survey& made = *navigation.survey;
+  return {&world, &navigation.map, &*made.walls, made.true_end_W, made.end};
 }
 
 /// Counts how often the robots come to touch anything, and how near they come.

@@ -60,13 +60,13 @@ std::vector<PlanarPose> goals_at(const PlanarPose& start,
 }
 
 SelfDriver::SelfDriver(const NavigationSpec& navigation, double speed_m_s,
-                       const NavigationWorld& world, const OccupancyGrid& map,
+                       const NavigationWorld& world, const OccupancyGrid& map, const HitGrid* walls,
                        const std::optional<PoseEstimate>& start,
                        const std::vector<PlanarPose>& goals_M, std::uint64_t seed,
                        std::uint64_t key)
     : settings_(with_speed(navigation.driver, speed_m_s)),
       senses_(world.laser, navigation.laser, navigation.odometry, seed, key),
-      localizer_(map, navigation.localizer, navigation.laser.X_RL, seed ^ key),
+      localizer_(map, navigation.localizer, navigation.laser.X_RL, seed ^ key, walls),
       driver_(settings_, navigation.laser.X_RL),
       wander_(settings_, navigation.laser.X_RL),
       goals_(goals_M) {

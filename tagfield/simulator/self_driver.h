@@ -34,10 +34,11 @@ class SelfDriver {
   static constexpr double kSearchLimit_s = 300.0;
 
   /// Drives to `goals_M` one after another, at `speed_m_s`. Without a `start` it may be anywhere on
-  /// the map.
+  /// the map. `walls`: as MonteCarloLocalizer takes them.
   SelfDriver(const NavigationSpec& navigation, double speed_m_s, const NavigationWorld& world,
-             const OccupancyGrid& map, const std::optional<PoseEstimate>& start,
-             const std::vector<PlanarPose>& goals_M, std::uint64_t seed, std::uint64_t key);
+             const OccupancyGrid& map, const HitGrid* walls,
+             const std::optional<PoseEstimate>& start, const std::vector<PlanarPose>& goals_M,
+             std::uint64_t seed, std::uint64_t key);
 
   /// Decides the velocity for the step that begins at `now` with the robot at `begin_W`, and lets
   /// the robot sense what it senses in that step.

@@ -84,6 +84,8 @@ class Surveyor {
   Survey result() {
     mapper_.polish(kPolishing);
     survey_.map = mapper_.map();
+    survey_.walls = mapper_.hits();
+    survey_.start_covariance = mapper_.start_covariance();
     survey_.end.pose_M = mapper_.pose_at(senses_.odometry(senses_.present_seconds()));
     survey_.end.covariance = Eigen::Vector3d(kEndSigma_m * kEndSigma_m, kEndSigma_m * kEndSigma_m,
                                              kEndSigma_rad * kEndSigma_rad)

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "tagfield/map/occupancy_grid.h"
@@ -17,6 +18,9 @@ namespace tagfield {
 
 struct Survey {
   OccupancyGrid map;
+  std::optional<HitGrid> walls;  ///< Where in the map's cells they are.
+  /// Of x, y, yaw of the start on the map [m², m·rad, rad²], as mapping tells it.
+  Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
   PoseEstimate end;  ///< Where the robot believes to be in the end: near to its start.
   PlanarPose true_end_W;
   std::vector<StampedPose> true_path;      ///< X_WR at 10 Hz,

@@ -82,14 +82,26 @@ MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
   return run;
 }
 
-Recording recorded(const PreparedCondition& condition, std::uint64_t seed,
-                   const RunControl& control, bool& complete) {
+struct Recorded {
+  Recording recording;
+  std::optional<MapError> map_error;
+  bool complete = false;
+};
+
+Recorded recorded(const PreparedCondition& condition, std::uint64_t seed,
+                  const RunControl& control) {
   const NavigationWorld* const world = condition.world ? &*condition.world : nullptr;
   SeedRun run = simulate(condition.scenario, seed, control, world);
-  complete = run.complete;
   const std::optional<ReadLoss>& lose = condition.condition.lose;
   if (lose) run.recording.reads = without_lost(run.recording.reads, *lose, seed);
-  return std::move(run.recording);
+  const std::optional<MapError> map_error = map_error_of(condition.scenario, run);
+  return {std::move(run.recording), map_error, run.complete};
+}
+
+/// With what the run told of its map.
+KnownBeforehand with_map(KnownBeforehand known, const std::optional<MapError>& map_error) {
+  known.map_error = map_error;
+  return known;
 }
 
 }  // namespace
@@ -97,15 +109,17 @@ Recording recorded(const PreparedCondition& condition, std::uint64_t seed,
 std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& condition,
                                                     std::uint64_t seed, const RunControl& control,
                                                     Diagnostics& diagnostics) {
-  bool complete = false;
-  const Recording recording = recorded(condition, seed, control, complete);
-  if (!complete) return std::nullopt;
-  Given shared(condition, recording, condition.known, diagnostics);
+  const Recorded made = recorded(condition, seed, control);
+  if (!made.complete) return std::nullopt;
+  const Recording& recording = made.recording;
+  Given shared(condition, recording, with_map(condition.known, made.map_error), diagnostics);
   std::vector<MethodRun> runs;
   for (const PreparedMethod& method : condition.methods) {
     if (stopped(control)) return std::nullopt;
     std::optional<Given> own;
-    if (method.known) own.emplace(condition, recording, *method.known, diagnostics);
+    if (method.known) {
+      own.emplace(condition, recording, with_map(*method.known, made.map_error), diagnostics);
+    }
     runs.push_back(
         run_method(method, condition.scenario, recording, own ? *own : shared, diagnostics));
     runs.back().seed = seed;

@@ -57,9 +57,9 @@ Robot self_driving_robot(const Scenario& scenario, RobotSpec robot, const SelfDr
     std::optional<PlanarPose>& to_W = robot.carried[i].to_W;
     if (!to_W) to_W = drawn_place(world, robot, seed, PlaceDraw::kCarried, i);
   }
-  auto driver =
-      std::make_unique<SelfDriver>(navigation_of(scenario), robot.style.speed_m_s, world,
-                                   *driving.map, start, goals, seed, stream_key(robot.name));
+  auto driver = std::make_unique<SelfDriver>(navigation_of(scenario), robot.style.speed_m_s, world,
+                                             *driving.map, driving.walls, start, goals, seed,
+                                             stream_key(robot.name));
   return {robot, std::move(driver), seed};
 }
 

@@ -16,8 +16,9 @@ namespace tagfield {
 struct SelfDriving {
   const NavigationWorld* world = nullptr;
   const OccupancyGrid* map = nullptr;
-  PlanarPose true_start;  ///< Of the robot that mapped; others begin where they are put.
-  PoseEstimate start;     ///< What that robot believes of it, where it is told.
+  const HitGrid* walls = nullptr;  ///< Where in the map's cells they are; null: nobody knows.
+  PlanarPose true_start;           ///< Of the robot that mapped; others begin where they are put.
+  PoseEstimate start;              ///< What that robot believes of it, where it is told.
 };
 
 /// What a robot believes that was put at `pose` by hand: within 2 cm and 0.6°, one sigma.
