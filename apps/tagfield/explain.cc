@@ -26,9 +26,22 @@ LinkExplanation explain_moment(const Scenario& scenario, const ExplainArguments&
   const Time time = time_from_seconds(arguments.time_s);
   try {
     const Simulation simulation = simulation_at(scenario, seed, time);
-    return explain_link(scenario,
-                        {antenna, tag, time, simulation.antenna_pose(antenna, time),
-                         simulation.tag_pose(tag, time), seed, simulation.bodies_at(time)});
+    LinkQuestion question{antenna,
+                          tag,
+                          time,
+                          simulation.antenna_pose(antenna, time),
+                          simulation.tag_pose(tag, time),
+                          seed,
+                          simulation.bodies_at(time)};
+    for (const TagSpec& other : scenario.tags) {
+      if (&other == &tag || !absence_of(other, time).empty()) continue;
+      question.other_tags.push_back({other, simulation.tag_pose(other, time)});
+    }
+    for (const AntennaSpec& other : scenario.antennas) {
+      if (&other == &antenna) continue;
+      question.other_antennas.push_back({other, simulation.antenna_pose(other, time)});
+    }
+    return explain_link(scenario, question);
   } catch (const Error& error) {
     throw Error(fmt::format("explain: {}", error.what()));
   }

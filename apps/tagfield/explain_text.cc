@@ -67,6 +67,38 @@ std::string receiver(const PhysicalLink& link) {
   return text;
 }
 
+std::string interference_text(const PhysicalLink& link) {
+  if (!link.interference) return "";
+  const LinkInterference& all = *link.interference;
+  if (all.by.empty()) return "\nother readers\n  none sends at this moment\n";
+  std::string text = "\nother readers\n";
+  for (const InterferingReader& one : all.by) {
+    text += fmt::format("  {} ({}), carrier {:+.3f} MHz off", one.reader, one.antenna,
+                        one.offset_hz * 1e-6);
+    if (one.time_share < 1.0) text += fmt::format(", {:.0f} % of its time", 100.0 * one.time_share);
+    text += "\n";
+    text += row("  at the reader", without_unit(one.received_dbm), "dBm");
+    text += row("  of it with the reply", without_unit(one.in_replies_dbm), "dBm");
+    text += row("  at the chip", without_unit(one.at_tag_dbm), "dBm");
+  }
+  text += row("receiver's noise", without_unit(all.noise_dbm), "dBm");
+  text += row("noise and interference", without_unit(all.total_dbm), "dBm");
+  text += row("signal to both (SINR)", without_unit(all.sinr_db), "dB");
+  text += row("the reader needs", without_unit(all.required_sinr_db), "dB");
+  text += row("own carrier over others at the chip", without_unit(all.capture_db), "dB");
+  return text + row("the chip needs", without_unit(all.required_capture_db), "dB");
+}
+
+std::string near_tags_text(const PhysicalLink& link) {
+  if (link.near_tags.empty()) return "";
+  std::string text = "\ntags nearby, and what each would do alone\n";
+  for (const NearTag& near : link.near_tags) {
+    text += row(fmt::format("{}, {:.3f} m", near.id, near.distance_m), without_unit(near.alone_db),
+                "dB");
+  }
+  return text;
+}
+
 std::string met(const PathExplanation& path) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
@@ -208,6 +240,34 @@ Json to_json(const PaperLink& link) {
           {"rssi_dbm", link.rssi_dbm}};
 }
 
+Json to_json(const LinkInterference& all) {
+  Json by = Json::array();
+  for (const InterferingReader& one : all.by) {
+    by.push_back({{"reader", one.reader},
+                  {"antenna", one.antenna},
+                  {"offset_hz", one.offset_hz},
+                  {"time_share", one.time_share},
+                  {"received_dbm", power(one.received_dbm)},
+                  {"in_replies_dbm", power(one.in_replies_dbm)},
+                  {"at_tag_dbm", power(one.at_tag_dbm)}});
+  }
+  return {{"by", by},
+          {"noise_dbm", all.noise_dbm},
+          {"noise_and_interference_dbm", all.total_dbm},
+          {"sinr_db", power(all.sinr_db)},
+          {"required_sinr_db", all.required_sinr_db},
+          {"capture_db", all.by.empty() ? Json(nullptr) : power(all.capture_db)},
+          {"required_capture_db", all.required_capture_db}};
+}
+
+Json to_json(const std::vector<NearTag>& tags) {
+  Json all = Json::array();
+  for (const NearTag& near : tags) {
+    all.push_back({{"tag", near.id}, {"distance_m", near.distance_m}, {"alone_db", near.alone_db}});
+  }
+  return all;
+}
+
 Json to_json(const PhysicalLink& link) {
   Json json = {{"tag_dbm", power(link.tag_dbm)},
                {"tag_sensitivity_dbm", link.tag_sensitivity_dbm},
@@ -226,6 +286,8 @@ Json to_json(const PhysicalLink& link) {
   }
   json["to_tag"] = to_json(link.to_tag);
   json["to_reader"] = to_json(link.to_reader);
+  json["near_tags"] = to_json(link.near_tags);
+  json["interference"] = link.interference ? to_json(*link.interference) : Json(nullptr);
   json["materials"] = to_json(link.materials);
   json["paths"] = Json::array();
   for (const PathExplanation& path : link.paths) json["paths"].push_back(to_json(path));
@@ -245,7 +307,8 @@ std::string to_text(const LinkExplanation& link) {
                  "the chip needs", physical.tag_sensitivity_dbm);
   text += budget("back to the reader", physical.to_reader, "power at the reader",
                  physical.reply_dbm, "the reader needs", physical.reader_sensitivity_dbm);
-  return text + receiver(physical) + paths_text(physical.paths) + materials_text(physical);
+  text += receiver(physical) + interference_text(physical) + near_tags_text(physical);
+  return text + paths_text(physical.paths) + materials_text(physical);
 }
 
 Json to_json(const LinkExplanation& link) {

@@ -10,6 +10,8 @@ bool acts(const RadioModel& model, const EffectSwitch& effect) {
   if (!(model.effects.*effect.on)) return false;
   if (effect.on == &RadioEffects::reflections) return model.reflection_order > 0;
   if (effect.on == &RadioEffects::diffraction) return model.diffraction;
+  if (effect.on == &RadioEffects::interference) return model.interference;
+  if (effect.on == &RadioEffects::coupling) return model.tag_coupling;
   if (effect.on == &RadioEffects::diffuse) return model.diffuse_k_db.has_value();
   if (effect.on == &RadioEffects::inventory) return model.gen2.has_value();
   if (effect.on == &RadioEffects::hopping) return model.plan.carriers_hz.size() > 1;

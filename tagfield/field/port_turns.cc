@@ -75,6 +75,32 @@ std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time)
   return first;
 }
 
+std::vector<SendingAntenna> others_sending(const std::vector<AntennaParameters>& antennas,
+                                           const AntennaParameters& antenna, Time time) {
+  const std::vector<PortCycle> cycles = port_cycles(antennas);
+  const auto is_on_turn = [&](const AntennaParameters& other) {
+    return std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
+      return antenna_on_turn(cycle, time) == other.name;
+    });
+  };
+  const auto without_turns = [&](const std::string& reader) {
+    return std::count_if(antennas.begin(), antennas.end(), [&](const AntennaParameters& other) {
+      return other.reader == reader && inventory_of(other) == nullptr;
+    });
+  };
+  std::vector<SendingAntenna> sending;
+  for (std::size_t i = 0; i < antennas.size(); ++i) {
+    const AntennaParameters& other = antennas[i];
+    if (!may_send_at_once(antenna, other)) continue;
+    if (inventory_of(other) == nullptr) {
+      sending.push_back({i, 1.0 / static_cast<double>(without_turns(other.reader))});
+    } else if (is_on_turn(other)) {
+      sending.push_back({i, 1.0});
+    }
+  }
+  return sending;
+}
+
 std::size_t reader_number(const std::vector<AntennaParameters>& antennas,
                           const std::string& reader) {
   std::vector<std::string> readers;

@@ -35,6 +35,17 @@ std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna
 /// When the first turn after `time` ends; none where nobody takes turns.
 std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time);
 
+/// An antenna that sends.
+struct SendingAntenna {
+  std::size_t number = 0;   ///< Among those told.
+  double time_share = 1.0;  ///< Of its time.
+};
+
+/// Those of `antennas` that send at `time` while `antenna` does, of other readers: whose turn it
+/// is, or each for an equal share of its reader's time where that takes no inventory.
+std::vector<SendingAntenna> others_sending(const std::vector<AntennaParameters>& antennas,
+                                           const AntennaParameters& antenna, Time time);
+
 /// Number of a reader among those of `antennas`, in the order in which they come: its turn in
 /// channel_at(). Their count where it is none of them.
 std::size_t reader_number(const std::vector<AntennaParameters>& antennas,

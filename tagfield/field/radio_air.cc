@@ -61,6 +61,8 @@ struct AirAntenna {
   bool is_over = false;                    ///< It never updates again.
   std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
   std::shared_ptr<const ImageSet> receiver_images;
+  std::optional<RigidTransform> X_WA_sending;  ///< As others see it; none before its first update.
+  double interference_mw = 0.0;                ///< Since the last update, in its tags' replies.
 
   [[nodiscard]] const RadioModel& model() const { return *physical(parameters); }
   [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
@@ -229,11 +231,20 @@ std::optional<InventoryCounts> RadioAir::counts(const std::string& name) const {
   return std::nullopt;
 }
 
+void RadioAir::expect(const std::string& name, const RigidTransform& X_WA) {
+  if (!is_finite(X_WA)) return;
+  for (const auto& antenna : antennas_) {
+    if (antenna->parameters.name == name) antenna->X_WA_sending = X_WA;
+  }
+}
+
 void RadioAir::update(const std::string& name, const RigidTransform& X_WA, Time now,
                       const TagPopulation& tags, std::vector<TagReply>& replies) {
   replies.clear();
   AirAntenna& antenna = antenna_named(name);
   if (!is_finite(X_WA)) return;
+  antenna.X_WA_sending = X_WA;
+  couplings_seen_ = false;
   if (!ran_to_ || now > *ran_to_) {
     remember_places(now, tags);
     run_inventories(now, tags);
@@ -316,9 +327,11 @@ void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Tim
     view.bodies = bodies_at(antenna.model(), read.stamp);
     const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
     if (images == nullptr) add_images(antenna, view);
-    const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
+    TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
+    surround(tag, read.slot, read.stamp, tags, antenna, view);
     replies.push_back(report(antenna.model(), antenna.port, carrier, link_of(view, tag, paths_),
-                             tag, velocity - tag_velocity(read.slot), read.stamp));
+                             tag, velocity - tag_velocity(read.slot), read.stamp,
+                             antenna.interference_mw));
     replies.back().slot = read.slot;
     replies.back().distance_m = (read.X_WT.translation - X_WA_then.translation).norm();
   }
@@ -345,7 +358,65 @@ TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopul
   TagEnd tag{tags.model(slot), tags.pose(slot), tags.key(slot)};
   if (tags.size() <= kFewTags) tag.images = tag_images(view, slot, tag.X_WT);
   if (tag.images == nullptr && !view.images) add_images(antenna, view);
+  surround(tag, slot, *ran_to_, tags, antenna, view);
   return tag;
+}
+
+/// What couples with the tag, where its antenna asks for it, with all where they were at `stamp`.
+void RadioAir::surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPopulation& tags,
+                        AirAntenna& antenna, RadioView& view) {
+  if (!couples_tags(antenna.model())) return;
+  if (!couplings_seen_) couplings_.see(tags);
+  couplings_seen_ = true;
+  const CoupledTag& coupled = couplings_.of(slot, view.carrier.lambda_m);
+  if (coupled.neighbours.empty()) return;
+  around_.own = coupled.own;
+  around_.neighbours.clear();
+  for (const auto& [other, share] : coupled.neighbours) {
+    around_.neighbours.push_back(
+        {&tags.model(other), tag_pose(other, stamp, tags), tags.key(other), share});
+  }
+  tag.around = &around_;
+  if (!view.images) add_images(antenna, view);
+}
+
+/// Antennas of other readers that send now, where the antenna minds them.
+std::vector<OtherSender> RadioAir::others_of(AirAntenna& antenna, Time now) {
+  std::vector<OtherSender> others;
+  if (!is_disturbed(antenna.model())) return others;
+  std::vector<AntennaParameters> all;
+  for (const auto& known : antennas_) all.push_back(known->parameters);
+  for (const SendingAntenna& sending : others_sending(all, antenna.parameters, now)) {
+    AirAntenna& other = *antennas_[sending.number];
+    const bool is_gone = other.is_over && (!other.updated || *other.updated < now);
+    if (!other.X_WA_sending || is_gone) continue;
+    const CarrierNow carrier = carrier_at(other.model(), other.port, now);
+    RadioView view = bare_view_of(other, *world_, *other.X_WA_sending, carrier.frequency_hz);
+    view.bodies = bodies_at(other.model(), now);
+    add_images(other, view);
+    others.push_back({other.parameters.reader, other.parameters.name, view, sending.time_share});
+  }
+  return others;
+}
+
+/// What the antenna hears of the others from now on.
+void RadioAir::look_at_others(AirAntenna& antenna, RadioView& view,
+                              const std::vector<OtherSender>& others) {
+  antenna.interference_mw = 0.0;
+  if (others.empty()) return;
+  if (!view.images) add_images(antenna, view);
+  for (const OtherSender& other : others) {
+    antenna.interference_mw += received_from(other, view, paths_).in_replies_mw;
+  }
+}
+
+Disturbance RadioAir::disturbance_of(const AirAntenna& antenna,
+                                     const std::vector<OtherSender>& others, const TagEnd& tag) {
+  Disturbance disturbance{antenna.interference_mw, 0.0};
+  for (const OtherSender& other : others) {
+    disturbance.at_tag_mw += power_at_tag_mw(other, tag, paths_);
+  }
+  return disturbance;
 }
 
 void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
@@ -354,13 +425,17 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
   const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
   RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
   view.bodies = bodies_at(antenna.model(), now);
+  const std::vector<OtherSender> others = others_of(antenna, now);
+  look_at_others(antenna, view, others);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
   for (const std::uint32_t slot : slots_) {
     const TagEnd tag = tag_end(antenna, slot, tags, view);
     const RadioLink link = link_of(view, tag, paths_);
     if (!is_heard(link, tag.model, antenna.model())) continue;
+    const Disturbance disturbance = disturbance_of(antenna, others, tag);
+    if (!is_read(antenna.model(), link, tag, disturbance)) continue;
     replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
-                             velocity - tag_velocity(slot), now));
+                             velocity - tag_velocity(slot), now, disturbance.in_replies_mw));
     replies.back().slot = slot;
     replies.back().distance_m = (tag.X_WT.translation - X_WA.translation).norm();
   }
@@ -374,10 +449,14 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
     RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
     view.bodies = bodies_at(antenna.model(), now);
+    const std::vector<OtherSender> others = others_of(antenna, now);
+    look_at_others(antenna, view, others);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
     for (const std::uint32_t slot : slots_) {
       const TagEnd tag = tag_end(antenna, slot, tags, view);
-      std::optional<TagOnAir> powered = on_air(antenna.model(), link_of(view, tag, paths_), tag);
+      const RadioLink link = link_of(view, tag, paths_);
+      std::optional<TagOnAir> powered =
+          on_air(antenna.model(), link, tag, disturbance_of(antenna, others, tag));
       if (!powered) continue;
       powered->tag = slot;
       field_.push_back(*powered);

@@ -13,6 +13,8 @@
 #include "tagfield/field/image_cache.h"
 #include "tagfield/field/port_turns.h"
 #include "tagfield/field/radio_link.h"
+#include "tagfield/field/reader_interference.h"
+#include "tagfield/field/tag_coupling.h"
 #include "tagfield/field/tag_population.h"
 #include "tagfield/gen2/inventory.h"
 #include "tagfield/gen2/tag_memories.h"
@@ -45,6 +47,9 @@ class RadioAir {
   /// Before the slot is another tag's.
   void forget_tag(std::uint32_t slot);
 
+  /// The antenna is about to update at `X_WA`, as others that it disturbs shall know before their
+  /// own updates of that time. Nothing where that is not finite, or there is no such antenna.
+  void expect(const std::string& antenna, const RigidTransform& X_WA);
   /// The antenna is at `X_WA` at `now`, which must not go back: into `replies` (emptied first) what
   /// it has read since its last update, in order of time. `tags` are where they are now. None, and
   /// no update, where `X_WA` is not finite. Throws Error if the antenna is not there.
@@ -74,6 +79,12 @@ class RadioAir {
                 const TagPopulation& tags, std::vector<TagReply>& replies);
   [[nodiscard]] std::vector<MovingBody> bodies_at(const RadioModel& model, Time stamp) const;
   const ImageSet* tag_images(const RadioView& view, std::uint32_t slot, const RigidTransform& X_WT);
+  void surround(TagEnd& tag, std::uint32_t slot, Time stamp, const TagPopulation& tags,
+                AirAntenna& antenna, RadioView& view);
+  std::vector<OtherSender> others_of(AirAntenna& antenna, Time now);
+  void look_at_others(AirAntenna& antenna, RadioView& view, const std::vector<OtherSender>& others);
+  Disturbance disturbance_of(const AirAntenna& antenna, const std::vector<OtherSender>& others,
+                             const TagEnd& tag);
   TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
                  RadioView& view);
   void refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
@@ -93,6 +104,9 @@ class RadioAir {
   Time bodies_seen_before_{};
   Time bodies_seen_{};
   ImageCache tag_images_;
+  TagCouplings couplings_;        ///< Of the last update's tags, where an antenna asks for it.
+  bool couplings_seen_ = false;   ///< In this update.
+  TagSurroundings around_;        ///< Of the link in work.
   std::vector<RadioPath> paths_;  ///< Workspace, like these.
   std::vector<std::uint32_t> slots_;
   std::vector<TagOnAir> field_;

@@ -23,6 +23,10 @@ struct Gain {
     // A step along the departure shortens the path: e^{−jkd} turns forward.
     gradient += Complex(0.0, wave_number) * of_path * departure_W;
   }
+  void add(Complex share, const Gain& other) {
+    h += share * other.h;
+    gradient += share * other.gradient;
+  }
 };
 
 /// Evenly over the sphere.
@@ -101,8 +105,8 @@ void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
   }
 }
 
-Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-               const TagEnd& tag, std::vector<RadioPath>& paths) {
+Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
+                const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioEnd antenna{view.model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -122,6 +126,20 @@ Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet
   if (view.edges != nullptr) add_diffracted(view, antenna, at_tag, gain);
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db;
   if (is_diffuse) add_diffuse(view, tag, X_WA.translation, gain);
+  return gain;
+}
+
+/// The tag's neighbours lend it of what they take in.
+Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
+               const TagEnd& tag, std::vector<RadioPath>& paths) {
+  Gain alone = gain_alone(view, X_WA, images, tag, paths);
+  if (tag.around == nullptr) return alone;
+  Gain gain;
+  gain.add(tag.around->own, alone);
+  for (const TagSurroundings::Neighbour& near : tag.around->neighbours) {
+    const TagEnd neighbour{*near.model, near.X_WT, near.key};
+    gain.add(near.share, gain_alone(view, X_WA, images, neighbour, paths));
+  }
   return gain;
 }
 
@@ -175,6 +193,15 @@ std::complex<double> past_bodies(const RadioPath& path, const RadioView& view, c
                                  bool receiver) {
   return past_bodies(view.bodies, path, (receiver ? view.X_WR : view.X_WA).translation,
                      tag.X_WT.translation, view.carrier);
+}
+
+std::complex<double> gain_to_antenna(const RadioView& view, const AntennaPattern& other,
+                                     const RigidTransform& X_WO, std::uint64_t key,
+                                     std::vector<RadioPath>& paths) {
+  TagModel end;
+  end.antenna = other;
+  const ImageSet* const images = view.model.X_AR ? view.receiver_images.get() : view.images.get();
+  return gain_alone(view, view.X_WR, images, {end, X_WO, key}, paths).h;
 }
 
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {

@@ -42,6 +42,18 @@ RadioView bare_view(const RadioModel& model, const RadioWorld& world, const Rigi
 RadioView view_from(const RadioModel& model, const RadioWorld& world, const RigidTransform& X_WA,
                     double frequency_hz, std::uint64_t diffuse_key, std::uint64_t seed);
 
+/// A tag among neighbours: of the field that each takes in alone, what gets to the tag's chip.
+struct TagSurroundings {
+  struct Neighbour {
+    const TagModel* model = nullptr;
+    RigidTransform X_WT;
+    std::uint64_t key = 0;  ///< stream_key() of its ID.
+    std::complex<double> share;
+  };
+  std::complex<double> own = 1.0;
+  std::vector<Neighbour> neighbours;
+};
+
 /// The tag's end of a link.
 struct TagEnd {
   const TagModel& model;
@@ -50,6 +62,9 @@ struct TagEnd {
   /// The tag's images, to be used instead of the antenna's where they are known: the two ends must
   /// then be in the same solids (shells_around()).
   const ImageSet* images = nullptr;
+  /// What couples with it; null where nothing does. The neighbours are seen by the antenna's
+  /// images.
+  const TagSurroundings* around = nullptr;
 };
 
 /// A link's powers.
@@ -73,6 +88,12 @@ std::complex<double> gain_of(const DiffractedPath& path, const RadioView& view, 
 /// What the view's bodies leave of a path's field, as a factor.
 std::complex<double> past_bodies(const RadioPath& path, const RadioView& view, const TagEnd& tag,
                                  bool receiver = false);
+
+/// One-way amplitude gain from the view's receiving antenna to another reader's, or back, by all
+/// ways of the view; `key` is the stream_key() of the other's name, `paths` workspace.
+std::complex<double> gain_to_antenna(const RadioView& view, const AntennaPattern& other,
+                                     const RigidTransform& X_WO, std::uint64_t key,
+                                     std::vector<RadioPath>& paths);
 
 /// Powers and gains; `paths` is workspace.
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths);

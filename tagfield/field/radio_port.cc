@@ -32,6 +32,13 @@ bool has_half_turns(const RadioModel& model) {
   return model.effects.half_turns && (!model.gen2 || model.gen2->link.encoding != Encoding::kFm0);
 }
 
+/// Without noise of its own a reader makes out what comes through more often than not.
+bool passes(const RadioModel& model, const RadioLink& link, const Disturbance& disturbance) {
+  if (!(disturbance.in_replies_mw > 0.0)) return true;
+  return sinr_db(model.hardware, link.reply_dbm, disturbance.in_replies_mw) >=
+         required_sinr_db(reply_bits(model));
+}
+
 }  // namespace
 
 CarrierNow carrier_at(const RadioModel& model, const RadioPort& port, Time time) {
@@ -49,14 +56,15 @@ CarrierNow carrier_at(const RadioModel& model, const RadioPort& port, Time time)
 }
 
 TagReply report(const RadioModel& model, const RadioPort& port, const CarrierNow& carrier,
-                const RadioLink& link, const TagEnd& tag, const Eigen::Vector3d& v_AT_W,
-                Time stamp) {
+                const RadioLink& link, const TagEnd& tag, const Eigen::Vector3d& v_AT_W, Time stamp,
+                double interference_mw) {
   RandomStream noise(port.seed, Purpose::kMeasuring, port.antenna_key, tag.key,
                      static_cast<std::uint64_t>(stamp.time_since_epoch().count()));
   const ReceiverEffects effects{model.effects.noise, model.effects.quantization,
                                 has_half_turns(model)};
-  const Measured measured =
-      measure(model.hardware, effects, reply_of(link, carrier.phase_offset_rad, v_AT_W), noise);
+  Reply incoming = reply_of(link, carrier.phase_offset_rad, v_AT_W);
+  incoming.interference_mw = interference_mw;
+  const Measured measured = measure(model.hardware, effects, incoming, noise);
   TagReply reply;
   reply.stamp = stamp;
   reply.frequency_hz = carrier.frequency_hz;
@@ -66,15 +74,29 @@ TagReply report(const RadioModel& model, const RadioPort& port, const CarrierNow
   return reply;
 }
 
-std::optional<TagOnAir> on_air(const RadioModel& model, const RadioLink& link, const TagEnd& tag) {
+int reply_bits(const RadioModel& model) {
+  return kRn16Bits + kOverheadBits + reply_link_of(model).epc_bits;
+}
+
+bool is_read(const RadioModel& model, const RadioLink& link, const TagEnd& tag,
+             const Disturbance& disturbance) {
+  if (!is_heard(link, tag.model, model) || !hears_commands(link, disturbance)) return false;
+  return passes(model, link, disturbance);
+}
+
+std::optional<TagOnAir> on_air(const RadioModel& model, const RadioLink& link, const TagEnd& tag,
+                               const Disturbance& disturbance) {
   if (tag_margin_db(link, tag.model) < 0.0) return std::nullopt;
+  if (!hears_commands(link, disturbance)) return std::nullopt;
   TagOnAir on_air;
   on_air.reply_dbm = link.reply_dbm;
   on_air.decode_probability = 0.0;
-  if (reader_margin_db(link, model) >= 0.0) {
-    const int bits = kRn16Bits + kOverheadBits + model.gen2->link.epc_bits;
-    on_air.decode_probability =
-        model.effects.noise ? decode_probability(model.hardware, link.reply_dbm, bits) : 1.0;
+  if (reader_margin_db(link, model) < 0.0) return on_air;
+  if (model.effects.noise) {
+    on_air.decode_probability = decode_probability(model.hardware, link.reply_dbm,
+                                                   reply_bits(model), disturbance.in_replies_mw);
+  } else if (passes(model, link, disturbance)) {
+    on_air.decode_probability = 1.0;
   }
   return on_air;
 }

@@ -7,6 +7,7 @@
 
 #include "tagfield/base/time.h"
 #include "tagfield/field/radio_link.h"
+#include "tagfield/field/reader_interference.h"
 #include "tagfield/field/tag_population.h"
 #include "tagfield/gen2/inventory.h"
 #include "tagfield/reader/antenna.h"
@@ -31,12 +32,23 @@ struct CarrierNow {
 CarrierNow carrier_at(const RadioModel& model, const RadioPort& port, Time time);
 
 /// What the reader reports of the tag's reply at `stamp`; `v_AT_W` is the antenna's velocity
-/// against the tag's [m/s]. The noise is a function of seed, antenna, tag and stamp alone.
+/// against the tag's [m/s], `interference_mw` other readers' power in the reply. The noise is a
+/// function of seed, antenna, tag and stamp alone.
 TagReply report(const RadioModel& model, const RadioPort& port, const CarrierNow& carrier,
-                const RadioLink& link, const TagEnd& tag, const Eigen::Vector3d& v_AT_W,
-                Time stamp);
+                const RadioLink& link, const TagEnd& tag, const Eigen::Vector3d& v_AT_W, Time stamp,
+                double interference_mw = 0.0);
 
-/// How the tag takes part in the next slots. None where it has too little power.
-std::optional<TagOnAir> on_air(const RadioModel& model, const RadioLink& link, const TagEnd& tag);
+/// Bits of a reply that must all come through: RN16, PC, EPC and CRC.
+int reply_bits(const RadioModel& model);
+
+/// Whether the tag is read without an inventory: it is heard, makes out its reader's commands, and
+/// at least half of such replies come through what other readers send.
+bool is_read(const RadioModel& model, const RadioLink& link, const TagEnd& tag,
+             const Disturbance& disturbance);
+
+/// How the tag takes part in the next slots. None where it has too little power, or can't make out
+/// the commands.
+std::optional<TagOnAir> on_air(const RadioModel& model, const RadioLink& link, const TagEnd& tag,
+                               const Disturbance& disturbance = {});
 
 }  // namespace tagfield

@@ -228,6 +228,9 @@ void RfidField::Impl::step(const FieldStep& step) {
   }
   tell_places(step);
   if (!step.due.empty()) updated_ = step.stamp;
+  for (const AntennaDue& due : step.due) {
+    if (meets_world(due.antenna->parameters)) air_.expect(due.antenna->parameters.name, due.X_WA);
+  }
   for (const AntennaDue& due : step.due) update(due, step.stamp);
   telling_.tell(std::min(step.stamp, air_.complete_until()));
 }

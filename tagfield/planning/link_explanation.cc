@@ -6,6 +6,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/field/port_turns.h"
+#include "tagfield/planning/internal/disturbed_link.h"
 #include "tagfield/planning/internal/link_budget_lines.h"
 #include "tagfield/planning/link_verdict.h"
 #include "tagfield/planning/moment.h"
@@ -17,14 +18,6 @@ namespace {
 constexpr double kNothing_dbm = -250.0;
 /// Ends in one place would send the paper's RSSI beyond all bounds [m].
 constexpr double kLeastDistance = 1e-3;
-
-std::vector<AntennaParameters> physical_antennas(const Scenario& scenario) {
-  std::vector<AntennaParameters> all;
-  for (const AntennaSpec& antenna : scenario.antennas) {
-    if (meets_world(antenna.parameters)) all.push_back(antenna.parameters);
-  }
-  return all;
-}
 
 std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna, Time time) {
   for (const PortCycle& cycle : port_cycles(physical_antennas(scenario))) {
@@ -50,7 +43,7 @@ PaperLink paper_link(const LinkQuestion& question, double distance_m) {
 }
 
 void add_receiver(const RadioModel& model, const RadioLink& of_link, const CarrierNow& carrier,
-                  PhysicalLink& link) {
+                  const Disturbance& disturbance, PhysicalLink& link) {
   const ReaderHardware& hardware = model.hardware;
   const Reply reply = reply_of(of_link, carrier.phase_offset_rad, Eigen::Vector3d::Zero());
   link.snr_db = of_link.reply_dbm - noise_dbm(hardware);
@@ -59,7 +52,7 @@ void add_receiver(const RadioModel& model, const RadioLink& of_link, const Carri
   const double uniform_rad = kPi / std::sqrt(3.0);
   link.phase_sigma_rad = uniform_rad;
   if (!link.arrives) return;
-  const double sigma = phase_sigma(hardware, of_link.reply_dbm);
+  const double sigma = phase_sigma(hardware, of_link.reply_dbm, disturbance.in_replies_mw);
   if (std::isfinite(sigma)) link.phase_sigma_rad = std::min(sigma, uniform_rad);
 }
 
@@ -73,7 +66,9 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
                              question.seed);
   if (model.effects.bodies) view.bodies = question.bodies;
   const auto kind = question.tag.model ? question.tag.model : default_tag_model();
-  const TagEnd tag{*kind, question.X_WT, stream_key(question.tag.id)};
+  TagEnd tag{*kind, question.X_WT, stream_key(question.tag.id)};
+  const Surrounded surrounded = tags_around(view, question);
+  if (!surrounded.near.empty()) tag.around = &surrounded.around;
   std::vector<RadioPath> paths;
   const RadioLink of_link = link_of(view, tag, paths);
 
@@ -85,12 +80,14 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
   link.arrives = of_link.tag_dbm > kNothing_dbm && of_link.reply_dbm > kNothing_dbm;
   link.channel = carrier.channel;
   link.frequency_hz = carrier.frequency_hz;
-  add_receiver(model, of_link, carrier, link);
+  link.near_tags = surrounded.near;
+  const Disturbance disturbance = add_interference(scenario, question, view, tag, of_link, link);
+  add_receiver(model, of_link, carrier, disturbance, link);
   add_budget(view, tag, of_link, link);
   link.takes_inventory = model.gen2 && model.effects.inventory;
   if (link.takes_inventory) {
     link.turn = turn_of(scenario, antenna.name, question.time);
-    const std::optional<TagOnAir> heard = on_air(model, of_link, tag);
+    const std::optional<TagOnAir> heard = on_air(model, of_link, tag, disturbance);
     link.decode_probability = heard ? heard->decode_probability : 0.0;
   }
   return link;
@@ -107,6 +104,14 @@ double read_probability(const AntennaParameters& antenna, double distance_m) {
   const double probability =
       normal_above((share - 1.0) / range_sigma) + normal_above((share + 1.0) / range_sigma);
   return std::clamp(probability, 0.0, 1.0);
+}
+
+std::vector<AntennaParameters> physical_antennas(const Scenario& scenario) {
+  std::vector<AntennaParameters> all;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    if (meets_world(antenna.parameters)) all.push_back(antenna.parameters);
+  }
+  return all;
 }
 
 RadioPort port_of(const Scenario& scenario, const AntennaParameters& antenna, std::uint64_t seed) {

@@ -30,6 +30,16 @@ struct MaterialOnLink {
   bool is_measured_here = true;   ///< The carrier lies between these.
 };
 
+/// A tag beside the one asked about, and an antenna beside.
+struct OtherTag {
+  const TagSpec& tag;
+  RigidTransform X_WT;
+};
+struct OtherAntenna {
+  const AntennaSpec& antenna;
+  RigidTransform X_WA;
+};
+
 /// One antenna, one tag, where they are at a moment.
 struct LinkQuestion {
   const AntennaSpec& antenna;
@@ -38,7 +48,9 @@ struct LinkQuestion {
   RigidTransform X_WA;
   RigidTransform X_WT;
   std::uint64_t seed = 1;
-  std::vector<MovingBody> bodies{};  ///< What moves, where it is then.
+  std::vector<MovingBody> bodies{};    ///< What moves, where it is then.
+  std::vector<OtherTag> other_tags{};  ///< Present then.
+  std::vector<OtherAntenna> other_antennas{};
 };
 
 /// By the paper's model: range and the means of eqs. (4) and (5).
@@ -51,6 +63,38 @@ struct PaperLink {
   double rssi_dbm = 0.0;           ///< Likewise.
 };
 
+/// A tag that couples with the one asked about.
+struct NearTag {
+  std::string id;
+  double distance_m = 0.0;
+  double alone_db = 0.0;  ///< What it would do to the field at the chip, were it the only one.
+};
+
+/// Another reader's antenna that sends at the moment.
+struct InterferingReader {
+  std::string reader;
+  std::string antenna;
+  double offset_hz = 0.0;       ///< Of its carrier from the link's.
+  double time_share = 1.0;      ///< Of its time in which it sends.
+  double received_dbm = 0.0;    ///< At the reader's port,
+  double in_replies_dbm = 0.0;  ///< and what of it comes through with the reply.
+  double at_tag_dbm = 0.0;      ///< At the chip.
+};
+
+/// What other readers do to a link whose antenna minds them.
+struct LinkInterference {
+  std::vector<InterferingReader> by;
+  double noise_dbm = 0.0;  ///< The receiver's own,
+  double total_dbm = 0.0;  ///< and all others', in the reply's bandwidth.
+  double sinr_db = 0.0;    ///< The reply over both.
+  double required_sinr_db = 0.0;
+  double capture_db = 0.0;  ///< The own carrier over all others at the chip,
+  double required_capture_db = 0.0;
+
+  [[nodiscard]] bool tag_hears() const { return by.empty() || capture_db >= required_capture_db; }
+  [[nodiscard]] bool reader_hears() const { return by.empty() || sinr_db >= required_sinr_db; }
+};
+
 /// By a physical model.
 struct PhysicalLink {
   std::vector<BudgetLine> to_tag;     ///< From the reader's port to the chip: tag_dbm.
@@ -60,22 +104,30 @@ struct PhysicalLink {
   double tag_sensitivity_dbm = 0.0;   ///< against this.
   double reply_dbm = 0.0;             ///< At the reader's port,
   double reader_sensitivity_dbm = 0.0;
-  double snr_db = 0.0;           ///< Of the reply in the receiver's bandwidth.
-  double phase_rad = 0.0;        ///< Without noise, offsets of channel and port in it; in [0, 2π).
+  double snr_db = 0.0;     ///< Of the reply in the receiver's bandwidth, without other readers.
+  double phase_rad = 0.0;  ///< Without noise, offsets of channel and port in it; in [0, 2π).
   double phase_sigma_rad = 0.0;  ///< Expected standard deviation of the reported phase.
   std::size_t channel = 0;       ///< Index into the plan.
   double frequency_hz = 0.0;
   bool takes_inventory = false;
   std::optional<Time> turn;  ///< With an inventory: when the antenna's turn begins, or now.
-  std::optional<double> decode_probability;   ///< With an inventory, of a slot of its own.
-  std::vector<PathExplanation> paths;         ///< From the sending antenna, as explain_paths().
-  std::vector<MaterialOnLink> materials;      ///< Of all that `paths` meet, by name.
-  std::vector<SurfaceOnPath> between;         ///< On the direct way there.
-  std::vector<SurfaceOnPath> between_return;  ///< Back to a receiving antenna of its own.
+  std::optional<double> decode_probability;      ///< With an inventory, of a slot of its own.
+  std::vector<PathExplanation> paths;            ///< From the sending antenna, as explain_paths().
+  std::vector<MaterialOnLink> materials;         ///< Of all that `paths` meet, by name.
+  std::vector<NearTag> near_tags;                ///< That couple, by rising distance.
+  std::optional<LinkInterference> interference;  ///< Where the antenna minds other readers.
+  std::vector<SurfaceOnPath> between;            ///< On the direct way there.
+  std::vector<SurfaceOnPath> between_return;     ///< Back to a receiving antenna of its own.
 
   [[nodiscard]] double tag_margin_db() const { return tag_dbm - tag_sensitivity_dbm; }
   [[nodiscard]] double reader_margin_db() const { return reply_dbm - reader_sensitivity_dbm; }
-  [[nodiscard]] bool heard() const { return tag_margin_db() >= 0.0 && reader_margin_db() >= 0.0; }
+  [[nodiscard]] bool has_power() const {
+    return tag_margin_db() >= 0.0 && reader_margin_db() >= 0.0;
+  }
+  [[nodiscard]] bool heard() const {
+    return has_power() &&
+           (!interference || (interference->tag_hears() && interference->reader_hears()));
+  }
 };
 
 struct LinkExplanation {
@@ -99,6 +151,9 @@ LinkExplanation explain_link(const Scenario& scenario, const LinkQuestion& quest
 /// Share of an antenna's updates in which its perturbed range (see perturbed_range()) is at least
 /// `distance_m`, by the paper's model: P(r·|1 + σr·n| ≥ D).
 double read_probability(const AntennaParameters& antenna, double distance_m);
+
+/// Those that share the air.
+std::vector<AntennaParameters> physical_antennas(const Scenario& scenario);
 
 /// The channel, turn and keys of an antenna among all of the scenario's.
 RadioPort port_of(const Scenario& scenario, const AntennaParameters& antenna, std::uint64_t seed);

@@ -56,6 +56,7 @@ std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplan
                        {tag_db, "as the tag hardly sends that way"},
                        {line(physical.to_tag, "polarization"), "by crossed polarization"},
                        {others_db, "in a fade"},
+                       {line(physical.to_tag, "coupling"), "by tags nearby"},
                        {line(physical.to_tag, "detuning"), "by what the tag is mounted on"}};
   const Cause& worst = *std::min_element(
       std::begin(all), std::end(all), [](const Cause& a, const Cause& b) { return a.db < b.db; });
@@ -70,6 +71,23 @@ std::string margins(const PhysicalLink& link) {
   return at_tag + ", " + signed_db(link.reader_margin_db()) + " at the reader";
 }
 
+/// The strongest of the readers that disturb, at the tag or at the reader.
+std::string disturbed(const LinkInterference& by) {
+  const bool at_tag = !by.tag_hears();
+  const auto power = [&](const InterferingReader& one) {
+    return at_tag ? one.at_tag_dbm : one.in_replies_dbm;
+  };
+  const InterferingReader& worst =
+      *std::max_element(by.by.begin(), by.by.end(),
+                        [&](const auto& a, const auto& b) { return power(a) < power(b); });
+  if (at_tag) {
+    return fmt::format("the tag hears reader {} too ({} over it, {} needed)", worst.reader,
+                       signed_db(by.capture_db), signed_db(by.required_capture_db));
+  }
+  return fmt::format("reader {} drowns the reply (SINR {}, {} needed)", worst.reader,
+                     signed_db(by.sinr_db), signed_db(by.required_sinr_db));
+}
+
 void judge_physical(const LinkQuestion& question, LinkExplanation& link) {
   const PhysicalLink& physical = *link.physical;
   const TagModel& tag = *(question.tag.model ? question.tag.model : default_tag_model());
@@ -80,10 +98,12 @@ void judge_physical(const LinkQuestion& question, LinkExplanation& link) {
   link.read = physical.heard() && has_turn;
   if (!physical.arrives && (is_blocked(physical.between) || is_blocked(physical.between_return))) {
     link.verdict = "not read: blocked by " + what;
-  } else if (!physical.heard()) {
+  } else if (!physical.has_power()) {
     const RadioModel& model = *tagfield::physical(question.antenna.parameters);
     link.verdict = "not read: " + margins(physical) +
                    (what.empty() ? cause(model, tag, link) : ", behind " + what);
+  } else if (!physical.heard()) {
+    link.verdict = "not read: " + disturbed(*physical.interference) + "; " + margins(physical);
   } else if (!has_turn) {
     link.verdict =
         "not read just now: the antenna's turn " +

@@ -5,6 +5,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {
@@ -65,6 +66,13 @@ TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const
           paper(antenna).model.frequency_hz,
           signal.phase_rad,
           signal.rssi_dbm};
+}
+
+bool may_send_at_once(const AntennaParameters& a, const AntennaParameters& b) {
+  const RadioModel* const of_a = physical(a);
+  const RadioModel* const of_b = physical(b);
+  if (of_a == nullptr || of_b == nullptr || a.reader == b.reader) return false;
+  return of_a->sharing != AirSharing::kTime || of_b->sharing != AirSharing::kTime;
 }
 
 }  // namespace tagfield

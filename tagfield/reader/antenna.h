@@ -59,6 +59,10 @@ inline const RadioModel* physical(const AntennaParameters& antenna) {
   return model == nullptr ? nullptr : model->get();
 }
 
+/// Whether both are physical antennas of two readers that can send at the same time: not where both
+/// share by time.
+bool may_send_at_once(const AntennaParameters& a, const AntennaParameters& b);
+
 // Of paper's antennas alone:
 
 /// How far the antenna reads in its update at `stamp` [m]: r·|1 + n_r|, n_r ~ N(0, σr²), drawn once

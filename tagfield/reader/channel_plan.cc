@@ -27,13 +27,13 @@ std::vector<double> evenly(double first_hz, double step_hz, int count) {
 
 std::vector<ChannelPlan> make_plans() {
   return {// ERC/REC 70-03, annex 11: four channels of 200 kHz, 2 W ERP; EN 302 208: 4 s at most.
-          {"etsi_low", {865.7e6, 866.3e6, 866.9e6, 867.5e6}, 4.0, 865e6, 868e6, 33.01},
+          {"etsi_low", {865.7e6, 866.3e6, 866.9e6, 867.5e6}, 4.0, 865e6, 868e6, 33.01, 200e3},
           // ERC/REC 70-03, annex 11: 400 kHz wide, 4 W ERP.
-          {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02},
+          {"etsi_high", {916.3e6, 917.5e6, 918.7e6}, 4.0, 915e6, 921e6, 36.02, 400e3},
           // 47 CFR 15.247: 50 channels, 0.4 s in 20 s at most, 1 W into 6 dBi: 36 dBm EIRP.
-          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi},
+          {"fcc", evenly(902.75e6, 0.5e6, 50), 0.4, 902e6, 928e6, 36.0 - kDipole_dbi, 500e3},
           // MIIT 2007-205: 920.625 to 924.375 MHz in steps of 250 kHz, 2 W ERP, 2 s at most.
-          {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01}};
+          {"china", evenly(920.625e6, 0.25e6, 16), 2.0, 920e6, 925e6, 33.01, 250e3}};
 }
 
 void check_carrier(const ChannelPlan& plan, double carrier_hz) {

@@ -18,6 +18,7 @@ struct ChannelPlan {
   double band_low_hz = 0.0;         ///< Edges of the band that the regulation allows,
   double band_high_hz = 0.0;        ///< both 0 where none is known.
   double most_erp_dbm = 0.0;        ///< Most radiated power over a dipole; 0 where none is known.
+  double channel_hz = 200e3;        ///< Width of a channel.
 };
 
 /// "etsi_low", "etsi_high", "fcc", "china".

@@ -31,6 +31,17 @@ RadioEffects no_effects() {
   return effects;
 }
 
+LinkSettings reply_link_of(const RadioModel& model) {
+  return model.gen2 ? model.gen2->link : LinkSettings{};
+}
+
+TransmitSpectrum transmit_spectrum_of(const RadioModel& model) {
+  constexpr double kDenseTari = 2.5;
+  const double dense_hz = kDenseTari / reply_link_of(model).tari_s;
+  const bool is_dense = model.spectrum_mask == SpectrumMask::kDense;
+  return {model.spectrum_mask, is_dense ? dense_hz : model.plan.channel_hz};
+}
+
 void check(const RadioModel& model, Diagnostics& diagnostics) {
   check(model.antenna, diagnostics);
   check(model.hardware);
@@ -71,7 +82,10 @@ double most_range_m(const RadioModel& model, const TagModel& tag) {
   const double lambda_m = wavelength(model.plan.carriers_hz.front());
   const double radiated_dbm =
       model.transmit_power_dbm - model.cable_loss_db + peak_dbi(model.antenna);
-  const double tag_dbi = peak_dbi(tag.antenna) - tag.detuning_db;
+  // Neighbours may focus waves on a tag: at most to twice the field, as it is taken here.
+  constexpr double kFocused_db = 6.02;
+  const double tag_dbi =
+      peak_dbi(tag.antenna) - tag.detuning_db + (couples_tags(model) ? kFocused_db : 0.0);
   const double to_tag_db = radiated_dbm + tag_dbi - tag.sensitivity_dbm;
   const double both_ways_db = radiated_dbm + peak_dbi(model.antenna) - model.cable_loss_db +
                               2.0 * tag_dbi + tag.modulation_db - model.hardware.sensitivity_dbm;

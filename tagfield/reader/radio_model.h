@@ -19,6 +19,7 @@
 #include "tagfield/propagation/trace_paths.h"
 #include "tagfield/reader/channel_plan.h"
 #include "tagfield/reader/reader_hardware.h"
+#include "tagfield/reader/transmit_spectrum.h"
 
 namespace tagfield {
 
@@ -37,6 +38,8 @@ struct RadioEffects {
   bool phase_offsets = true;  ///< One of each channel and each port.
   bool half_turns = true;     ///< π ambiguity, with Miller replies.
   bool inventory = true;      ///< Gen2 slots, where an inventory is given.
+  bool interference = true;   ///< By other readers, where it is asked for.
+  bool coupling = true;       ///< Of tags near one another, where it is asked for.
 };
 
 /// An effect's name in scenarios and its switch.
@@ -45,7 +48,7 @@ struct EffectSwitch {
   const char* what;  ///< For people.
   bool RadioEffects::*on;
 };
-constexpr std::array<EffectSwitch, 13> kEffectSwitches = {{
+constexpr std::array<EffectSwitch, 15> kEffectSwitches = {{
     {"patterns", "antenna patterns", &RadioEffects::patterns},
     {"polarization", "polarization", &RadioEffects::polarization},
     {"occlusion", "occlusion", &RadioEffects::occlusion},
@@ -59,6 +62,8 @@ constexpr std::array<EffectSwitch, 13> kEffectSwitches = {{
     {"phase_offsets", "phase offsets of channels and ports", &RadioEffects::phase_offsets},
     {"half_turns", "half turns of the phase", &RadioEffects::half_turns},
     {"inventory", "Gen2 inventory", &RadioEffects::inventory},
+    {"interference", "interference of readers", &RadioEffects::interference},
+    {"coupling", "coupling of tags", &RadioEffects::coupling},
 }};
 
 /// All off.
@@ -80,8 +85,11 @@ enum class AirSharing {
 /// All that is physical of one antenna. Its frame A: boresight along x, z up.
 struct RadioModel {
   RadioEffects effects;
-  int reflection_order = 0;  ///< Most bounces of a path: 0 to 3.
-  bool diffraction = false;  ///< Waves bend around edges.
+  int reflection_order = 0;   ///< Most bounces of a path: 0 to 3.
+  bool diffraction = false;   ///< Waves bend around edges.
+  bool interference = false;  ///< What other readers send disturbs its links.
+  bool tag_coupling = false;  ///< Tags near one another change what each takes in.
+  SpectrumMask spectrum_mask = SpectrumMask::kDense;  ///< That what it sends keeps to.
   /// Power of all single paths over that of diffuse waves (Rice's K) [dB]; none for no such waves.
   std::optional<double> diffuse_k_db;
   AntennaPattern antenna;
@@ -97,6 +105,19 @@ struct RadioModel {
   /// order in which they were applied.
   std::vector<RawParameter> settings{};
 };
+
+/// Whether other readers' signals disturb it; whether tags' coupling counts.
+inline bool is_disturbed(const RadioModel& model) {
+  return model.interference && model.effects.interference;
+}
+inline bool couples_tags(const RadioModel& model) {
+  return model.tag_coupling && model.effects.coupling;
+}
+
+/// What it sends, as its mask bounds it: channels of 2.5/Tari, or of the plan's width.
+TransmitSpectrum transmit_spectrum_of(const RadioModel& model);
+/// Of its tags' replies, without an inventory as well.
+LinkSettings reply_link_of(const RadioModel& model);
 
 /// Throws Error naming the parameter that is out of its range; what is odd is warned of: more
 /// radiated power than the plan allows, a gain above its lobe's limit.

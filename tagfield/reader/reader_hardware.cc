@@ -16,9 +16,10 @@ constexpr double kMostSigma = 10.0;
 /// Weaker than any report.
 constexpr double kLeastRssi = -200.0;
 
-double snr(const ReaderHardware& hardware, double reply_dbm) {
-  return from_db(reply_dbm - noise_dbm(hardware));
-}
+/// Of the error of one bit: ½ erfc √(SNR/2).
+double wrong_bits(double snr) { return 0.5 * std::erfc(std::sqrt(0.5 * snr)); }
+
+double all_right(double wrong, int bits) { return std::exp(bits * std::log1p(-wrong)); }
 
 double in_steps(double value, double step) {
   return step > 0.0 ? std::round(value / step) * step : value;
@@ -26,7 +27,7 @@ double in_steps(double value, double step) {
 
 void add_noise(const ReaderHardware& hardware, const Reply& reply, RandomStream& noise,
                Measured& measured) {
-  const double sigma = phase_sigma(hardware, reply.power_dbm);
+  const double sigma = phase_sigma(hardware, reply.power_dbm, reply.interference_mw);
   const auto [of_phase, of_amplitude] = standard_normal_pair(noise);
   measured.phase_rad += sigma * of_phase;
   const double amplitude = std::abs(1.0 + std::min(sigma, 1.0) * of_amplitude);
@@ -62,14 +63,32 @@ double noise_dbm(const ReaderHardware& hardware) {
   return kThermal_dbm_hz + to_db(hardware.bandwidth_hz) + hardware.noise_figure_db;
 }
 
-double phase_sigma(const ReaderHardware& hardware, double reply_dbm) {
-  const double thermal = 1.0 / std::sqrt(2.0 * hardware.averaged_bits * snr(hardware, reply_dbm));
+double sinr_db(const ReaderHardware& hardware, double reply_dbm, double interference_mw) {
+  const double noise = noise_dbm(hardware);
+  if (!(interference_mw > 0.0)) return reply_dbm - noise;
+  return reply_dbm - to_db(from_db(noise) + interference_mw);
+}
+
+double phase_sigma(const ReaderHardware& hardware, double reply_dbm, double interference_mw) {
+  const double snr = from_db(sinr_db(hardware, reply_dbm, interference_mw));
+  const double thermal = 1.0 / std::sqrt(2.0 * hardware.averaged_bits * snr);
   return std::min(kMostSigma, std::hypot(hardware.phase_floor_rad, thermal));
 }
 
-double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits) {
-  const double wrong = 0.5 * std::erfc(std::sqrt(0.5 * snr(hardware, reply_dbm)));
-  return std::exp(bits * std::log1p(-wrong));
+double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits,
+                          double interference_mw) {
+  return all_right(wrong_bits(from_db(sinr_db(hardware, reply_dbm, interference_mw))), bits);
+}
+
+double required_sinr_db(int bits) {
+  double low_db = -20.0;
+  double high_db = 30.0;
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle_db = 0.5 * (low_db + high_db);
+    (all_right(wrong_bits(from_db(middle_db)), bits) < 0.5 ? low_db : high_db) = middle_db;
+  }
+  return high_db;
 }
 
 Measured measure(const ReaderHardware& hardware, const ReceiverEffects& effects, const Reply& reply,

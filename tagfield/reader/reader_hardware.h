@@ -30,13 +30,21 @@ void check(const ReaderHardware& hardware);
 /// Power of the noise in the receiver's bandwidth [dBm]: −174 dBm/Hz (kT at 290 K) + 10 log B + F.
 double noise_dbm(const ReaderHardware& hardware);
 
+/// Signal to noise of a reply of power `reply_dbm` [dB], with other readers' signals in the reply's
+/// bandwidth counted as noise.
+double sinr_db(const ReaderHardware& hardware, double reply_dbm, double interference_mw = 0.0);
+
 /// Standard deviation of the phase of a reply of power `reply_dbm` [rad]: √(floor² + 1/(2 n SNR)),
 /// n bits averaged; the Cramér-Rao bound for a phase in white noise (Rife and Boorstyn, 1974).
-double phase_sigma(const ReaderHardware& hardware, double reply_dbm);
+double phase_sigma(const ReaderHardware& hardware, double reply_dbm, double interference_mw = 0.0);
 
 /// Probability that `bits` bits of a reply come through: (1 − BER)^bits with BER = ½ erfc √(SNR/2),
 /// of orthogonal signalling, as FM0's and Miller's bits are.
-double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits);
+double decode_probability(const ReaderHardware& hardware, double reply_dbm, int bits,
+                          double interference_mw = 0.0);
+
+/// Signal to noise at which half of all replies of `bits` bits (2 or more) come through [dB].
+double required_sinr_db(int bits);
 
 /// What is taken into account of a receiver.
 struct ReceiverEffects {
@@ -50,6 +58,7 @@ struct Reply {
   double phase_rad = 0.0;  ///< Growing with distance.
   double power_dbm = 0.0;
   double doppler_hz = 0.0;
+  double interference_mw = 0.0;  ///< Of other readers, in its bandwidth.
 };
 
 /// A reply as it is reported.

@@ -15,6 +15,7 @@
 #include "tagfield/localization/method.h"
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
+#include "tagfield/scenario/internal/neighbour_use.h"
 #include "tagfield/scenario/internal/tag_table.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/recorded_motion.h"
@@ -439,7 +440,10 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
                        Diagnostics& diagnostics, const std::vector<Method>& methods) {
   const ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
   // The world of one that has it may bring antennas.
-  if (read.scenario.world.path.empty()) require_use_of_keys(read);
+  if (read.scenario.world.path.empty()) {
+    require_use_of_keys(read);
+    require_use_of_neighbours(read.scenario, diagnostics);
+  }
   return read.scenario;
 }
 
@@ -470,6 +474,7 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
     fail({path, 0}, "no antennas: neither the scenario nor its world has one");
   }
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
+  require_use_of_neighbours(scenario, diagnostics);
   require_end(scenario, path);
   return loaded;
 }

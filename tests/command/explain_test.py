@@ -173,6 +173,116 @@ obstacles:
     check_in("did you mean 'person'", bad.err, "a slip")
 
 
+TWO_READERS = """\
+name: two_readers
+duration_s: 2
+model: link_budget
+without: [polarization, noise, quantization]
+antennas:
+  - {name: gate, reader: one, pose: [0, 0, 1], pattern: isotropic, gain_dbi: 0, frequency_hz: 866.3e6}
+  - {name: dock, reader: two, pose: [6, 0, 1], pattern: isotropic, gain_dbi: 0, frequency_hz: FREQUENCY}
+tags:
+  - {id: near, position: [1, 0, 1], pattern: isotropic, gain_dbi: 0}
+  - {id: middle, position: [2.5, 0, 1], pattern: isotropic, gain_dbi: 0}
+"""
+
+
+@case
+def readers_disturb_one_another(context):
+    def path(frequency, **antenna):
+        keys = "".join(f", {key}: {value}" for key, value in antenna.items())
+        text = TWO_READERS.replace("FREQUENCY}", f"{frequency}{keys}}}")
+        return context.write(f"two_readers_{frequency}.yaml", text)
+
+    words = ("--antenna", "gate", "--tag")
+    apart = path("866.9e6")
+    check_equal(explained(context, apart, *words, "near")["interference"], None, "off")
+    link = explained(context, apart, *words, "near", "--set", "interference=on")
+    by, = link["interference"]["by"]
+    received = 30.0 + friis_db(6.0)
+    check_near(by["received_dbm"], received, 0.01, "Friis")
+    # Miller 4's bands, 350 and 850 kHz off, are beyond the third channel: −65 dB in 100 kHz.
+    in_replies = received - 65.0 + 10.0 * math.log10(2.5)
+    check_near(by["in_replies_dbm"], in_replies, 0.01, "I")
+    noise = -173.98 + 10.0 * math.log10(250e3) + 25.0
+    total = 10.0 * math.log10(10.0 ** (noise / 10.0) + 10.0 ** (in_replies / 10.0))
+    check_near(link["interference"]["sinr_db"], link["reply_dbm"] - total, 0.01, "SINR")
+    check_near(link["interference"]["capture_db"], 20.0 * math.log10(5.0), 0.01, "at the chip")
+    check(link["read"], link["verdict"])
+    middle = explained(context, apart, *words, "middle", "--set", "interference=on")
+    check_in("the tag hears reader two too (+2.9 dB over it, +6.9 dB needed)", middle["verdict"],
+             "in the middle")
+    # 250 kHz off, the other reader sits on the replies.
+    drowned = explained(context, path("866.55e6"), *words, "near", "--set", "interference=on")
+    check_in("reader two drowns the reply (SINR −", drowned["verdict"], "on the replies")
+    out = context.run_well("explain", apart, *words, "near", "--set", "interference=on").out
+    for row in ("two (dock), carrier +0.600 MHz off", "noise and interference", "(SINR)"):
+        check_in(row, out, "text")
+
+    def read(scenario, *settings):
+        folder = context.simulate(scenario, "--no-page", "--record-only", *settings)
+        return {row["tag"] for row in read_csv(folder / "reads.csv") if row["antenna"] == "gate"}
+    check_equal(read(apart), {"near", "middle"}, "without")
+    check_equal(read(apart, "--set", "interference=on"), {"near"}, "with")
+    check_equal(read(path("866.55e6"), "--set", "interference=on"), set(), "on the replies")
+    alone = context.run("explain", apart, *words, "near", "--set", "interference=on", "--set",
+                        "antennas.dock.reader=one")
+    check_equal(alone.code, 2, "one reader only")
+    check_in("interference has no effect: no other reader sends while antenna 'gate' does",
+             alone.err, "one reader only")
+
+
+@case
+def tags_nearby_couple(context):
+    path = context.write("beside.yaml", """\
+name: beside
+duration_s: 1
+model: link_budget
+without: [polarization, noise, quantization, phase_offsets, half_turns]
+antennas:
+  - {name: gate, pose: [-2, 0, 1], pattern: isotropic, gain_dbi: 0, frequency_hz: 866e6}
+tags:
+  - {id: left, position: [0, 0.0865435, 1]}
+  - {id: right, position: [0, -0.0865435, 1]}
+  - {id: far, position: [0, 2, 1]}
+""")
+    # λ/2 apart: Z₂₁ = −12.52 − j29.91 Ω (Balanis), 1/(1 + Z₂₁/2R) with chips matched to 73.1 Ω.
+    factor = 1.0 / (1.0 + complex(-12.52, -29.91) / (2.0 * 73.08))
+    expected = 20.0 * math.log10(abs(factor))
+    told = {}
+    for coupling in ("off", "on"):
+        told[coupling] = explained(context, path, "--tag", "left", "--set",
+                                   f"tag_coupling={coupling}")
+    link = told["on"]
+    line, = [line["db"] for line in link["to_tag"]
+             if line["what"] == "coupling with 1 tag nearby"]
+    check_near(line, expected, 0.002, "two of them")
+    check_near(link["tag_dbm"] - told["off"]["tag_dbm"], expected, 0.002, "to the tag")
+    check_near(link["reply_dbm"] - told["off"]["reply_dbm"], 2.0 * expected, 0.004, "and back")
+    check_near(sum(line["db"] for line in link["to_tag"]), link["tag_dbm"], 1e-6, "the lines")
+    check_near(sum(line["db"] for line in link["to_reader"]), link["reply_dbm"], 1e-6, "the lines")
+    near, = link["near_tags"]
+    check_equal(near["tag"], "right", "who is near")
+    check_near(near["distance_m"], 0.173087, 1e-9, "how near")
+    check_near(near["alone_db"], line, 1e-9, "alone")
+    check_equal(told["off"]["near_tags"], [], "off")
+    out = context.run_well("explain", path, "--tag", "left", "--set", "tag_coupling=on").out
+    check_in("right, 0.173 m", out, "text")
+    rows = read_csv(context.simulate(path, "--no-page", "--record-only", "--set",
+                                     "tag_coupling=on") / "reads.csv")
+    by_tag = {row["tag"]: row for row in rows}
+    check_near(float(by_tag["left"]["rssi_dbm"]), link["reply_dbm"], 0.01, "the run's RSSI")
+    turn = float(by_tag["left"]["phase_rad"]) - link["phase_rad"]
+    check_near(math.remainder(turn, 2.0 * math.pi), 0.0, 1e-3, "the run's phase")
+    stack = context.write("stack.yaml", path.read_text(encoding="utf-8").split("tags:")[0] + "tags:\n" +
+                          "".join(f"  - {{id: t{i}, position: [0, {0.01 * i}, 1]}}\n"
+                                  for i in range(11)))
+    verdict = explained(context, stack, "--tag", "t5", "--set", "tag_coupling=on")["verdict"]
+    check_in("by tags nearby (−20.", verdict, "in a stack")
+    lone = explained(context, path, "--tag", "far", "--set", "tag_coupling=on")
+    check_equal(lone["near_tags"], [], "far off")
+
+
 @case
 def explains_what_a_run_reads(context):
     """At a read's stamp the link is explained as read, with the RSSI and the phase reported."""

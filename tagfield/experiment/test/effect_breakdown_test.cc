@@ -47,6 +47,13 @@ TEST(EffectsIn, AreThoseThatDoAnything) {
   EXPECT_EQ(names,
             (std::set<std::string>{"patterns", "polarization", "occlusion", "noise", "quantization",
                                    "hopping", "phase_offsets", "half_turns", "inventory"}));
+  Scenario beside = passing_tags();
+  auto model = std::make_shared<RadioModel>(*physical(beside.antennas[0].parameters));
+  model->interference = model->tag_coupling = true;
+  beside.antennas[0].parameters.model = std::shared_ptr<const RadioModel>(model);
+  for (const EffectSwitch& effect : effects_in(beside)) names.erase(effect.name);
+  EXPECT_TRUE(names.empty());
+  EXPECT_EQ(effects_in(beside).size(), effects_in(passing_tags()).size() + 2);
   Scenario paper = passing_tags();
   paper.antennas[0].parameters.model = PaperAntenna{};
   EXPECT_TRUE(effects_in(paper).empty());

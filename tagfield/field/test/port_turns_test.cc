@@ -66,5 +66,43 @@ TEST(NextChange, IsTheFirstEndOfAnyTurn) {
   EXPECT_EQ(next_change(cycles, at(0.2)), at(0.3));
 }
 
+std::vector<std::pair<std::size_t, double>> others(const std::vector<AntennaParameters>& all,
+                                                   const AntennaParameters& of, double time_s) {
+  std::vector<std::pair<std::size_t, double>> found;
+  for (const SendingAntenna& one : others_sending(all, of, at(time_s))) {
+    found.emplace_back(one.number, one.time_share);
+  }
+  return found;
+}
+
+using Sending = std::vector<std::pair<std::size_t, double>>;
+
+TEST(OthersSending, AreOtherReadersAntennasOnTurn) {
+  const std::vector<AntennaParameters> all = {antenna("r", "a", 0.2), antenna("r", "b", 0.2),
+                                              antenna("q", "y", 0.2), antenna("q", "z", 0.2)};
+  EXPECT_EQ(others(all, all[0], 0.1), (Sending{{2, 1.0}}));
+  EXPECT_EQ(others(all, all[0], 0.3), (Sending{{3, 1.0}}));
+  EXPECT_EQ(others(all, all[3], 0.3), (Sending{{1, 1.0}}));
+}
+
+TEST(OthersSending, AreNoneWhereBothShareByTime) {
+  const std::vector<AntennaParameters> all = {antenna("r", "a", 0.2, AirSharing::kTime),
+                                              antenna("q", "z", 0.2, AirSharing::kTime),
+                                              antenna("p", "c", 0.2)};
+  EXPECT_EQ(others(all, all[0], 0.1), (Sending{{2, 1.0}}));
+  EXPECT_EQ(others(all, all[2], 0.1), (Sending{{0, 1.0}}));
+}
+
+TEST(OthersSending, SendForPartOfTheirTimeWithoutTurns) {
+  std::vector<AntennaParameters> all = {antenna("r", "a", 0.2), antenna("q", "y", 0.2),
+                                        antenna("q", "z", 0.2)};
+  for (std::size_t i : {1U, 2U}) {
+    auto model = std::make_shared<RadioModel>(*physical(all[i]));
+    model->effects.inventory = false;
+    all[i].model = std::shared_ptr<const RadioModel>(model);
+  }
+  EXPECT_EQ(others(all, all[0], 0.1), (Sending{{1, 0.5}, {2, 0.5}}));
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tagfield/base/units.h"
+#include "tagfield/channel/mutual_impedance.h"
 
 namespace tagfield {
 namespace {
@@ -233,6 +234,120 @@ TEST(RadioAir, AntennaThatIsNowhereReadsNothing) {
   EXPECT_THROW(air.update("b", {}, at_update(0), tags, replies), Error);
   air.remove("a");
   EXPECT_THROW(air.update("a", {}, at_update(0), tags, replies), Error);
+}
+
+/// What reader "r" reads in a row of tags with another reader at the row's end.
+std::set<std::uint32_t> read_beside_another(const RadioModel& model, const Vector3d& p_other) {
+  RadioAir air(free_space());
+  air.add(antenna("other", "z", model), 1);
+  air.add(antenna("r", "a", model), 1);
+  TagPopulation tags(3.0);
+  for (std::uint32_t slot = 0; slot < 9; ++slot) {
+    tags.add(slot, "tag" + std::to_string(slot), {0.5 * (slot + 1.0), 0.0, 0.0});
+    tags.set_model(slot, isotropic_tag());
+  }
+  std::set<std::uint32_t> read;
+  std::vector<TagReply> replies;
+  for (int i = 0; i < 10; ++i) {
+    air.update("z", from_translation(p_other), at_update(i), tags, replies);
+    air.update("a", {}, at_update(i), tags, replies);
+    for (const TagReply& reply : replies) read.insert(reply.slot);
+  }
+  return read;
+}
+
+TEST(RadioAir, TagsInTwoFieldsAnswerTheOneThatIsStrongEnough) {
+  RadioModel model = plain_model();
+  const Vector3d p_other(5.0, 0.0, 0.0);
+  // The range is 4.9 m: all are in both fields.
+  EXPECT_EQ(read_beside_another(model, p_other).size(), 9U);
+  model.interference = true;
+  model.effects.interference = true;
+  model.gen2 = Gen2Reader{};  // Of which only the link counts, as the effect is off.
+  model.hardware.noise_figure_db = 0.0;
+  model.plan = known_plan("etsi_low");
+  // Fields go with 1/d²: (5 − d)/d ≥ 10^(6.94/20) = 2.223 up to d = 1.551 m. Replies from there are
+  // −44 dBm and more, and what gets through of the other reader 5 m off:
+  // 30 − 45.2 dBm − 6 dB for the same carrier in FM0, so that Miller is what it takes.
+  EXPECT_EQ(read_beside_another(model, p_other), (std::set<std::uint32_t>{0, 1, 2}));
+  model.gen2->link.encoding = Encoding::kFm0;
+  EXPECT_EQ(read_beside_another(model, p_other), (std::set<std::uint32_t>{}));
+}
+
+TEST(RadioAir, OtherReadersMakePhasesNoisierInSlotsToo) {
+  RadioModel model = gen2_model();
+  model.effects.noise = true;
+  model.hardware.phase_floor_rad = 0.0;
+  model.interference = true;
+  const auto spread = [&](bool disturbed) {
+    RadioModel own = model;
+    own.effects.interference = disturbed;
+    RadioAir air(free_space());
+    air.add(antenna("r", "a", own), 1);
+    air.add(antenna("other", "z", own), 1);
+    const TagPopulation tags = row_of_tags(1, 1.0);
+    double sum = 0.0;
+    int count = 0;
+    std::vector<TagReply> replies;
+    for (int i = 0; i < 60; ++i) {
+      air.update("a", {}, at_update(i), tags, replies);
+      for (const TagReply& reply : replies) {
+        if (i < 3) continue;  // Before both were heard.
+        const double error =
+            wrap_to_pi(reply.phase_rad - 4.0 * kPi * reply.distance_m / wavelength(kFrequency));
+        sum += error * error;
+        ++count;
+      }
+      air.update("z", from_translation({-8.0, 0.0, 0.0}), at_update(i), tags, replies);
+    }
+    EXPECT_GT(count, 300);
+    return std::sqrt(sum / count);
+  };
+  const double noise_mw = from_db(noise_dbm(model.hardware));
+  const double amplitude = wavelength(kFrequency) / (4.0 * kPi * 8.0);
+  const double interference_mw =
+      from_db(30.0) * amplitude * amplitude *
+      share_in_replies(transmit_spectrum_of(model), 0.0, model.gen2->link, 250e3);
+  EXPECT_GT(interference_mw, 10.0 * noise_mw);
+  EXPECT_NEAR(spread(true) / spread(false), std::sqrt(1.0 + interference_mw / noise_mw),
+              0.1 * std::sqrt(1.0 + interference_mw / noise_mw));
+}
+
+TEST(RadioAir, CoupledTagsTakeInWhatTheTwoPortGives) {
+  // Two upright dipoles as far from the antenna: the same field at both, h/(1 + z) at each chip.
+  RadioModel model = plain_model();
+  model.tag_coupling = true;
+  model.effects.coupling = true;
+  TagModel dipole;
+  dipole.sensitivity_dbm = -15.0;
+  const auto kind = std::make_shared<const TagModel>(dipole);
+  const double apart_m = 0.06;
+  const auto read_with = [&](const RadioModel& used) {
+    RadioAir air(free_space());
+    air.add(antenna("r", "a", used), 1);
+    TagPopulation tags(3.0);
+    for (std::uint32_t slot = 0; slot < 2; ++slot) {
+      tags.add(slot, "tag" + std::to_string(slot), {2.0, apart_m * (slot - 0.5), 0.0});
+      tags.set_model(slot, kind);
+    }
+    std::vector<TagReply> replies;
+    air.update("a", {}, at_update(0), tags, replies);
+    return replies;
+  };
+  const auto coupled = read_with(model);
+  model.effects.coupling = false;
+  const auto alone = read_with(model);
+  ASSERT_EQ(coupled.size(), 2U);
+  ASSERT_EQ(alone.size(), 2U);
+  const double k = kTwoPi / wavelength(kFrequency);
+  const std::complex<double> z =
+      parallel_impedance(k, apart_m, 0.0) / (2.0 * kDipoleImpedance_ohm.real());
+  const std::complex<double> factor = 1.0 / (1.0 + z);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(coupled[i].rssi_dbm - alone[i].rssi_dbm, 40.0 * std::log10(std::abs(factor)), 1e-9);
+    EXPECT_NEAR(wrap_to_pi(coupled[i].phase_rad - alone[i].phase_rad + 2.0 * std::arg(factor)), 0.0,
+                1e-9);
+  }
 }
 
 }  // namespace

@@ -109,6 +109,23 @@ double paths_db(const RadioView& view, const TagEnd& tag, bool receiver, const O
   return to_db(std::norm(sum));
 }
 
+/// The tag alone, as the lines before "coupling" have it.
+RadioLink link_alone(const RadioView& view, const TagEnd& tag, const RadioLink& of_link) {
+  if (tag.around == nullptr) return of_link;
+  TagEnd alone = tag;
+  alone.around = nullptr;
+  std::vector<RadioPath> paths;
+  return link_of(view, alone, paths);
+}
+
+void add_coupling(const TagEnd& tag, std::complex<double> coupled, std::complex<double> alone,
+                  std::vector<BudgetLine>& lines) {
+  if (tag.around == nullptr) return;
+  const std::size_t count = tag.around->neighbours.size();
+  add(lines, fmt::format("coupling with {} tag{} nearby", count, count == 1 ? "" : "s"),
+      to_db(std::norm(coupled)) - to_db(std::norm(alone)));
+}
+
 }  // namespace
 
 OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool receiver) {
@@ -135,10 +152,12 @@ OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool re
 void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_link,
                 PhysicalLink& link) {
   const RadioModel& model = view.model;
-  OneWay there = one_way(view, tag, to_db(std::norm(of_link.forward)), false);
+  const RadioLink alone = link_alone(view, tag, of_link);
+  OneWay there = one_way(view, tag, to_db(std::norm(alone.forward)), false);
   add(link.to_tag, "transmit power", model.transmit_power_dbm);
   add(link.to_tag, "cable", -model.cable_loss_db);
   link.to_tag.insert(link.to_tag.end(), there.lines.begin(), there.lines.end());
+  add_coupling(tag, of_link.forward, alone.forward, link.to_tag);
   add(link.to_tag, "detuning of the tag", -tag.model.detuning_db);
   link.paths = explain_paths(view, tag, there.paths, there.over_edges);
   link.materials = materials_on(link.paths, view.world, link.frequency_hz);
@@ -149,8 +168,9 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
   add(link.to_reader, "detuning of the tag", -tag.model.detuning_db);
   const double back_db = to_db(std::norm(of_link.backward));
   if (model.X_AR) {
-    OneWay back = one_way(view, tag, back_db, true);
+    OneWay back = one_way(view, tag, to_db(std::norm(alone.backward)), true);
     link.to_reader.insert(link.to_reader.end(), back.lines.begin(), back.lines.end());
+    add_coupling(tag, of_link.backward, alone.backward, link.to_reader);
     link.between_return = std::move(back.between);
   } else {
     add(link.to_reader, "the same way back", back_db);

@@ -136,5 +136,33 @@ TEST(CheckHardware, NamesTheRange) {
   EXPECT_THROW(check(hardware), Error);
 }
 
+TEST(SinrDb, CountsOtherReadersAsNoise) {
+  const ReaderHardware hardware;
+  const double noise = noise_dbm(hardware);
+  EXPECT_NEAR(sinr_db(hardware, noise + 20.0), 20.0, 1e-12);
+  EXPECT_NEAR(sinr_db(hardware, noise + 20.0, std::pow(10.0, noise / 10.0)), 20.0 - 3.0103, 1e-4);
+}
+
+TEST(PhaseSigma, GrowsWithNoiseAndInterference) {
+  ReaderHardware hardware;
+  hardware.phase_floor_rad = 0.0;
+  const double noise_mw = std::pow(10.0, noise_dbm(hardware) / 10.0);
+  EXPECT_NEAR(phase_sigma(hardware, -60.0, 99.0 * noise_mw) / phase_sigma(hardware, -60.0), 10.0,
+              1e-9);
+}
+
+TEST(RequiredSinr, LetsHalfOfAllRepliesThrough) {
+  const ReaderHardware hardware;
+  const double noise = noise_dbm(hardware);
+  for (const int bits : {2, 16, 144, 1000}) {
+    const double reply_dbm = noise + required_sinr_db(bits) + 7.0;
+    // Noise and interference together are 7 dB over the noise.
+    const double interference_mw = (from_db(7.0) - 1.0) * from_db(noise);
+    EXPECT_NEAR(decode_probability(hardware, reply_dbm, bits, interference_mw), 0.5, 1e-6) << bits;
+  }
+  // ½ erfc √(SNR/2) = 1 − 2^(−1/144) = 0.004802: 2.590 standard deviations, 8.27 dB.
+  EXPECT_NEAR(required_sinr_db(144), 8.27, 0.01);
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -103,7 +103,8 @@ std::optional<Error> key_without_physical_antenna(YamlMap& scenario) {
     return Error(fmt::format("{}: {} belongs to {}, but all antennas are simulated by model: paper",
                              to_string(value.location()), value.path(), kPhysicalModels));
   };
-  for (const char* const key : {"without", "diffraction", "tag_profile"}) {
+  for (const char* const key :
+       {"without", "diffraction", "interference", "tag_coupling", "tag_profile"}) {
     if (scenario.has(key)) return complaint(scenario, key);
   }
   for (const YamlValue& value : scenario.list("tags")) {

@@ -89,8 +89,8 @@ RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics) {
   if (map.has("without")) {
     defaults.without.push_back(raw_parameter("without", map.at("without")));
   }
-  if (map.has("diffraction")) {
-    defaults.antenna.push_back(raw_parameter("diffraction", map.at("diffraction")));
+  for (const char* const key : {"diffraction", "interference", "tag_coupling"}) {
+    if (map.has(key)) defaults.antenna.push_back(raw_parameter(key, map.at(key)));
   }
   if (map.has("tag_profile")) {
     std::vector<RawParameter> parameters;

@@ -20,12 +20,13 @@ RawParameter raw_parameter(const std::string& key, const YamlValue& value);
 /// What holds for all antennas and tags that don't say otherwise.
 struct RadioDefaults {
   PropagationModel model = PropagationModel::kPaper;
-  std::vector<RawParameter> antenna;  ///< `diffraction`; an antenna's own goes before it.
+  /// `diffraction`, `interference`, `tag_coupling`; an antenna's own go before them.
+  std::vector<RawParameter> antenna;
   std::vector<RawParameter> without;  ///< Together with an antenna's own.
   std::shared_ptr<const TagModel> tag = default_tag_model();
 };
 
-/// Takes `model`, `diffraction`, `without` and `tag_profile`.
+/// Takes `model`, `diffraction`, `interference`, `tag_coupling`, `without` and `tag_profile`.
 RadioDefaults radio_defaults_of(YamlMap& map, Diagnostics& diagnostics);
 
 /// The antenna's physical model from its `profiles` and settings.

@@ -174,5 +174,50 @@ TEST(LoadScenario, WarnsOfThePapersKeysBesideAPhysicalModel) {
             std::string::npos);
 }
 
+const char* const kTwoReaders = R"(model: link_budget
+duration_s: 1
+interference: on
+tag_coupling: on
+antennas:
+  - {name: a, reader: one, pose: [0, 0, 1]}
+  - {name: b, reader: two, pose: [4, 0, 1], spectrum_mask: multiple}
+tags:
+  - {id: t1, position: [1, 0, 1]}
+  - {id: t2, position: [1, 0.05, 1]}
+)";
+
+/// What is said of the two readers with `from` replaced by `to`: what is wrong, or warned of.
+std::string said_of_two(const std::string& from, const std::string& to) {
+  std::string text = kTwoReaders;
+  text.replace(text.find(from), from.size(), to);
+  const std::string path = write_scenario(text);
+  Diagnostics diagnostics;
+  try {
+    load_scenario(path, {}, diagnostics);
+  } catch (const Error& error) {
+    return std::string(error.what()).substr(path.size() + 1);
+  }
+  std::string said;
+  for (const std::string& warning : diagnostics.warnings()) said += warning.substr(path.size() + 1);
+  return said;
+}
+
+TEST(LoadScenario, RefusesInterferenceWhereNobodyElseSends) {
+  EXPECT_EQ(said_of_two("on", "on"), "");
+  const std::string nobody =
+      "3: interference has no effect: no other reader sends while antenna 'a' does; expected off, "
+      "or another reader with sharing: channel";
+  EXPECT_EQ(said_of_two("reader: two", "reader: one"), nobody);
+  EXPECT_EQ(said_of_two("duration_s: 1", "duration_s: 1\nwithout: [interference]"), "");
+}
+
+TEST(LoadScenario, WarnsOfMasksThatNobodyMindsAndOfLoneTags) {
+  EXPECT_EQ(said_of_two("interference: on", "interference: off"),
+            "7: spectrum_mask of antenna 'b' has no effect: no other reader that sends at the same "
+            "time has interference: on");
+  EXPECT_EQ(said_of_two("  - {id: t2, position: [1, 0.05, 1]}\n", ""),
+            "4: tag_coupling has no effect: there is one tag only");
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -94,6 +94,16 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
                  [](D& d, const std::string& text) { d.model.reflection_order = whole_in(text); }});
   all.push_back(word<D>("diffraction", {"off", "on"}, "whether waves bend around edges",
                         [](D& d, std::size_t i) { d.model.diffraction = i == 1; }));
+  all.push_back(word<D>("tag_coupling", {"off", "on"},
+                        "whether tags near one another change what each takes in",
+                        [](D& d, std::size_t i) { d.model.tag_coupling = i == 1; }));
+  all.push_back(word<D>("interference", {"off", "on"},
+                        "whether what other readers send at the same time disturbs its links",
+                        [](D& d, std::size_t i) { d.model.interference = i == 1; }));
+  all.push_back(
+      word<D>("spectrum_mask", {"multiple", "dense"},
+              "of Gen2, that bounds what it sends beside its channel",
+              [](D& d, std::size_t i) { d.model.spectrum_mask = static_cast<SpectrumMask>(i); }));
   all.push_back({{"diffuse_k_db", "dB",
                   "power of all single paths over that of diffuse waves "
                   "(Rice's K); no such waves where not given"},
@@ -101,7 +111,7 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
   all.push_back({{"without", "effects",
                   "effects to leave out: patterns, polarization, occlusion, "
                   "reflections, diffraction, bodies, diffuse, noise, quantization, hopping, "
-                  "phase_offsets, half_turns, inventory"},
+                  "phase_offsets, half_turns, inventory, interference, coupling"},
                  set_without});
 }
 

@@ -73,6 +73,32 @@ TEST(RadioModelFrom, TakesValuesInTheirUnits) {
   EXPECT_EQ(model->X_AR->translation.y(), 0.5);
 }
 
+TEST(RadioModelFrom, HasReadersAndTagsToThemselvesUnlessAsked) {
+  EXPECT_FALSE(made({})->interference);
+  EXPECT_FALSE(made({})->tag_coupling);
+  EXPECT_EQ(made({})->spectrum_mask, SpectrumMask::kDense);
+  const auto model =
+      made({{"interference", "on"}, {"tag_coupling", "on"}, {"spectrum_mask", "multiple"}});
+  EXPECT_TRUE(is_disturbed(*model));
+  EXPECT_TRUE(couples_tags(*model));
+  EXPECT_EQ(model->spectrum_mask, SpectrumMask::kMultiple);
+  const auto without =
+      made({{"interference", "on"}, {"tag_coupling", "on"}, {"without", "interference coupling"}});
+  EXPECT_FALSE(is_disturbed(*without));
+  EXPECT_FALSE(couples_tags(*without));
+  EXPECT_EQ(complaint({{"spectrum_mask", "wide"}}),
+            "s.yaml:10: spectrum_mask is 'wide', expected multiple, dense");
+}
+
+TEST(TransmitSpectrumOf, HasChannelsOfTariOrOfThePlan) {
+  EXPECT_DOUBLE_EQ(
+      transmit_spectrum_of(*made({{"inventory", "gen2"}, {"tari_us", "12.5"}})).channel_hz, 200e3);
+  EXPECT_DOUBLE_EQ(
+      transmit_spectrum_of(*made({{"channel_plan", "fcc"}, {"spectrum_mask", "multiple"}}))
+          .channel_hz,
+      500e3);
+}
+
 TEST(RadioModelFrom, LetsTheLaterOfTwoCount) {
   EXPECT_EQ(made({{"gain_dbi", "6"}, {"gain_dbi", "7"}})->antenna.gain_dbi, 7.0);
 }
