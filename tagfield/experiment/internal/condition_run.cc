@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "tagfield/experiment/experiment.h"
+#include "tagfield/experiment/internal/faults.h"
 #include "tagfield/experiment/internal/read_loss.h"
 #include "tagfield/experiment/internal/record.h"
 #include "tagfield/experiment/judge.h"
@@ -64,7 +65,12 @@ BoundKind bound_of(const std::string& method) {
   return method == "joint" ? BoundKind::kJoint : BoundKind::kSingle;
 }
 
-MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
+/// Tags whose places nobody knows say nothing of a recording.
+void drop_strangers(std::vector<TagRecord>& tags) {
+  std::erase_if(tags, [](const TagRecord& tag) { return !tag.truth; });
+}
+
+MethodRun run_method(const PreparedMethod& method, const PreparedCondition& condition,
                      const Recording& recording, Given& given, Diagnostics& diagnostics) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
@@ -74,22 +80,32 @@ MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
   run.tags_given = given.problem().samples.size();
   run.method = result.method.empty() ? method.method.name : result.method;
   run.bound = bound_of(run.method);
-  const std::vector<TagEstimate> estimates = with_all_tags(result.estimates, {}, tags_of(scenario));
+  const bool recorded = condition.recording.has_value();
+  const std::vector<TagEstimate> estimates = with_all_tags(
+      result.estimates, recorded ? recording.truth : Truth{}, tags_of(condition.scenario));
   run.tags = records_of(given.problem(), judged(estimates, recording.reads, recording.truth,
                                                 given.problem().reference_tags));
+  if (recorded) drop_strangers(run.tags);
   judge_by(given.bounds(run.bound), run);
-  if (scenario.pose.source != PoseSource::kTrue) add_aligned_errors(run.tags);
+  judge_claims(condition.condition.fault.value_or(Faults{}), run);
+  if (recorded || condition.scenario.pose.source != PoseSource::kTrue) {
+    add_aligned_errors(run.tags);
+  }
   return run;
 }
 
-Recording recorded(const PreparedCondition& condition, std::uint64_t seed,
-                   const RunControl& control, bool& complete) {
+/// None where `control.stop` was set before it was over.
+std::optional<Recording> simulated(const PreparedCondition& condition, std::uint64_t seed,
+                                   const RunControl& control) {
   const NavigationWorld* const world = condition.world ? &*condition.world : nullptr;
   SeedRun run = simulate(condition.scenario, seed, control, world);
-  complete = run.complete;
-  const std::optional<ReadLoss>& lose = condition.condition.lose;
-  if (lose) run.recording.reads = without_lost(run.recording.reads, *lose, seed);
+  if (!run.complete) return std::nullopt;
   return std::move(run.recording);
+}
+
+void spoil(const Condition& condition, std::uint64_t seed, Recording& recording) {
+  if (condition.lose) recording.reads = without_lost(recording.reads, *condition.lose, seed);
+  if (condition.fault) add_faults(*condition.fault, seed, recording);
 }
 
 }  // namespace
@@ -97,17 +113,18 @@ Recording recorded(const PreparedCondition& condition, std::uint64_t seed,
 std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& condition,
                                                     std::uint64_t seed, const RunControl& control,
                                                     Diagnostics& diagnostics) {
-  bool complete = false;
-  const Recording recording = recorded(condition, seed, control, complete);
-  if (!complete) return std::nullopt;
+  std::optional<Recording> made =
+      condition.recording ? condition.recording : simulated(condition, seed, control);
+  if (!made) return std::nullopt;
+  spoil(condition.condition, seed, *made);
+  const Recording& recording = *made;
   Given shared(condition, recording, condition.known, diagnostics);
   std::vector<MethodRun> runs;
   for (const PreparedMethod& method : condition.methods) {
     if (stopped(control)) return std::nullopt;
     std::optional<Given> own;
     if (method.known) own.emplace(condition, recording, *method.known, diagnostics);
-    runs.push_back(
-        run_method(method, condition.scenario, recording, own ? *own : shared, diagnostics));
+    runs.push_back(run_method(method, condition, recording, own ? *own : shared, diagnostics));
     runs.back().seed = seed;
   }
   return runs;
