@@ -97,15 +97,16 @@ def stepped(rows):
 
 
 def write(folder, tags, poses=None):
-    """reads.csv and poses.csv of `tags` (rows by ID); `poses`: (t, p), or those of the rows."""
+    """reads.csv and poses.csv of `tags` (rows by ID), in order of time; `poses`: (t, p), or those of
+    the rows."""
     folder = pathlib.Path(folder)
     with open(folder / "reads.csv", "w", encoding="utf-8") as file:
         out = csv.writer(file)
         out.writerow("stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm".split(","))
-        for tag, rows in tags.items():
-            for t, _, carrier, phase, rssi in rows:
-                out.writerow([f"{t:.6f}", "r", "a", tag, f"{carrier:.0f}", f"{phase % TURN:.6f}",
-                              f"{rssi:.1f}"])
+        every = [(tag, row) for tag, rows in tags.items() for row in rows]
+        for tag, (t, _, carrier, phase, rssi) in sorted(every, key=lambda read: read[1][0]):
+            out.writerow([f"{t:.6f}", "r", "a", tag, f"{carrier:.0f}", f"{phase % TURN:.6f}",
+                          f"{rssi:.1f}"])
     poses = poses or sorted({(round(t, 6), p) for rows in tags.values() for t, p, *_ in rows})
     with open(folder / "poses.csv", "w", encoding="utf-8") as file:
         out = csv.writer(file)

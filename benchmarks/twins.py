@@ -4,10 +4,13 @@ judged by the bound of that very data.
 
     benchmarks/twins.py [--tagfield build/release/bin/tagfield] [--tags 40] [--seed 1]
                         [--method auto] [--conditions rail sequential,…] [--pose-sigma 0]
+    benchmarks/twins.py --write DIR [--tags 40] [--seed 1] [--method auto,sar] …
 
 For each condition: how many tags were located, the root mean square of error over the Cramer-Rao
 bound's deviation (of outliers: of the reads that are none), and how many are off by over five times
-what was expected. Of N tags the ratio of an efficient estimator is 1 ± 1/sqrt(2 N) or so.
+what was expected. Of N tags the ratio of an efficient estimator is 1 ± 1/sqrt(2 N) or so. With --write
+nothing is located: the same reads become recordings in DIR, with the suite of `tagfield bench
+DIR/suite.yaml`.
 """
 
 import argparse
@@ -66,8 +69,8 @@ def place_beside(way, rng):
     return away * math.cos(angle), away * math.sin(angle)
 
 
-def run(program, way, name, options):
-    """Errors over the bound's deviation, errors over the expected one, and the method's name."""
+def twin(way, name, options):
+    """Rows and places by tag, and the bound's deviation of each."""
     visit, change = CONDITIONS[name]
     rng = random.Random(f"{options.seed} {way} {name}")
     tags, bounds, places = {}, {}, {}
@@ -78,6 +81,34 @@ def run(program, way, name, options):
         rows, telling = change(made.read_tag(visits, places[tag], rng, SIGMA), rng)
         tags[tag] = rows
         bounds[tag] = math.sqrt(made.bound_trace(telling, places[tag], SIGMA))
+    return tags, places, bounds
+
+
+def write(way, name, options):
+    """The recording as files; gives back its condition in the suite."""
+    label = f"{way} {name}"
+    tags, places, _ = twin(way, name, options)
+    folder = label.replace(" %", "_percent").replace(" ", "_")
+    (options.write / folder).mkdir(parents=True, exist_ok=True)
+    made.write(options.write / folder, tags)
+    (options.write / folder / "truth.csv").write_text("tag,x_m,y_m\n" + "".join(
+        f"{tag},{x},{y}\n" for tag, (x, y) in places.items()), encoding="utf-8")
+    side = ", side: +y" if way == "rail" else ""
+    believed = {None: "", 0.0: "    believed: exact\n"}.get(
+        options.pose_sigma, f"    believed: {{sigma_m: {options.pose_sigma}}}\n")
+    return (f"  - name: {label}\n    recording: {{reads: {folder}/reads.csv, poses: {folder}/poses.csv, "
+            f"truth: {folder}/truth.csv{side}}}\n{believed}")
+
+
+def write_suite(conditions, options):
+    (options.write / "suite.yaml").write_text(
+        f"name: twins\ndescription: Synthetic twins of real data\nmethods: [{options.method}]\n"
+        "conditions:\n" + "".join(conditions), encoding="utf-8")
+
+
+def run(program, way, name, options):
+    """Errors over the bound's deviation, errors over the expected one, and the method's name."""
+    tags, places, bounds = twin(way, name, options)
     area = ["--side=+y"] if way == "rail" else []
     sigma = [] if options.pose_sigma is None else ["--pose-sigma", str(options.pose_sigma)]
     with tempfile.TemporaryDirectory() as folder:
@@ -108,18 +139,20 @@ def main():
     parser.add_argument("--method", default="auto")
     parser.add_argument("--pose-sigma", type=float)
     parser.add_argument("--conditions", default="")
+    parser.add_argument("--write", type=pathlib.Path, metavar="DIR")
     options = parser.parse_args()
     wanted = [word for word in options.conditions.split(",") if word]
-    for way in WAYS:
-        for name in CONDITIONS:
-            label = f"{way} {name}"
-            if wanted and label not in wanted:
-                continue
-            ratios, honest, chosen = run(options.tagfield, way, name, options)
-            wrong = sum(value > 5 for value in honest)
-            print(f"{label:<34} {chosen:<6} {len(ratios):>3} of {options.tags:<3} "
-                  f"{rms(ratios):6.2f} x the bound, error/expected {rms(honest):5.2f}, "
-                  f"over 5 times {wrong}", flush=True)
+    chosen = [(way, name) for way in WAYS for name in CONDITIONS
+              if not wanted or f"{way} {name}" in wanted]
+    if options.write:
+        write_suite([write(way, name, options) for way, name in chosen], options)
+        return 0
+    for way, name in chosen:
+        ratios, honest, method = run(options.tagfield, way, name, options)
+        wrong = sum(value > 5 for value in honest)
+        print(f"{f'{way} {name}':<34} {method:<6} {len(ratios):>3} of {options.tags:<3} "
+              f"{rms(ratios):6.2f} x the bound, error/expected {rms(honest):5.2f}, "
+              f"over 5 times {wrong}", flush=True)
     return 0
 
 

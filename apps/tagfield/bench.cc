@@ -4,7 +4,9 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/method_text.h"
+#include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/experiment/bench/bench_figures.h"
@@ -46,6 +48,15 @@ Suite suite_of(const BenchArguments& arguments) {
   return suite;
 }
 
+RecordedReads read_recording(const SuiteRecording& recording, Diagnostics& diagnostics) {
+  ReadsAndPoses tables =
+      read_tables("recording", recording.reads, recording.poses, recording.format);
+  warn_of_odd_reads(recording.reads, tables.reads, diagnostics);
+  warn_of_odd_poses(recording.poses.empty() ? recording.reads : recording.poses, tables.poses,
+                    diagnostics);
+  return {std::move(tables.reads), std::move(tables.poses)};
+}
+
 Bench run_with_progress(const PreparedSuite& prepared, int threads) {
   ProgressBar bar("bench");
   RunControl control;
@@ -77,7 +88,9 @@ int bench(const BenchArguments& arguments) {
   if (arguments.list_methods) return list_methods();
   const Suite suite = suite_of(arguments);
   Diagnostics diagnostics;
-  const PreparedSuite prepared = prepare(suite, built_in_methods(), diagnostics);
+  const PreparedSuite prepared = prepare(
+      suite, built_in_methods(), diagnostics,
+      [&](const SuiteRecording& recording) { return read_recording(recording, diagnostics); });
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
   StagedFolder folder(out);
@@ -124,15 +137,19 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "bench", "Compare localization methods in many conditions with many seeds");
   add_options(*command, *arguments);
   command->footer(
-      "A suite names methods and conditions. Each condition is simulated once with each seed, and\n"
-      "all its methods locate the same reads:\n\n"
+      "A suite names methods and conditions. Each condition is simulated once with each seed, or "
+      "was\n"
+      "recorded, and all its methods locate the same reads:\n\n"
       "  scenario: ../paper_warehouse.yaml      # relative to the suite\n"
       "  seeds: 100\n"
       "  methods: [hyperbola, {name: coarse, method: hyperbola, localization: {stride_m: 1}}]\n"
       "  conditions:\n"
       "    - {name: true pose}\n"
       "    - {name: noisy, set: {antennas.mobile.phase_noise_rad: 0.5}}\n"
-      "    - {name: lossy, lose: {share: 0.3, burst_s: 1, every_s: 10}}\n\n"
+      "    - {name: lossy, lose: {share: 0.3, burst_s: 1, every_s: 10}}\n"
+      "    - {name: late, fault: {late_stamps_s: 0.2}}\n"
+      "    - {name: rail, recording: {reads: d1.tar.zst, format: adarf, side: +y, truth: "
+      "t.csv}}\n\n"
       "The folder then holds bench.html, bench.json, bench.csv with a row for each condition and\n"
       "method, and tags.csv with a row for each tag of each run. For example\n"
       "  tagfield bench scenarios/bench/paper_warehouse.yaml --seeds 5\n"

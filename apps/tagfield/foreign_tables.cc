@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "adapters/archive/unpacked_archive.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/spelling.h"
@@ -50,16 +51,9 @@ std::vector<AntennaPose> poses_of(const std::string& command, const std::string&
   return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
 }
 
-}  // namespace
-
-void add_format_option(CLI::App& command, std::string& format) {
-  command.add_option("--format", format,
-                     "Form of other people's CSV: a name of profiles/datasets, as adarf or "
-                     "llrp_log, or a file (YAML); docs/datasets.md");
-}
-
-ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
-                          const std::string& poses, const std::string& format) {
+/// Tables that are there as they are.
+ReadsAndPoses read_plain_tables(const std::string& command, const std::string& reads,
+                                const std::string& poses, const std::string& format) {
   if (!format.empty()) {
     const DatasetForm form = read_dataset_form(format_file(command, format));
     Dataset dataset = read_dataset_csv(reads, form);
@@ -71,6 +65,29 @@ ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
   }
   finish_commit(fs::path(reads).parent_path());
   return {read_reads_csv(reads), read_poses_csv(poses)};
+}
+
+}  // namespace
+
+void add_format_option(CLI::App& command, std::string& format) {
+  command.add_option("--format", format,
+                     "Form of other people's CSV: a name of profiles/datasets, as adarf or "
+                     "llrp_log, or a file (YAML); docs/datasets.md");
+}
+
+ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
+                          const std::string& poses, const std::string& format) {
+  if (!is_archive(reads)) return read_plain_tables(command, reads, poses, format);
+  const UnpackedArchive unpacked(reads);
+  try {
+    return read_plain_tables(command, unpacked.tables().string(), poses, format);
+  } catch (const Error& error) {
+    // The table that it complains of is in the archive, for all that people know.
+    std::string said = error.what();
+    const std::string folder = unpacked.folder().string();
+    if (said.rfind(folder, 0) == 0) said.replace(0, folder.size(), reads);
+    throw Error(said);
+  }
 }
 
 }  // namespace tagfield

@@ -273,7 +273,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                    "Rosbag of ROS 1 (RUN.bag), recording of ROS 2 (RUN.mcap, RUN.db3, or "
                    "rosbag2's folder), or CSV: "
                    "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
-                   "rssi_dbm")
+                   "rssi_dbm; of CSV also an archive, RUN.tar.zst or RUN.csv.gz")
       ->required();
   command->add_option("--poses", arguments->poses,
                       "With CSV, the poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw). With a "

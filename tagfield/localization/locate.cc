@@ -33,14 +33,6 @@ WayLine way_of(const SamplesOfTag& samples) {
   return way_line(places);
 }
 
-/// Of those that come with Tagfield; one's own are left alone.
-bool is_by_phase(const std::string& method) {
-  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",  "joint",    "multipath",
-                                      "sar",       "robust",        "dah", "particle", "scan"};
-  return std::any_of(std::begin(kByPhase), std::end(kByPhase),
-                     [&](const char* name) { return method == name; });
-}
-
 void keep_within_area(const LocalizationProblem& problem, std::vector<TagEstimate>& estimates) {
   if (!problem.area.side && !problem.area.box) return;
   for (TagEstimate& estimate : estimates) {
@@ -65,6 +57,13 @@ std::vector<Method> built_in_methods() {
   };
   methods.insert(methods.begin(), automatic_method(methods));
   return methods;
+}
+
+bool is_by_phase(const std::string& method) {
+  constexpr const char* kByPhase[] = {"hyperbola", "least_squares", "ml",  "joint",    "multipath",
+                                      "sar",       "robust",        "dah", "particle", "scan"};
+  return std::any_of(std::begin(kByPhase), std::end(kByPhase),
+                     [&](const char* name) { return method == name; });
 }
 
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,

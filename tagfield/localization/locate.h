@@ -17,6 +17,10 @@ namespace tagfield {
 /// All methods that come with Tagfield, in the order in which people are told of them.
 std::vector<Method> built_in_methods();
 
+/// Whether a method goes by phases, so that without them it locates nothing: of those that come
+/// with Tagfield; false of one's own.
+bool is_by_phase(const std::string& method);
+
 struct LocalizationOptions {
   std::string method = "hyperbola";
   MethodSettings settings;  ///< Of which the method takes those that it has.

@@ -218,18 +218,6 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
   for (const Method& method : used) configured(method, spec.settings);
 }
 
-TagArea area_of(YamlMap& map) {
-  TagArea area;
-  if (map.has("side")) area.side = static_cast<TagSide>(choice(map.at("side"), kTagSides));
-  if (map.has("box")) {
-    const std::vector<double> n = map.at("box").lengths(4, 4);
-    const Eigen::Vector2d one(n[0], n[1]);
-    const Eigen::Vector2d other(n[2], n[3]);
-    area.box = Eigen::AlignedBox2d(one.cwiseMin(other), one.cwiseMax(other));
-  }
-  return area;
-}
-
 LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods) {
   LocalizationSpec spec;
   read_methods(map, methods, spec);
@@ -237,7 +225,7 @@ LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
   for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());
   if (map.has("pose_error")) spec.pose_error = pose_error_of(YamlMap(map.at("pose_error")));
-  spec.area = area_of(map);
+  spec.area = tag_area_of(map);
   EstimateLimits& limits = spec.limits;
   limits.max_expected_error_m =
       map.number("max_expected_error_m", limits.max_expected_error_m, kPositive);

@@ -41,6 +41,18 @@ Eigen::Vector3d position_of(const YamlValue& value) {
   return {n[0], n[1], n[2]};
 }
 
+TagArea tag_area_of(YamlMap& map) {
+  TagArea area;
+  if (map.has("side")) area.side = static_cast<TagSide>(choice(map.at("side"), kTagSides));
+  if (map.has("box")) {
+    const std::vector<double> n = map.at("box").lengths(4, 4);
+    const Eigen::Vector2d one(n[0], n[1]);
+    const Eigen::Vector2d other(n[2], n[3]);
+    area.box = Eigen::AlignedBox2d(one.cwiseMin(other), one.cwiseMax(other));
+  }
+  return area;
+}
+
 RigidTransform pose_of(const YamlValue& value) {
   const std::vector<double> n = value.lengths(3, 6);
   if (n.size() == 3) return from_translation({n[0], n[1], n[2]});

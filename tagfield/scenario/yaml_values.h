@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/localization/tag_area.h"
 #include "tagfield/poses/rigid_transform.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/scenario/yaml_map.h"
@@ -23,6 +24,9 @@ std::string resolve_path(const YamlValue& value);
 double seconds_of(const YamlValue& value, NumberRange range);
 
 Eigen::Vector3d position_of(const YamlValue& value);
+
+/// Where tags can be, by the keys `side` and `box` ([x0, y0, x1, y1] with corners in any order).
+TagArea tag_area_of(YamlMap& map);
 
 /// [x, y, z] or [x, y, z, roll, pitch, yaw], as in SDF.
 RigidTransform pose_of(const YamlValue& value);

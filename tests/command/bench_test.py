@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """`tagfield bench`: suites in, tables and a page out; the same bytes whatever the threads."""
 
+import math
 import statistics
+import tarfile
 
-from common import (case, check, check_equal, check_in, check_near, files_in, main, percentile,
-                    read_csv, read_json)
+from common import (Skip, case, check, check_equal, check_in, check_near, files_in, main,
+                    percentile, read_csv, read_json, run)
 
-NUMBERS = ("runs", "tags", "located", "ambiguous", "not_located", "wrong")
+NUMBERS = ("runs", "tags", "located", "ambiguous", "not_located", "wrong", "false_claims")
 
 
 def suite_of(context, conditions, name="suite.yaml", methods="[hyperbola]", more=""):
@@ -131,6 +133,138 @@ def estimated_poses_are_aligned(context):
         check(sum(squares[0]) <= sum(squares[1]), "aligned errors are larger")
 
 
+# --- Faults ---------------------------------------------------------------------------------------
+
+NO_PLACE = ("duplicate EPCs", "poses of another run", "slow tags")
+
+
+@case
+def false_claims_are_told_from_others(context):
+    suite = context.source / "scenarios/bench/false_claims.yaml"
+    folder = bench(context, suite, "--seeds", "2", "--no-page", "--methods",
+                   "hyperbola,trilateration", "--conditions",
+                   "as it is,stamps 0.2 s late," + ",".join(NO_PLACE))
+    counted = {}
+    for row in read_csv(folder / "tags.csv"):
+        key = row["condition"], row["name"]
+        is_false = row["verdict"] == "located" and (
+            row["condition"] in NO_PLACE or
+            float(row["error_m"]) > 5 * float(row["expected_error_m"]))
+        check_equal(row["false_claim"], str(int(is_false)), f"false_claim of {key} {row['tag']}")
+        counted[key] = counted.get(key, 0) + is_false
+    entries = {(entry["condition"], entry["name"]): entry
+               for entry in read_json(folder / "bench.json")["entries"]}
+    check_equal({key: entry["false_claims"] for key, entry in entries.items()}, counted, "counts")
+    check_equal(entries["as it is", "hyperbola"]["located"], 40, "tags located without a fault")
+    # By strength alone a slow tag looks as if it rested.
+    check(entries["slow tags", "trilateration"]["false_claims"] > 0, "no slow tag was claimed")
+    told = {told["name"]: told for told in read_json(folder / "bench.json")["conditions"]}
+    check_equal(told["duplicate EPCs"]["faults"], ["duplicate_epcs"], "faults")
+    check_equal(told["duplicate EPCs"]["no_bound"], "the reads are faulty", "bound of faulty reads")
+    check_equal(told["slow tags"]["faults"], [], "faults of slow tags")
+
+
+@case
+def errors_are_told_over_what_was_expected(context):
+    folder = bench(context, suite_of(context, SMALL), "--conditions", "true pose")
+    own = [float(row["error_m"]) / float(row["expected_error_m"])
+           for row in read_csv(folder / "tags.csv") if row["error_m"]]
+    ratio = math.sqrt(statistics.fmean(value * value for value in own))
+    check_near(float(read_csv(folder / "bench.csv")[0]["error_over_expected"]), ratio, 1e-9, "ratio")
+    check_near(ratio, 1.0, 0.4, "error over expected error of 20 tags")
+
+
+# --- Recordings -----------------------------------------------------------------------------------
+
+def twins(context):
+    """A folder with recordings that benchmarks/twins.py makes, and their suite."""
+    made = run(["/usr/bin/python3", "-B", context.source / "benchmarks/twins.py", "--write",
+                context.folder / "twins", "--tags", "4", "--method", "ml", "--conditions",
+                "circle one channel,rail one channel"], cwd=context.folder)
+    check_equal((made.code, made.err), (0, ""), "twins.py")
+    return context.folder / "twins"
+
+
+@case
+def recordings_are_judged_by_their_truth(context):
+    folder = twins(context)
+    out = bench(context, folder / "suite.yaml", "--seeds", "3", "--no-timing")
+    told = read_json(out / "bench.json")
+    check_equal([(of["name"], of["recording"], of["scenario"], of["pose"], of["runs_planned"])
+                 for of in told["conditions"]],
+                [(name, "reads.csv", None, "given", 1)
+                 for name in ("circle one channel", "rail one channel")], "conditions")
+    rows = read_csv(out / "tags.csv")
+    check_equal(len(rows), 8, "tags, once each")
+    for way, side in (("circle", ()), ("rail", ("--side=+y",))):
+        files = folder / f"{way}_one_channel"
+        context.run_well("localize", files / "reads.csv", "--poses", files / "poses.csv",
+                         "--method", "ml", "--out", way, *side)
+        by_hand = {row["tag"]: row for row in read_csv(context.folder / way / "estimates.csv")}
+        truth = {row["tag"]: row for row in read_csv(files / "truth.csv")}
+        for row in rows:
+            if not row["condition"].startswith(way):
+                continue
+            alone = by_hand[row["tag"]]
+            check_equal(row["verdict"], alone["verdict"], f"verdict on {way} {row['tag']}")
+            for key in ("x_m", "y_m", "expected_error_m"):
+                check_near(float(row[key]), float(alone[key]), 6e-7, f"{key} of {way} {row['tag']}")
+            place = truth[row["tag"]]
+            error = math.dist((float(row["x_m"]), float(row["y_m"])),
+                              (float(place["x_m"]), float(place["y_m"])))
+            check_near(float(row["error_m"]), error, 1e-9, "error")
+            check(error < 0.05, f"{way} {row['tag']}: {error} m off")
+    check_in("(1 run, pose: given)", (out / "bench.html").read_text(encoding="utf-8"), "page")
+
+
+@case
+def recordings_can_be_spoilt(context):
+    folder = twins(context)
+    suite = folder / "suite.yaml"
+    text = suite.read_text(encoding="utf-8").replace(
+        "  - name: rail", "    fault: random_phases\n  - name: rail")
+    suite.write_text(text, encoding="utf-8")
+    entries = read_json(bench(context, suite, "--no-page") / "bench.json")["entries"]
+    check_equal([entry["located"] for entry in entries], [0, 4], "tags located, spoilt and not")
+
+
+@case
+def recordings_that_are_not_there_are_skipped(context):
+    folder = twins(context)
+    (folder / "rail_one_channel/truth.csv").unlink()
+    result = context.run_well("bench", folder / "suite.yaml", "--out", "out")
+    check_equal(result.err, f"tagfield: warning: {folder}/suite.yaml:7: condition 'rail one channel' "
+                f"is skipped: there is no {folder}/rail_one_channel/truth.csv\n", "warning")
+    told = read_json(context.folder / "out/bench.json")
+    check_equal([of["name"] for of in told["conditions"]], ["circle one channel"], "conditions")
+    check_equal((told["complete"], len(told["warnings"])), (True, 1), "complete, warnings")
+    (folder / "circle_one_channel/reads.csv").unlink()
+    context.run_well("bench", folder / "suite.yaml", "--out", "none")
+    check_equal(read_csv(context.folder / "none/bench.csv"), [], "rows where nothing is there")
+
+
+def require_archives(context):
+    """Skips the case in builds without libarchive."""
+    if "built without libarchive" in context.run("localize", "none.tar", "--format", "adarf").err:
+        raise Skip("this tagfield was built without libarchive (libarchive-dev)")
+
+
+@case
+def archives_are_as_good_as_their_tables(context):
+    require_archives(context)
+    folder = twins(context)
+    reads = folder / "circle_one_channel/reads.csv"
+    plain = files_in(bench(context, folder / "suite.yaml", "--no-timing", name="plain"))
+    with tarfile.open(folder / "circle_one_channel/reads.tar.gz", "w:gz") as archive:
+        archive.add(reads, "published/1/reads.csv")
+    reads.unlink()
+    suite = folder / "suite.yaml"
+    suite.write_text(suite.read_text(encoding="utf-8").replace(
+        "circle_one_channel/reads.csv", "circle_one_channel/reads.tar.gz"), encoding="utf-8")
+    packed = files_in(bench(context, suite, "--no-timing", name="packed"))
+    check(plain["tags.csv"] == packed["tags.csv"], "tags.csv differs where reads are in an archive")
+
+
 # --- The command ----------------------------------------------------------------------------------
 
 @case
@@ -172,6 +306,15 @@ BAD = (  # what stands in the suite's conditions, its line, what is said of it
     ("  - {name: a}\n  - {name: a}\n", 6, "is there twice"),
     ("  - {name: a, seeds: -1}\n", 5, "expected a whole number"),
     ("  - {name: a, set: [1, 2]}\n", 5, "must be a mapping"),
+    ("  - {name: a, fault: random_phase}\n", 5, "did you mean 'random_phases'?"),
+    ("  - {name: a, fault: {late_stamps_s: -1}}\n", 5, "must be greater than 0"),
+    ("  - {name: a, fault: {swapped_antennas: [mobile, b]}}\n", 5, "there is no antenna 'b'"),
+    ("  - name: a\n    recording: {reads: r, poses: p, truth: t}\n    seeds: 2\n", 7,
+     "has no effect on a recording"),
+    ("  - {name: a, recording: {reads: r, poses: p, truht: t}}\n", 5, "did you mean"),
+    ("  - {name: a, recording: {reads: r, poses: p, truth: t, side: up}}\n", 5, "is 'up'"),
+    ("  - {name: a, recording: {reads: suite.yaml, truth: suite.yaml, format: adraf}}\n", 5,
+     "did you mean 'adarf'"),
 )
 
 

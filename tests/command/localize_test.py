@@ -9,9 +9,10 @@ import cmath
 import math
 import random
 import resource
+import tarfile
 
-from common import (SPEED_OF_LIGHT, case, check, check_equal, check_in, check_near, main, position,
-                    read_csv, read_json)
+from common import (SPEED_OF_LIGHT, Skip, case, check, check_equal, check_in, check_near, main,
+                    position, read_csv, read_json)
 
 METHODS = ("auto", "hyperbola", "ml", "joint", "sar")
 CARRIER = 865.7e6
@@ -487,6 +488,12 @@ def adarf_folder(context, tags):
         context.write(f"scan/{stop}.csv", "\ufeff" + "\n".join(rows) + "\n")
 
 
+def require_archives(context):
+    """Skips the case in builds without libarchive."""
+    if "built without libarchive" in context.run("localize", "none.tar", "--format", "adarf").err:
+        raise Skip("this tagfield was built without libarchive (libarchive-dev)")
+
+
 RAIL_TAGS = {"a1": (0.3, 0.6), "b2": (0.5, 0.6), "c3": (0.7, 0.6)}
 
 
@@ -501,6 +508,53 @@ def a_folder_of_stops_amid_echoes(context):
             error = math.dist((x, 1.63 + away), position(rows[tag])[:2])
             check(error < 0.12, f"{tag}: {error:.3f} m off")
             check(error < 5 * float(rows[tag]["expected_error_m"]), f"{tag}: expected too little")
+
+
+@case
+def a_folder_of_stops_in_an_archive(context):
+    require_archives(context)
+    adarf_folder(context, RAIL_TAGS)
+    for name in ("scan.tar", "scan.tar.gz", "scan.tar.xz"):
+        with tarfile.open(context.folder / name, f"w:{name[9:]}") as archive:
+            archive.add(context.folder / "scan", "dataset/1/scan")
+    how = ("--format", "adarf", "--side=+y", "--method", "sar")
+    context.run_well("localize", "scan", *how, "--out", "plain")
+    plain = (context.folder / "plain/estimates.csv").read_bytes()
+    for name in ("scan.tar", "scan.tar.gz", "scan.tar.xz"):
+        context.run_well("localize", name, *how, "--out", name + "_out")
+        check((context.folder / f"{name}_out/estimates.csv").read_bytes() == plain,
+              f"{name} gives other estimates than the folder that it holds")
+    stop = context.folder / "scan/17.csv"
+    context.write("scan/17.csv", stop.read_text(encoding="utf-8").replace("a1,1,9", "a1,1,x", 1))
+    with tarfile.open(context.folder / "bad.tar", "w") as archive:
+        archive.add(context.folder / "scan", "scan")
+    result = context.run("localize", "bad.tar", *how, "--out", "bad")
+    check_equal(result.code, 2, "exit code on a bad table in an archive")
+    check_in("tagfield: bad.tar/scan/17.csv:2: ", result.err, "the complaint")
+    check(not (context.folder / "bad").exists(), "a folder is left behind")
+
+
+@case
+def archives_that_lead_elsewhere_are_refused(context):
+    require_archives(context)
+    context.write("t.csv", "x\n1\n")
+    with tarfile.open(context.folder / "up.tar", "w") as archive:
+        archive.add(context.folder / "t.csv", "../up.csv")
+    link = tarfile.TarInfo("scan")
+    link.type, link.linkname = tarfile.SYMTYPE, str(context.folder)
+    with tarfile.open(context.folder / "link.tar", "w") as archive:
+        archive.addfile(link)
+        archive.add(context.folder / "t.csv", "scan/up.csv")
+    context.write("cut.csv.gz", b"\x1f\x8b\x08\x00cut")
+    for name, says in (("up.tar", "'../up.csv', which leads out of it"),
+                       ("link.tar", "holds the link 'scan'"), ("cut.csv.gz", "can't be unpacked"),
+                       ("none.tar.zst", "can't be unpacked")):
+        result = context.run("localize", name, "--format", "adarf", "--out", "out")
+        check_equal((result.code, result.out), (2, ""), f"exit code and stdout on {name}")
+        check_equal(len(result.err.splitlines()), 1, f"lines on {name}")
+        check_in(f"tagfield: {name}: ", result.err, "the complaint")
+        check_in(says, result.err, "the complaint")
+    check(not list(context.folder.rglob("up.csv")), "a file got out of an archive")
 
 
 @case

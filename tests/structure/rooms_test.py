@@ -37,8 +37,10 @@ COMMON = "adapters/gazebo_common/"
 # The one source of the plugin for gz-sim that joins it and ROS 2.
 GZ_JOINT = "adapters/gz/rfid_system.cc"
 ROSBAG2 = "adapters/rosbag2/"
+ARCHIVE = "adapters/archive/"
 # What containers of bytes may use.
 UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
+UNDER_ARCHIVE = (ARCHIVE, "tagfield/base/")
 UNDER_ROSBAG2 = (ROSBAG2, MCAP, "tagfield/base/", "tagfield/scenario/yaml_map.h")
 # The thin mains that join Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
@@ -109,6 +111,9 @@ def adapter_fault(path, header):
     if path.startswith(MCAP) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                   not header.startswith(UNDER_MCAP)):
         return "adapters/mcap/ knows neither RFID nor ROS"
+    if path.startswith(ARCHIVE) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
+                                     not header.startswith(UNDER_ARCHIVE)):
+        return "adapters/archive/ knows neither RFID nor ROS"
     if path.startswith(ROSBAG2) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                      not header.startswith(UNDER_ROSBAG2)):
         return "adapters/rosbag2/ knows neither RFID nor messages"
@@ -332,6 +337,8 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),
+    ("adapters/archive/a.cc", '#include "tagfield/stream/tag_read.h"\n',
+     "adapters/archive/ knows neither RFID nor ROS"),
     ("adapters/rosbag2/a.cc", '#include "adapters/ros2/cdr.h"\n', "knows neither RFID nor messages"),
     ("adapters/ros1/a.cc", '#include "apps/tagfield/table.h"\n', "adapters/ must not include it"),
     ("tagfield/world/a.h", "/// @file\n/// It.\n#pragma once\nusing namespace std;\n",

@@ -37,6 +37,7 @@ struct TagRecord {
   Verdict verdict = Verdict::kNotLocated;
   std::string reason;
   std::size_t reads = 0;                 ///< Of the tag in this run, those that were lost excepted.
+  bool moved = false;                    ///< So that it has no place that could be told.
   std::optional<Eigen::Vector3d> truth;  ///< None for a tag that moves.
   std::optional<Eigen::Vector3d> estimate;  ///< Of a located tag.
   bool height_estimated = false;
@@ -47,6 +48,7 @@ struct TagRecord {
   std::optional<double> nearest_candidate;  ///< Error of the best candidate of an ambiguous tag.
   std::optional<TagBound> bound;
   std::optional<Nees> nees;
+  bool false_claim = false;  ///< Located, but no place is right, or too far off for what was told.
 };
 
 /// One run (one seed) by one method.
@@ -72,8 +74,10 @@ struct BenchEntry {
 /// One condition, as it was run.
 struct BenchCondition {
   std::string name;
-  std::string scenario;  ///< Name.
-  std::string pose;      ///< "true", "noisy", "odometry", "slam".
+  std::string scenario;             ///< Name; "" of a recording.
+  std::string recording;            ///< Name of its file or folder; "" of a scenario.
+  std::vector<std::string> faults;  ///< By the suite's keys.
+  std::string pose;  ///< "true", "noisy", "odometry", "slam"; of a recording "given".
   std::size_t runs_planned = 0;
   /// Whether the bound takes the pose error into account: not where nobody knows its model.
   bool bound_knows_pose_error = true;

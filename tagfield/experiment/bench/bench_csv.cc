@@ -56,9 +56,10 @@ std::string row_of(const BenchEntry& entry, Timing timing) {
   Row row;
   row.text(entry.condition).text(entry.name).text(entry.method);
   row.whole(all.runs).whole(all.tags).whole(all.located).whole(all.ambiguous);
-  row.whole(all.not_located).whole(all.wrong);
+  row.whole(all.not_located).whole(all.wrong).whole(all.false_claims);
   row.errors(all.error_m).errors(all.error_3d_m).errors(all.aligned_error_m);
-  row.errors(all.nearest_candidate_m).whole(all.candidate_hits).text(all.bound);
+  row.errors(all.nearest_candidate_m).whole(all.candidate_hits);
+  row.number(all.error_over_expected).text(all.bound);
   row.number(all.ratio ? std::optional(all.ratio->mean) : std::nullopt);
   row.number(all.ratio ? std::optional(all.ratio->rms) : std::nullopt);
   put_nees(all.nees, row);
@@ -83,6 +84,7 @@ std::string tag_row(const BenchEntry& entry, const MethodRun& run, const TagReco
   } else {
     row.empty();
   }
+  row.whole(tag.false_claim ? 1 : 0);
   return row.line();
 }
 
@@ -90,11 +92,12 @@ std::string tag_row(const BenchEntry& entry, const MethodRun& run, const TagReco
 
 std::string bench_to_csv(const Bench& bench, Timing timing) {
   std::string csv =
-      "condition,name,method,runs,tags,located,ambiguous,not_located,wrong,"
+      "condition,name,method,runs,tags,located,ambiguous,not_located,wrong,false_claims,"
       "mean_m,median_m,p95_m,max_m,mean_3d_m,median_3d_m,p95_3d_m,max_3d_m,"
       "aligned_mean_m,aligned_median_m,aligned_p95_m,aligned_max_m,"
       "candidate_mean_m,candidate_median_m,candidate_p95_m,candidate_max_m,candidate_hits,"
-      "bound,ratio_mean,ratio_rms,nees_mean,nees_expected,nees_low,nees_high,nees_verdict";
+      "error_over_expected,bound,ratio_mean,ratio_rms,nees_mean,nees_expected,nees_low,nees_high,"
+      "nees_verdict";
   csv += timing == Timing::kWithTimes ? ",time_per_tag_ms\n" : "\n";
   for (const BenchEntry& entry : bench.entries) csv += row_of(entry, timing);
   return csv;
@@ -104,7 +107,7 @@ std::string bench_tags_to_csv(const Bench& bench) {
   std::string csv =
       "condition,name,method,seed,tag,verdict,reason,reads,error_m,error_3d_m,aligned_error_m,"
       "nearest_candidate_m,truth_x_m,truth_y_m,truth_z_m,x_m,y_m,z_m,expected_error_m,bound,"
-      "bound_mean_error_m,bound_rms_error_m,nees,nees_dof\n";
+      "bound_mean_error_m,bound_rms_error_m,nees,nees_dof,false_claim\n";
   for (const BenchEntry& entry : bench.entries) {
     for (const MethodRun& run : entry.runs) {
       for (const TagRecord& tag : run.tags) csv += tag_row(entry, run, tag);

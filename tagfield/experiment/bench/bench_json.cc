@@ -11,6 +11,8 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json text(const std::string& words) { return words.empty() ? Json(nullptr) : Json(words); }
+
 Json to_json(const std::optional<ErrorStatistics>& statistics) {
   if (!statistics) return nullptr;
   return {{"mean", number(statistics->mean)}, {"median", number(statistics->median)},
@@ -34,11 +36,13 @@ Json to_json(const std::optional<NeesSummary>& nees) {
 
 Json to_json(const BenchCondition& condition) {
   return {{"name", condition.name},
-          {"scenario", condition.scenario},
+          {"scenario", text(condition.scenario)},
+          {"recording", text(condition.recording)},
+          {"faults", condition.faults},
           {"pose", condition.pose},
           {"runs_planned", condition.runs_planned},
           {"bound_knows_pose_error", condition.bound_knows_pose_error},
-          {"no_bound", condition.no_bound.empty() ? Json(nullptr) : Json(condition.no_bound)}};
+          {"no_bound", text(condition.no_bound)}};
 }
 
 Json to_json(const BenchEntry& entry, Timing timing) {
@@ -53,11 +57,14 @@ Json to_json(const BenchEntry& entry, Timing timing) {
                {"ambiguous", all.ambiguous},
                {"not_located", all.not_located},
                {"wrong", all.wrong},
+               {"false_claims", all.false_claims},
                {"error_m", to_json(all.error_m)},
                {"error_3d_m", to_json(all.error_3d_m)},
                {"aligned_error_m", to_json(all.aligned_error_m)},
                {"nearest_candidate_m", to_json(all.nearest_candidate_m)},
                {"candidate_hits", all.candidate_hits},
+               {"error_over_expected",
+                all.error_over_expected ? number(*all.error_over_expected) : Json(nullptr)},
                {"bound", all.bound},
                {"ratio_to_bound", to_json(all.ratio)},
                {"nees", to_json(all.nees)}};

@@ -45,10 +45,9 @@ std::string big(const std::string& name, const std::string& value) {
 }
 
 std::string numbers(const Bench& bench, Timing timing) {
-  std::string html = "<dl class=\"numbers\">\n" +
-                     big("Methods", grouped(method_names(bench).size())) +
-                     big("Conditions", grouped(bench.conditions.size())) +
-                     big("Runs simulated", grouped(count_runs(bench)));
+  std::string html =
+      "<dl class=\"numbers\">\n" + big("Methods", grouped(method_names(bench).size())) +
+      big("Conditions", grouped(bench.conditions.size())) + big("Runs", grouped(count_runs(bench)));
   if (timing == Timing::kWithTimes) {
     html +=
         big(fmt::format("Took, on {}", counted(static_cast<std::size_t>(bench.threads), "thread")),
@@ -87,7 +86,7 @@ struct Columns {
   bool times = false;
 
   [[nodiscard]] int count() const {
-    return 11 + (height ? 1 : 0) + (aligned ? 1 : 0) + (times ? 1 : 0);
+    return 13 + (height ? 1 : 0) + (aligned ? 1 : 0) + (times ? 1 : 0);
   }
 };
 
@@ -106,12 +105,15 @@ std::string head_of(const Columns& columns) {
   std::string html =
       "<thead><tr><th scope=\"col\">Method</th><th scope=\"col\">Located</th>"
       "<th scope=\"col\">Ambi-<br>guous</th><th scope=\"col\">Not<br>located</th>"
-      "<th scope=\"col\">Wrong</th><th scope=\"col\">Mean<br>[mm]</th>"
+      "<th scope=\"col\">Wrong</th><th scope=\"col\">False<br>claims</th>"
+      "<th scope=\"col\">Mean<br>[mm]</th>"
       "<th scope=\"col\">Median<br>[mm]</th><th scope=\"col\">95 %<br>[mm]</th>"
       "<th scope=\"col\">Max<br>[mm]</th>";
   if (columns.height) html += "<th scope=\"col\">Mean 3-D<br>[mm]</th>";
   if (columns.aligned) html += "<th scope=\"col\">Aligned<br>[mm]</th>";
-  html += "<th scope=\"col\">Times<br>bound</th><th scope=\"col\">NEES<br>/dof</th>";
+  html +=
+      "<th scope=\"col\">Times<br>expected</th><th scope=\"col\">Times<br>bound</th><th "
+      "scope=\"col\">NEES<br>/dof</th>";
   if (columns.times) html += "<th scope=\"col\">Time per<br>tag [ms]</th>";
   return html + "</tr></thead>\n";
 }
@@ -126,13 +128,15 @@ std::string row_of(const BenchEntry& entry, const Columns& columns) {
   std::string html = fmt::format(
       "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td>{} of {}</td>",
       escaped(entry.method), escaped(shortened(entry.name, kMostName)), all.located, all.tags);
-  html += ambiguous_cell(all) + cell(grouped(all.not_located)) + cell(grouped(all.wrong));
+  html += ambiguous_cell(all) + cell(grouped(all.not_located)) + cell(grouped(all.wrong)) +
+          cell(grouped(all.false_claims));
   html += length_cell(all.error_m, &ErrorStatistics::mean);
   html += length_cell(all.error_m, &ErrorStatistics::median);
   html += length_cell(all.error_m, &ErrorStatistics::p95);
   html += length_cell(all.error_m, &ErrorStatistics::max);
   if (columns.height) html += length_cell(all.error_3d_m, &ErrorStatistics::mean);
   if (columns.aligned) html += length_cell(all.aligned_error_m, &ErrorStatistics::mean);
+  html += cell(all.error_over_expected ? fmt::format("{:.2f}", *all.error_over_expected) : "–");
   html += cell(all.ratio ? fmt::format("{:.2f}", all.ratio->mean) : "–") + nees_cell(all.nees);
   if (columns.times) {
     html += cell(all.time_per_tag_ms ? fmt::format("{:.1f}", *all.time_per_tag_ms) : "–");
@@ -184,7 +188,11 @@ std::string bound_notes(const Bench& bench) {
 std::string legend(const Columns& columns) {
   std::string html =
       "<p class=\"muted\">Errors are horizontal, of the tags that were located; wrong are those "
-      "over 0.3 m off. In brackets: ambiguous tags with a candidate within 0.1 m. Times bound: the "
+      "over 0.3 m off. False claims: located where no place is right, or off by over five times "
+      "the "
+      "expected error. In brackets: ambiguous tags with a candidate within 0.1 m. Times expected: "
+      "root mean square of "
+      "error over the error that the method expected. Times bound: the "
       "mean error over that of an efficient estimator (the "
       "Cramér-Rao "
       "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right, ▲ "

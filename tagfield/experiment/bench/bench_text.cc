@@ -35,6 +35,10 @@ std::string ratio_text(const std::optional<BoundRatio>& ratio) {
   return ratio ? fmt::format("{:.2f}", ratio->mean) : "-";
 }
 
+std::string expected_text(const std::optional<double>& ratio) {
+  return ratio ? fmt::format("{:.2f}", *ratio) : "-";
+}
+
 /// For each degree of freedom, so that 1 is right.
 std::string nees_text(const std::optional<NeesSummary>& nees) {
   if (!nees) return "-";
@@ -49,26 +53,27 @@ std::string time_text(const std::optional<double>& time_ms) {
 
 std::string row_of(const BenchEntry& entry, std::size_t width, bool aligned, Timing timing) {
   const EntryStatistics all = statistics_of(entry);
-  std::string row = fmt::format("  {}  {:>4}/{:<4} {:>5} {:>5} {:>8} {:>8} {:>8} {:>8}",
-                                padded(entry.name, width), all.located, all.tags, all.ambiguous,
-                                all.wrong, millimetres(all.error_m, &ErrorStatistics::mean),
-                                millimetres(all.error_m, &ErrorStatistics::median),
-                                millimetres(all.error_m, &ErrorStatistics::p95),
-                                millimetres(all.error_m, &ErrorStatistics::max));
+  std::string row =
+      fmt::format("  {}  {:>4}/{:<4} {:>5} {:>5} {:>5} {:>8} {:>8} {:>8} {:>8}",
+                  padded(entry.name, width), all.located, all.tags, all.ambiguous, all.wrong,
+                  all.false_claims, millimetres(all.error_m, &ErrorStatistics::mean),
+                  millimetres(all.error_m, &ErrorStatistics::median),
+                  millimetres(all.error_m, &ErrorStatistics::p95),
+                  millimetres(all.error_m, &ErrorStatistics::max));
   if (aligned) {
     row += fmt::format(" {:>8}", millimetres(all.aligned_error_m, &ErrorStatistics::mean));
   }
-  row += fmt::format(" {:>7}", ratio_text(all.ratio));
+  row += fmt::format(" {:>7} {:>7}", expected_text(all.error_over_expected), ratio_text(all.ratio));
   if (timing == Timing::kWithTimes) row += fmt::format(" {:>8}", time_text(all.time_per_tag_ms));
   return row + "  " + nees_text(all.nees) + "\n";
 }
 
 std::string head_of(std::size_t width, bool aligned, Timing timing) {
   std::string head =
-      fmt::format("  {:<{}}  {:>9} {:>5} {:>5} {:>8} {:>8} {:>8} {:>8}", "method", width, "located",
-                  "ambig", "wrong", "mean", "median", "p95", "max");
+      fmt::format("  {:<{}}  {:>9} {:>5} {:>5} {:>5} {:>8} {:>8} {:>8} {:>8}", "method", width,
+                  "located", "ambig", "wrong", "false", "mean", "median", "p95", "max");
   if (aligned) head += fmt::format(" {:>8}", "aligned");
-  head += fmt::format(" {:>7}", "/bound");
+  head += fmt::format(" {:>7} {:>7}", "/expect", "/bound");
   if (timing == Timing::kWithTimes) head += fmt::format(" {:>8}", "ms/tag");
   return head + "  NEES/dof\n";
 }

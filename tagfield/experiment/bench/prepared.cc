@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/internal/recorded_run.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/report/summary.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -64,10 +67,38 @@ void refuse_others(const SuiteMethod& method, const std::vector<Method>& methods
   }
 }
 
+/// Keys and values of methods' settings, without the scenario's path before them. Throws Error on
+/// what is no setting of localization.
+MethodSettings settings_in(const std::vector<Override>& overrides) {
+  MethodSettings settings;
+  for (const auto& [path, value] : overrides) {
+    if (path.rfind(kOfLocalization, 0) != 0) throw Error(path + " has no effect on a recording");
+    settings.push_back({path.substr(std::string(kOfLocalization).size()), value, {}});
+  }
+  return settings;
+}
+
+/// There is no scenario to say what else localization could be told.
+PreparedMethod prepare_for_recording(const SuiteMethod& method, const Condition& condition,
+                                     const std::vector<Method>& methods) {
+  PreparedMethod ready;
+  ready.name = method.name;
+  const Method found = find_method(methods, method.method);
+  MethodSettings settings = settings_in(condition.settings);
+  const MethodSettings own = settings_in(method.localization);
+  refuse_unused(own, {found}, methods);
+  settings.insert(settings.end(), own.begin(), own.end());
+  ready.method = configured(found, settings);
+  return ready;
+}
+
 PreparedMethod prepare_method(const Suite& suite, const SuiteMethod& method,
                               const PreparedCondition& prepared,
                               const std::vector<Method>& methods) {
   PreparedMethod ready;
+  if (prepared.condition.recording) {
+    return prepare_for_recording(method, prepared.condition, methods);
+  }
   ready.name = method.name;
   Scenario scenario = prepared.scenario;
   if (!method.localization.empty()) {
@@ -102,6 +133,20 @@ void find_phase_noise(PreparedCondition& prepared) {
   }
 }
 
+/// Throws Error on a fault that these reads can't have.
+void require_faults_possible(const Condition& condition, const std::vector<std::string>& antennas,
+                             std::size_t tags) {
+  if (!condition.fault) return;
+  for (const std::string& name : condition.fault->swapped_antennas) {
+    if (std::find(antennas.begin(), antennas.end(), name) != antennas.end()) continue;
+    throw Error(fmt::format("fault.swapped_antennas: there is no antenna '{}'{}", name,
+                            suggestion(name, antennas)));
+  }
+  if (condition.fault->duplicate_epcs && tags < 2) {
+    throw Error("fault.duplicate_epcs needs two tags at least");
+  }
+}
+
 void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondition& prepared,
           Diagnostics& diagnostics) {
   const Condition& condition = prepared.condition;
@@ -113,17 +158,53 @@ void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondit
   if (prepared.scenario.pose.source == PoseSource::kSlam) {
     prepared.world = navigation_world(prepared.scenario, loaded.scene, diagnostics);
   }
+  std::vector<std::string> antennas;
+  for (const AntennaSpec& antenna : prepared.scenario.antennas) {
+    antennas.push_back(antenna.parameters.name);
+  }
+  require_faults_possible(condition, antennas, prepared.scenario.tags.size());
   find_phase_noise(prepared);
+  if (condition.fault) prepared.no_bound = "the reads are faulty";
+}
+
+/// Throws Error on a setting that none of the condition's methods takes.
+void refuse_unused_settings(const Suite& suite, const std::vector<Method>& methods,
+                            const Condition& condition) {
+  std::vector<Method> used;
+  for (const SuiteMethod& method : suite.methods) {
+    if (runs_in(method, condition)) used.push_back(find_method(methods, method.method));
+  }
+  refuse_unused(settings_in(condition.settings), used, methods);
+}
+
+void load_recorded(const Suite& suite, const std::vector<Method>& methods,
+                   const ReadRecording& read, PreparedCondition& prepared,
+                   Diagnostics& diagnostics) {
+  const Condition& condition = prepared.condition;
+  refuse_unused_settings(suite, methods, condition);
+  prepared.recording = load_recording(*condition.recording, read, diagnostics);
+  prepared.known = known_of(*condition.recording, condition.believed);
+  std::set<std::string> antennas;
+  for (const TagRead& of : prepared.recording->reads) antennas.insert(of.antenna);
+  require_faults_possible(condition, {antennas.begin(), antennas.end()},
+                          count_by_tag(prepared.recording->reads).size());
+  prepared.no_bound = "nobody knows the phase noise of a recording";
 }
 
 PreparedCondition prepare_condition(const Suite& suite, const Condition& condition,
-                                    const std::vector<Method>& methods, Diagnostics& diagnostics) {
+                                    const std::vector<Method>& methods, const ReadRecording& read,
+                                    Diagnostics& diagnostics) {
   PreparedCondition prepared;
   prepared.condition = condition;
-  prepared.runs = condition.count.value_or(suite.count);
+  prepared.runs = condition.recording ? 1 : condition.count.value_or(suite.count);
   Diagnostics warnings;
-  at_place(condition.location, called(condition),
-           [&] { load(suite, methods, prepared, warnings); });
+  at_place(condition.location, called(condition), [&] {
+    if (condition.recording) {
+      load_recorded(suite, methods, read, prepared, warnings);
+    } else {
+      load(suite, methods, prepared, warnings);
+    }
+  });
   for (const std::string& warning : warnings.warnings()) {
     diagnostics.warn(called(condition) + ": " + warning);
   }
@@ -147,12 +228,18 @@ void require_known_methods(const Suite& suite, const std::vector<Method>& method
 }  // namespace
 
 PreparedSuite prepare(const Suite& suite, const std::vector<Method>& methods,
-                      Diagnostics& diagnostics) {
+                      Diagnostics& diagnostics, const ReadRecording& read) {
   require_known_methods(suite, methods);
   PreparedSuite prepared;
   prepared.suite = suite;
   for (const Condition& condition : suite.conditions) {
-    prepared.conditions.push_back(prepare_condition(suite, condition, methods, diagnostics));
+    const auto missing = condition.recording ? missing_file(*condition.recording) : std::nullopt;
+    if (missing) {
+      diagnostics.warn(condition.location,
+                       fmt::format("{} is skipped: there is no {}", called(condition), *missing));
+      continue;
+    }
+    prepared.conditions.push_back(prepare_condition(suite, condition, methods, read, diagnostics));
   }
   return prepared;
 }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <mutex>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/internal/condition_run.h"
+#include "tagfield/experiment/internal/faults.h"
 
 namespace tagfield {
+namespace fs = std::filesystem;
 namespace {
 
 /// One condition with one seed, and what came of it.
@@ -70,6 +73,12 @@ BenchCondition described(const PreparedCondition& prepared) {
   condition.name = prepared.condition.name;
   condition.scenario = prepared.scenario.name;
   condition.pose = to_string(prepared.scenario.pose.source);
+  const auto& recording = prepared.condition.recording;
+  if (recording) {
+    condition.recording = fs::path(recording->reads).filename().string();
+    condition.pose = "given";
+  }
+  if (prepared.condition.fault) condition.faults = fault_names(*prepared.condition.fault);
   condition.runs_planned = prepared.runs;
   condition.bound_knows_pose_error = true_pose_error(prepared.scenario).has_value();
   condition.no_bound = prepared.no_bound;

@@ -15,7 +15,7 @@ struct PreparedSuite;  // of prepared.h
 /// `control.stop` was set are left out. Warnings are those of each condition's first seed.
 Bench run_bench(const PreparedSuite& prepared, const RunControl& control);
 
-/// Reads scenarios, then runs. Throws Error as prepare() does.
+/// Reads scenarios, then runs. Throws Error as prepare() does, and on a recording that is there.
 Bench run_bench(const Suite& suite, const std::vector<Method>& methods, const RunControl& control);
 
 }  // namespace tagfield

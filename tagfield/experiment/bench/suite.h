@@ -13,6 +13,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
+#include "tagfield/localization/tag_area.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -32,6 +33,31 @@ struct ReadLoss {
   double every_s = 0.0;  ///< beginning once in so long in the mean, at random; 0 for never.
 };
 
+/// What is wrong with the reads and poses that the methods get, besides noise.
+struct Faults {
+  bool random_phases = false;     ///< Each phase is drawn from all angles alike.
+  bool constant_phases = false;   ///< All reads of a tag have one phase, which is drawn.
+  bool wrong_phase_sign = false;  ///< Phases fall with distance.
+  bool random_rssi = false;       ///< Each RSSI is drawn from −75 to −35 dBm.
+  bool duplicate_epcs = false;    ///< Every other read of a tag has the next tag's ID.
+  double late_stamps_s = 0.0;     ///< The reads' stamps are late by so much against the poses'.
+  std::vector<std::string> swapped_antennas;  ///< Two whose names are exchanged in the reads.
+  bool poses_of_another_run = false;  ///< The poses are those of a way that was not this one.
+};
+
+/// Reads that were recorded, to be located instead of simulated ones. "" for what is not told.
+struct SuiteRecording {
+  std::string reads;   ///< A table, a folder of tables, or an archive of either.
+  std::string format;  ///< Of other people's tables: a name of profiles/datasets, or a file.
+  std::string poses;   ///< A table, where the reads' own has no places of antennas.
+  std::string truth;   ///< A table: the tags' places.
+  std::string
+      experiment;       ///< Of the truth only the rows that have this in their column experiment.
+  std::string heights;  ///< A table: what is known of the tags' heights.
+  std::optional<double> tag_height_m;  ///< Of all tags that the table doesn't have.
+  TagArea area;                        ///< Where tags can be.
+};
+
 /// Nothing is known of the pose error.
 struct UnknownPoseError {};
 
@@ -40,11 +66,13 @@ using ToldPoseError = std::variant<std::monostate, UnknownPoseError, PoseErrorMo
 
 /// One situation that all methods are put into.
 struct Condition {
-  std::string name;                    ///< Unique.
-  std::string scenario;                ///< Path of the file.
-  std::vector<Override> settings;      ///< Of the scenario.
-  std::optional<std::uint64_t> count;  ///< Number of seeds, instead of the suite's.
+  std::string name;                         ///< Unique.
+  std::string scenario;                     ///< Path of the file; "" of a recording.
+  std::optional<SuiteRecording> recording;  ///< Instead of a scenario.
+  std::vector<Override> settings;           ///< Of the scenario.
+  std::optional<std::uint64_t> count;       ///< Number of seeds, instead of the suite's.
   std::optional<ReadLoss> lose;
+  std::optional<Faults> fault;
   ToldPoseError believed;
   std::optional<double> phase_noise_rad;  ///< For the bound, where the signal model tells none.
   std::vector<std::string> methods;       ///< Only these, by name; empty for all.

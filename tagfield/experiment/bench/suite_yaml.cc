@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -20,6 +21,7 @@ constexpr NumberRange kPositive = NumberRange::kPositive;
 constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 constexpr double kLeastEvery_s = 1e-3;
+constexpr double kMostLate_s = 3600.0;
 
 /// A value as YAML text on one line.
 std::string text_of(const YAML::Node& node) {
@@ -100,6 +102,95 @@ ReadLoss loss_of(YamlMap map) {
   return loss;
 }
 
+/// Throws Error on `false`, which would be no fault at all.
+bool is_told(YamlMap& map, const std::string& key) {
+  if (!map.has(key)) return false;
+  if (!map.at(key).boolean()) map.at(key).fail("is false: leave it out");
+  return true;
+}
+
+std::vector<std::string> two_antennas(const YamlValue& value) {
+  std::vector<std::string> names;
+  for (const YamlValue& name : value.list()) names.push_back(name.text());
+  if (names.size() != 2 || names[0] == names[1]) value.fail("must be the names of two antennas");
+  return names;
+}
+
+Faults faults_in(YamlMap map) {
+  Faults faults;
+  faults.random_phases = is_told(map, "random_phases");
+  faults.constant_phases = is_told(map, "constant_phases");
+  faults.wrong_phase_sign = is_told(map, "wrong_phase_sign");
+  faults.random_rssi = is_told(map, "random_rssi");
+  faults.duplicate_epcs = is_told(map, "duplicate_epcs");
+  faults.poses_of_another_run = is_told(map, "poses_of_another_run");
+  if (map.has("late_stamps_s")) {
+    faults.late_stamps_s = map.at("late_stamps_s").number(kPositive);
+    if (faults.late_stamps_s > kMostLate_s) {
+      map.at("late_stamps_s")
+          .fail(fmt::format("must be at most {}, is {}", kMostLate_s, faults.late_stamps_s));
+    }
+  }
+  if (map.has("swapped_antennas")) {
+    faults.swapped_antennas = two_antennas(map.at("swapped_antennas"));
+  }
+  map.finish();
+  if (map.self().node().size() == 0) map.self().fail("names no fault");
+  const std::array<bool, 3> of_phase = {faults.random_phases, faults.constant_phases,
+                                        faults.wrong_phase_sign};
+  if (std::count(of_phase.begin(), of_phase.end(), true) > 1) {
+    map.self().fail("can have one of random_phases, constant_phases and wrong_phase_sign only");
+  }
+  return faults;
+}
+
+/// A word, for a fault that needs no more, or a mapping.
+Faults faults_of(const YamlValue& value) {
+  if (!value.node().IsScalar()) return faults_in(YamlMap(value));
+  constexpr bool Faults::*kFaults[] = {&Faults::random_phases,    &Faults::constant_phases,
+                                       &Faults::wrong_phase_sign, &Faults::random_rssi,
+                                       &Faults::duplicate_epcs,   &Faults::poses_of_another_run};
+  Faults faults;
+  faults.*kFaults[choice(value, {"random_phases", "constant_phases", "wrong_phase_sign",
+                                 "random_rssi", "duplicate_epcs", "poses_of_another_run"})] = true;
+  return faults;
+}
+
+/// A path, or the name of a format that comes with the project.
+std::string format_of(const YamlValue& value) {
+  const fs::path format(value.text());
+  const bool is_name = !format.has_extension() && !format.has_parent_path();
+  return is_name ? format.string() : resolve_path(value);
+}
+
+std::string path_of(YamlMap& map, const std::string& key) {
+  return map.has(key) ? resolve_path(map.at(key)) : "";
+}
+
+SuiteRecording recording_of(YamlMap map) {
+  SuiteRecording recording;
+  recording.reads = resolve_path(map.at("reads"));
+  recording.truth = resolve_path(map.at("truth"));
+  if (map.has("format")) recording.format = format_of(map.at("format"));
+  recording.poses = path_of(map, "poses");
+  if (recording.format.empty() && recording.poses.empty()) {
+    map.self().fail("has no 'poses', which tables in our own form need, and no 'format'");
+  }
+  recording.experiment = map.text("experiment", "");
+  recording.heights = path_of(map, "tag_heights");
+  if (map.has("tag_height_m")) recording.tag_height_m = map.at("tag_height_m").number();
+  recording.area = tag_area_of(map);
+  map.finish();
+  return recording;
+}
+
+/// Throws Error on keys that a recording leaves without any effect.
+void refuse_beside_recording(YamlMap& map) {
+  for (const char* key : {"scenario", "set", "seeds", "phase_noise_rad"}) {
+    if (map.has(key)) map.at(key).fail("has no effect on a recording");
+  }
+}
+
 PoseErrorModel model_of(YamlMap map) {
   PoseErrorModel model;
   model.sigma_m = map.at("sigma_m").number(kNotNegative);
@@ -136,14 +227,20 @@ Condition condition_of(YamlMap map, const Common& common) {
   Condition condition;
   condition.location = map.self().location();
   condition.name = map.at("name").text();
-  condition.scenario = map.has("scenario") ? scenario_of(map.at("scenario")) : common.scenario;
-  if (condition.scenario.empty()) map.self().fail("has no 'scenario', and neither has the suite");
+  if (map.has("recording")) {
+    refuse_beside_recording(map);
+    condition.recording = recording_of(YamlMap(map.at("recording")));
+  } else {
+    condition.scenario = map.has("scenario") ? scenario_of(map.at("scenario")) : common.scenario;
+    if (condition.scenario.empty()) map.self().fail("has no 'scenario', and neither has the suite");
+  }
   if (map.has("set")) append(condition.settings, overrides_of(map.at("set"), ""));
   if (map.has("localization")) {
     append(condition.settings, overrides_of(map.at("localization"), "localization."));
   }
   if (map.has("seeds")) condition.count = count_of(map.at("seeds"));
   if (map.has("lose")) condition.lose = loss_of(YamlMap(map.at("lose")));
+  if (map.has("fault")) condition.fault = faults_of(map.at("fault"));
   if (map.has("believed")) condition.believed = believed_of(map.at("believed"));
   condition.phase_noise_rad = common.phase_noise_rad;
   if (map.has("phase_noise_rad")) {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "tagfield/experiment/experiment.h"
+#include "tagfield/experiment/internal/faults.h"
 #include "tagfield/experiment/internal/read_loss.h"
 #include "tagfield/experiment/internal/record.h"
 #include "tagfield/experiment/judge.h"
@@ -64,7 +65,12 @@ BoundKind bound_of(const std::string& method) {
   return method == "joint" ? BoundKind::kJoint : BoundKind::kSingle;
 }
 
-MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
+/// Tags whose places nobody knows say nothing of a recording.
+void drop_strangers(std::vector<TagRecord>& tags) {
+  std::erase_if(tags, [](const TagRecord& tag) { return !tag.truth; });
+}
+
+MethodRun run_method(const PreparedMethod& method, const PreparedCondition& condition,
                      const Recording& recording, Given& given, Diagnostics& diagnostics) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
@@ -74,28 +80,40 @@ MethodRun run_method(const PreparedMethod& method, const Scenario& scenario,
   run.tags_given = given.problem().samples.size();
   run.method = result.method.empty() ? method.method.name : result.method;
   run.bound = bound_of(run.method);
-  const std::vector<TagEstimate> estimates = with_all_tags(result.estimates, {}, tags_of(scenario));
+  const bool recorded = condition.recording.has_value();
+  const std::vector<TagEstimate> estimates = with_all_tags(
+      result.estimates, recorded ? recording.truth : Truth{}, tags_of(condition.scenario));
   run.tags = records_of(given.problem(), judged(estimates, recording.reads, recording.truth,
                                                 given.problem().reference_tags));
+  if (recorded) drop_strangers(run.tags);
   judge_by(given.bounds(run.bound), run);
-  if (scenario.pose.source != PoseSource::kTrue) add_aligned_errors(run.tags);
+  judge_claims(condition.condition.fault.value_or(Faults{}), run);
+  if (recorded || condition.scenario.pose.source != PoseSource::kTrue) {
+    add_aligned_errors(run.tags);
+  }
   return run;
 }
 
+/// What a run leaves to locate tags from.
 struct Recorded {
   Recording recording;
-  std::optional<MapError> map_error;
-  bool complete = false;
+  std::optional<MapError> map_error;  ///< Of the map that the robot made.
 };
 
-Recorded recorded(const PreparedCondition& condition, std::uint64_t seed,
-                  const RunControl& control) {
+/// None where `control.stop` was set before it was over.
+std::optional<Recorded> simulated(const PreparedCondition& condition, std::uint64_t seed,
+                                  const RunControl& control) {
   const NavigationWorld* const world = condition.world ? &*condition.world : nullptr;
   SeedRun run = simulate(condition.scenario, seed, control, world);
-  const std::optional<ReadLoss>& lose = condition.condition.lose;
-  if (lose) run.recording.reads = without_lost(run.recording.reads, *lose, seed);
+  if (!run.complete) return std::nullopt;
   const std::optional<MapError> map_error = map_error_of(condition.scenario, run);
-  return {std::move(run.recording), map_error, run.complete};
+  return Recorded{std::move(run.recording), map_error};
+}
+
+std::optional<Recorded> recorded(const PreparedCondition& condition, std::uint64_t seed,
+                                 const RunControl& control) {
+  if (!condition.recording) return simulated(condition, seed, control);
+  return Recorded{*condition.recording, std::nullopt};
 }
 
 /// With what the run told of its map.
@@ -104,24 +122,29 @@ KnownBeforehand with_map(KnownBeforehand known, const std::optional<MapError>& m
   return known;
 }
 
+void spoil(const Condition& condition, std::uint64_t seed, Recording& recording) {
+  if (condition.lose) recording.reads = without_lost(recording.reads, *condition.lose, seed);
+  if (condition.fault) add_faults(*condition.fault, seed, recording);
+}
+
 }  // namespace
 
 std::optional<std::vector<MethodRun>> run_condition(const PreparedCondition& condition,
                                                     std::uint64_t seed, const RunControl& control,
                                                     Diagnostics& diagnostics) {
-  const Recorded made = recorded(condition, seed, control);
-  if (!made.complete) return std::nullopt;
-  const Recording& recording = made.recording;
-  Given shared(condition, recording, with_map(condition.known, made.map_error), diagnostics);
+  std::optional<Recorded> made = recorded(condition, seed, control);
+  if (!made) return std::nullopt;
+  spoil(condition.condition, seed, made->recording);
+  const Recording& recording = made->recording;
+  Given shared(condition, recording, with_map(condition.known, made->map_error), diagnostics);
   std::vector<MethodRun> runs;
   for (const PreparedMethod& method : condition.methods) {
     if (stopped(control)) return std::nullopt;
     std::optional<Given> own;
     if (method.known) {
-      own.emplace(condition, recording, with_map(*method.known, made.map_error), diagnostics);
+      own.emplace(condition, recording, with_map(*method.known, made->map_error), diagnostics);
     }
-    runs.push_back(
-        run_method(method, condition.scenario, recording, own ? *own : shared, diagnostics));
+    runs.push_back(run_method(method, condition, recording, own ? *own : shared, diagnostics));
     runs.back().seed = seed;
   }
   return runs;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tagfield/experiment/internal/consistency.h"
+#include "tagfield/experiment/internal/faults.h"
 #include "tagfield/report/alignment.h"
 #include "tagfield/report/summary.h"
 
@@ -64,6 +65,7 @@ std::vector<TagRecord> records_of(const LocalizationProblem& problem,
     record.tag = outcome.estimate.tag;
     record.reads = outcome.reads;
     record.height_estimated = side_to_estimate(problem, record.tag).has_value();
+    record.moved = outcome.moved;
     record.truth = outcome.truth_m;
     add_estimate(outcome.estimate, record);
     records.push_back(std::move(record));
@@ -82,6 +84,16 @@ void judge_by(const Bounds& bounds, MethodRun& run) {
     tag.bound = bound_of(covariance_of(bounds, place->second));
   }
   run.nees_correlation = correlation_of(items, bounds);
+}
+
+void judge_claims(const Faults& faults, MethodRun& run) {
+  const bool can_be_true = has_true_place(faults, run.method);
+  for (TagRecord& tag : run.tags) {
+    if (tag.verdict != Verdict::kLocated) continue;
+    const bool too_far =
+        tag.error && tag.expected_error > 0.0 && *tag.error > kFalseClaim * tag.expected_error;
+    tag.false_claim = !can_be_true || tag.moved || too_far;
+  }
 }
 
 void add_aligned_errors(std::vector<TagRecord>& tags) {

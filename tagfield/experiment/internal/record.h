@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tagfield/experiment/bench/bench.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/localization/bound.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/report/summary.h"
@@ -18,6 +19,13 @@ std::vector<TagRecord> records_of(const LocalizationProblem& problem,
 
 /// Fills in the bounds of the tags that have one, and how their errors depend on each other.
 void judge_by(const Bounds& bounds, MethodRun& run);
+
+/// A located tag's error over this many times the expected one is a false claim.
+inline constexpr double kFalseClaim = 5.0;
+
+/// Marks the false claims: of tags that moved, of reads whose faults leave no place that could be
+/// true for this method, and those off by over five times their expected error, where one was told.
+void judge_claims(const Faults& faults, MethodRun& run);
 
 /// Fills in the errors that are left after the rigid motion that brings the located tags closest to
 /// their places, where there are three or more: a map's frame may be off from the world's as a

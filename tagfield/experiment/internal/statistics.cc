@@ -24,6 +24,7 @@ void count_verdicts(const MethodRun& run, EntryStatistics& statistics) {
     if (tag.verdict == Verdict::kAmbiguous) ++statistics.ambiguous;
     if (tag.verdict == Verdict::kNotLocated) ++statistics.not_located;
     if (tag.error && *tag.error > kWrong_m) ++statistics.wrong;
+    if (tag.false_claim) ++statistics.false_claims;
     if (tag.nearest_candidate && *tag.nearest_candidate <= kCandidateHits_m) {
       ++statistics.candidate_hits;
     }
@@ -50,6 +51,20 @@ std::optional<BoundRatio> ratio_of(const BenchEntry& entry) {
   ratio.mean = errors / expected;
   ratio.rms = std::sqrt(squares / variances);
   return ratio;
+}
+
+std::optional<double> error_over_expected(const BenchEntry& entry) {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (const MethodRun& run : entry.runs) {
+    for (const TagRecord& tag : run.tags) {
+      if (!(tag.error && tag.expected_error > 0.0)) continue;
+      squares += std::pow(*tag.error / tag.expected_error, 2);
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(squares / static_cast<double>(count));
 }
 
 std::string bound_of(const std::vector<MethodRun>& runs) {
@@ -88,6 +103,7 @@ EntryStatistics statistics_of(const BenchEntry& entry) {
   result.error_3d_m = statistics(all_of(entry, &TagRecord::error_3d));
   result.aligned_error_m = statistics(all_of(entry, &TagRecord::aligned_error));
   result.nearest_candidate_m = statistics(all_of(entry, &TagRecord::nearest_candidate));
+  result.error_over_expected = error_over_expected(entry);
   result.ratio = ratio_of(entry);
   result.bound = bound_of(entry.runs);
   result.nees = nees_summary(entry.runs);

@@ -32,11 +32,14 @@ struct EntryStatistics {
   std::size_t ambiguous = 0;
   std::size_t not_located = 0;
   std::size_t wrong = 0;                               ///< Of the located.
+  std::size_t false_claims = 0;                        ///< Likewise.
   std::optional<ErrorStatistics> error_m;              ///< Horizontal, of the located.
   std::optional<ErrorStatistics> error_3d_m;           ///< Of those whose height was estimated.
   std::optional<ErrorStatistics> aligned_error_m;      ///< Where poses are estimated.
   std::optional<ErrorStatistics> nearest_candidate_m;  ///< Of the ambiguous.
   std::size_t candidate_hits = 0;  ///< Ambiguous ones with the right place among the candidates.
+  /// Root mean square of error over expected error, of the located; 1 where methods tell it right.
+  std::optional<double> error_over_expected;
   std::optional<BoundRatio> ratio;
   std::string bound;  ///< "single", "joint", "mixed"; "" without runs.
   std::optional<NeesSummary> nees;

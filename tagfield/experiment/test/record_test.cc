@@ -89,6 +89,32 @@ TEST(Records, AreJudgedByTheirBound) {
   EXPECT_NEAR(run.nees_correlation, 4.0, 1e-12);
 }
 
+TEST(Records, SayWhichClaimsAreFalse) {
+  MethodRun run;
+  run.method = "hyperbola";
+  run.tags = records({});
+  judge_claims({}, run);
+  EXPECT_TRUE(run.tags[0].false_claim);   // 0.5 m off, where 0.02 m were expected.
+  EXPECT_FALSE(run.tags[1].false_claim);  // Ambiguous: no place was claimed.
+  EXPECT_TRUE(run.tags[2].moved);
+  EXPECT_TRUE(run.tags[2].false_claim);
+  EXPECT_FALSE(run.tags[4].false_claim);
+  run.tags[0].expected_error = 0.11;
+  judge_claims({}, run);
+  EXPECT_FALSE(run.tags[0].false_claim);
+  run.tags[0].expected_error = 0.0;  // Of a method that tells none.
+  judge_claims({}, run);
+  EXPECT_FALSE(run.tags[0].false_claim);
+  Faults faults;
+  faults.random_phases = true;
+  judge_claims(faults, run);
+  EXPECT_TRUE(run.tags[0].false_claim);
+  EXPECT_FALSE(run.tags[1].false_claim);
+  run.method = "trilateration";
+  judge_claims(faults, run);
+  EXPECT_FALSE(run.tags[0].false_claim);
+}
+
 TEST(Records, AreAlignedAsAWhole) {
   const double yaw = 0.01;
   std::vector<TagRecord> tags;

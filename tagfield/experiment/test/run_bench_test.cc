@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <set>
 #include <string>
 
 #include "tagfield/experiment/bench/bench_files.h"
+#include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/internal/statistics.h"
+#include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 
@@ -142,6 +146,88 @@ TEST(RunBench, ToldPoseErrorReachesTheMethods) {
   suite.methods[0].localization = {{"localization.pose_error", "{sigma_m: 0.07}"}};
   run_bench(suite, methods, on_threads(1));
   EXPECT_EQ(told.value().sigma_m, 0.07);
+}
+
+TEST(RunBench, FaultsReachTheMethodsAndTheJudge) {
+  std::set<double> phases;
+  std::vector<Method> methods = with_constant();
+  const LocateFunction constant = methods.back().locate;
+  methods.back().locate = [&](const LocalizationProblem& problem, int threads,
+                              Diagnostics& diagnostics) {
+    for (const PhaseSample& sample : problem.samples.begin()->second.begin()->second) {
+      phases.insert(sample.phase_rad);
+    }
+    return constant(problem, threads, diagnostics);
+  };
+  Suite suite = small_suite();
+  suite.count = 1;
+  suite.methods = {{"mine", "constant", {}, {}}};
+  suite.conditions.resize(1);
+  const Bench sound = run_bench(suite, methods, on_threads(1));
+  EXPECT_GT(phases.size(), 10U);
+  EXPECT_EQ(statistics_of(sound.entries[0]).false_claims, 0U);  // It expects no error.
+  EXPECT_TRUE(sound.conditions[0].faults.empty());
+  phases.clear();
+  suite.conditions[0].fault = Faults{};
+  suite.conditions[0].fault->constant_phases = true;
+  suite.conditions[0].fault->random_rssi = true;
+  const Bench faulty = run_bench(suite, methods, on_threads(1));
+  EXPECT_EQ(phases.size(), 1U);
+  const EntryStatistics all = statistics_of(faulty.entries[0]);
+  EXPECT_GT(all.located, 0U);
+  EXPECT_EQ(all.false_claims, all.located);
+  EXPECT_EQ(faulty.conditions[0].faults,
+            (std::vector<std::string>{"constant_phases", "random_rssi"}));
+  EXPECT_EQ(faulty.conditions[0].no_bound, "the reads are faulty");
+}
+
+/// A tag at (3, 4) that the constant method takes to be at (2, 0), as there are two reads of it;
+/// and a stranger.
+RecordedReads two_reads(const SuiteRecording& /*recording*/) {
+  RecordedReads tables;
+  for (const char* tag : {"a", "stranger", "a"}) {
+    TagRead read;
+    read.stamp = time_from_seconds(static_cast<double>(tables.reads.size()));
+    read.antenna = "still";
+    read.tag = tag;
+    read.frequency_hz = 866e6;
+    read.phase_rad = static_cast<double>(tables.reads.size());
+    tables.reads.push_back(read);
+  }
+  AntennaPose pose;
+  pose.antenna = "still";
+  tables.poses = {pose};
+  return tables;
+}
+
+TEST(RunBench, RecordingsAreJudgedByTheirTruth) {
+  const std::string truth = ::testing::TempDir() + "run_bench_truth.csv";
+  write_text_file(truth, "tag,x_m,y_m\na,3,4\nunread,1,1\n");
+  Suite suite;
+  suite.name = "recorded";
+  suite.count = 5;
+  suite.methods = {{"mine", "constant", {}, {}}};
+  suite.conditions.resize(1);
+  suite.conditions[0].name = "one";
+  suite.conditions[0].recording = SuiteRecording{};
+  suite.conditions[0].recording->reads = truth;  // It only has to be there.
+  suite.conditions[0].recording->truth = truth;
+  Diagnostics diagnostics;
+  const Bench bench = run_bench(prepare(suite, with_constant(), diagnostics, two_reads), {});
+  ASSERT_EQ(bench.entries[0].runs.size(), 1U);
+  const std::vector<TagRecord>& tags = bench.entries[0].runs[0].tags;
+  ASSERT_EQ(tags.size(), 2U);
+  EXPECT_EQ(tags[0].tag, "a");
+  EXPECT_EQ(tags[0].reads, 2U);
+  EXPECT_NEAR(tags[0].error.value(), std::sqrt(17.0), 1e-12);
+  EXPECT_EQ(tags[1].tag, "unread");
+  EXPECT_EQ(tags[1].verdict, Verdict::kNotLocated);
+  EXPECT_EQ(bench.conditions[0].pose, "given");
+  EXPECT_EQ(bench.conditions[0].recording, "run_bench_truth.csv");
+  EXPECT_FALSE(statistics_of(bench.entries[0]).ratio);
+  EXPECT_THROW(run_bench(suite, with_constant(), {}), Error);
+  suite.conditions[0].settings = {{"localization.stride_m", "1"}};
+  EXPECT_THROW(prepare(suite, with_constant(), diagnostics, two_reads), Error);
 }
 
 }  // namespace

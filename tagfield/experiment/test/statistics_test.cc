@@ -77,6 +77,19 @@ TEST(Statistics, RatioIsOfSumsOverTheSameTags) {
   EXPECT_FALSE(statistics_of(entry).ratio);
 }
 
+TEST(Statistics, CountFalseClaimsAndCompareWithWhatWasExpected) {
+  BenchEntry entry = some_entry();
+  EXPECT_EQ(statistics_of(entry).false_claims, 0U);
+  EXPECT_FALSE(statistics_of(entry).error_over_expected);  // No error was expected.
+  entry.runs[0].tags[0].expected_error = 0.01;             // A third of 0.03.
+  entry.runs[0].tags[1].expected_error = 0.1;              // A quarter of 0.4.
+  entry.runs[0].tags[1].false_claim = true;
+  entry.runs[1].tags[2].expected_error = 0.1;  // Ambiguous.
+  const EntryStatistics all = statistics_of(entry);
+  EXPECT_EQ(all.false_claims, 1U);
+  EXPECT_NEAR(all.error_over_expected.value(), std::sqrt((9.0 + 16.0) / 2.0), 1e-12);
+}
+
 TEST(Statistics, SayWhatWasUsed) {
   const EntryStatistics all = statistics_of(some_entry());
   EXPECT_EQ(all.bound, "mixed");
@@ -91,6 +104,7 @@ TEST(Statistics, OfNoRunsAreEmpty) {
   const EntryStatistics none = statistics_of({"hall", "auto", "auto", {}});
   EXPECT_EQ(none.tags, 0U);
   EXPECT_FALSE(none.error_m);
+  EXPECT_FALSE(none.error_over_expected);
   EXPECT_FALSE(none.ratio);
   EXPECT_FALSE(none.nees);
   EXPECT_FALSE(none.time_per_tag_ms);

@@ -1,5 +1,6 @@
 #include "tagfield/experiment/bench/suite_yaml.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -121,6 +122,97 @@ TEST(SuiteYaml, ComplainsOfFileAndLine) {
             "suite.yaml:3: conditions[0] has no 'scenario', and neither has the suite");
   EXPECT_EQ(complaint_of("scenario: " + kScenario + "\nmethods: []\nconditions: [{name: a}]\n"),
             "suite.yaml:2: methods must have at least one method");
+}
+
+TEST(SuiteYaml, ReadsFaults) {
+  const SuiteFile file(with_conditions(
+      "  - {name: word, fault: duplicate_epcs}\n"
+      "  - {name: map, fault: {random_phases: true, random_rssi: true, late_stamps_s: 0.2}}\n"
+      "  - {name: names, fault: {swapped_antennas: [a, b]}}\n"));
+  const Suite suite = load_suite(file.path());
+  EXPECT_TRUE(suite.conditions[0].fault.value().duplicate_epcs);
+  EXPECT_FALSE(suite.conditions[0].fault->random_phases);
+  const Faults& map = suite.conditions[1].fault.value();
+  EXPECT_TRUE(map.random_phases && map.random_rssi);
+  EXPECT_EQ(map.late_stamps_s, 0.2);
+  EXPECT_EQ(suite.conditions[2].fault.value().swapped_antennas,
+            (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(SuiteYaml, ComplainsOfFaults) {
+  const auto complaint = [](const std::string& fault, bool prepared = false) {
+    return complaint_of(with_conditions("  - {name: a, fault: " + fault + "}\n"), prepared);
+  };
+  EXPECT_EQ(complaint("random_phase"),
+            "suite.yaml:4: conditions[0].fault is 'random_phase', which is not known (did you mean "
+            "'random_phases'?)");
+  EXPECT_EQ(complaint("{random_phase: true}"),
+            "suite.yaml:4: unknown key 'random_phase' in conditions[0].fault (did you mean "
+            "'random_phases'?)");
+  EXPECT_EQ(complaint("{random_rssi: false}"),
+            "suite.yaml:4: conditions[0].fault.random_rssi is false: leave it out");
+  EXPECT_EQ(complaint("{}"), "suite.yaml:4: conditions[0].fault names no fault");
+  EXPECT_EQ(complaint("{late_stamps_s: 4000}"),
+            "suite.yaml:4: conditions[0].fault.late_stamps_s must be at most 3600, is 4000");
+  EXPECT_EQ(complaint("{swapped_antennas: [a]}"),
+            "suite.yaml:4: conditions[0].fault.swapped_antennas must be the names of two antennas");
+  EXPECT_EQ(complaint("{random_phases: true, constant_phases: true}"),
+            "suite.yaml:4: conditions[0].fault can have one of random_phases, constant_phases and "
+            "wrong_phase_sign only");
+  EXPECT_EQ(complaint("{swapped_antennas: [mobile, mobil]}", true),
+            "suite.yaml:4: condition 'a': fault.swapped_antennas: there is no antenna 'mobil' (did "
+            "you mean 'mobile'?)");
+}
+
+TEST(SuiteYaml, ReadsRecordings) {
+  const SuiteFile file(
+      "methods: [hyperbola]\nconditions:\n"
+      "  - name: a\n"
+      "    recording: {reads: r.csv, poses: p.csv, truth: /t.csv, experiment: one, side: +y,\n"
+      "                box: [2, 3, 0, 1], tag_height_m: 0.9, tag_heights: h.csv, format: adarf}\n"
+      "    believed: {sigma_m: 0.01}\n"
+      "  - {name: b, recording: {reads: r.csv, truth: t.csv, format: own/form.yaml}}\n");
+  const Suite suite = load_suite(file.path());
+  const SuiteRecording& a = suite.conditions[0].recording.value();
+  const std::string folder = fs::path(file.path()).parent_path().string();
+  EXPECT_EQ(a.reads, folder + "/r.csv");
+  EXPECT_EQ(a.poses, folder + "/p.csv");
+  EXPECT_EQ(a.truth, "/t.csv");
+  EXPECT_EQ(a.heights, folder + "/h.csv");
+  EXPECT_EQ(a.experiment, "one");
+  EXPECT_EQ(a.format, "adarf");
+  EXPECT_EQ(a.tag_height_m, 0.9);
+  EXPECT_EQ(a.area.side, TagSide::kPlusY);
+  EXPECT_EQ(a.area.box.value().min(), Eigen::Vector2d(0, 1));
+  EXPECT_EQ(suite.conditions[1].recording.value().format, folder + "/own/form.yaml");
+  // Nothing of it is there, which is no error.
+  Diagnostics diagnostics;
+  EXPECT_TRUE(prepare(suite, built_in_methods(), diagnostics).conditions.empty());
+  ASSERT_EQ(diagnostics.warnings().size(), 2U);
+  EXPECT_EQ(diagnostics.warnings()[0],
+            file.path() + ":3: condition 'a' is skipped: there is no " + folder + "/r.csv");
+}
+
+TEST(SuiteYaml, ComplainsOfRecordings) {
+  const auto complaint = [](const std::string& more) {
+    return complaint_of("methods: [hyperbola]\nconditions:\n  - {name: a, " + more + "}\n");
+  };
+  const std::string recording = "recording: {reads: r.csv, poses: p.csv, truth: t.csv}";
+  EXPECT_EQ(complaint(recording), "");
+  const std::vector<std::string> keys = {"seeds: 3", "set: {a: 1}", "phase_noise_rad: 0.1",
+                                         "scenario: s.yaml"};
+  for (const std::string& key : keys) {
+    const std::string name = key.substr(0, key.find(':'));
+    EXPECT_EQ(complaint(fmt::format("{}, {}", recording, key)),
+              fmt::format("suite.yaml:3: conditions[0].{} has no effect on a recording", name));
+  }
+  EXPECT_EQ(complaint("recording: {reads: r.csv, poses: p.csv}"),
+            "suite.yaml:3: conditions[0].recording has no 'truth'");
+  EXPECT_EQ(complaint("recording: {reads: r.csv, truth: t.csv}"),
+            "suite.yaml:3: conditions[0].recording has no 'poses', which tables in our own form "
+            "need, and no 'format'");
+  EXPECT_EQ(complaint("recording: {reads: r.csv, truth: t.csv, format: adarf, sid: +y}"),
+            "suite.yaml:3: unknown key 'sid' in conditions[0].recording (did you mean 'side'?)");
 }
 
 TEST(SuiteYaml, ComplainsOfWhatTheScenarioWouldNotTake) {
