@@ -395,7 +395,7 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
 
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics) {
-  if (!result.corrected_poses.empty()) return;
+  if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
   std::vector<Objection> objections(result.estimates.size());
   parallel_for(objections.size(), threads, [&](std::size_t i) {
     const TagEstimate& estimate = result.estimates[i];

@@ -62,7 +62,9 @@ std::vector<std::size_t> doubtful(const LocalizationProblem& problem,
 
 void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
                         LocalizationResult& result) {
-  if (!takes_way_as_coherent(result.method) || told_pose_error(problem)) return;
+  const bool as_coherent = takes_way_as_coherent(result.method) ||
+                           (result.method == "joint" && has_exact_poses(problem));
+  if (!as_coherent || told_pose_error(problem)) return;
   const std::vector<std::size_t> numbers = doubtful(problem, result);
   if (numbers.empty()) return;
   LocalizationProblem those = problem;

@@ -80,6 +80,11 @@ std::string why_hopeless(const SamplesOfTag& samples) {
   return "";
 }
 
+bool has_exact_poses(const LocalizationProblem& problem) {
+  const auto& error = problem.pose_error;
+  return error && error->sigma_m == 0.0 && error->yaw_sigma_rad == 0.0;
+}
+
 TagEstimate begun(const std::string& tag, const SamplesOfTag& samples) {
   TagEstimate estimate;
   estimate.tag = tag;

@@ -38,6 +38,9 @@ std::size_t count_reads(const SamplesOfTag& samples);
 /// Why these samples can't locate anything by the phase of a moving antenna; empty if they might.
 std::string why_hopeless(const SamplesOfTag& samples);
 
+/// Whether poses are told to be exact, so that no method corrects them.
+bool has_exact_poses(const LocalizationProblem& problem);
+
 /// An estimate that says nothing yet but how many reads there are.
 TagEstimate begun(const std::string& tag, const SamplesOfTag& samples);
 

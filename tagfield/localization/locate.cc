@@ -17,6 +17,7 @@
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/phase_curves/maximum_likelihood.h"
+#include "tagfield/localization/phase_groups.h"
 #include "tagfield/localization/plausibility.h"
 #include "tagfield/localization/scan/scan.h"
 #include "tagfield/localization/signal_strength/landmarc.h"
@@ -80,6 +81,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
     refuse_wrong_sign(problem, result, diagnostics);
   } else if (problem.has_phases) {
     refuse_mixtures_by_phase(problem, result);
+    refuse_groups(problem, result);
   }
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);

@@ -216,7 +216,7 @@ void refuse_chance(const LocalizationProblem& problem, LocalizationResult& resul
 }
 
 void refuse_mixtures(const LocalizationProblem& problem, LocalizationResult& result) {
-  if (!result.corrected_poses.empty()) return;
+  if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
   for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const TagPhases phases = coherent_reads(problem, samples);
     if (phases.size() == 0) return;

@@ -31,7 +31,7 @@ PoseEstimate about(const PlanarPose& pose) {
 struct Ride {
   Ride(const PlanarPose& start, const std::optional<PoseEstimate>& told,
        const std::vector<PlanarPose>& goals)
-      : driver(spec(), 0.4, world(), world().true_map, told, goals, 3, 1), truth(start) {}
+      : driver(spec(), 0.4, world(), world().true_map, nullptr, told, goals, 3, 1), truth(start) {}
 
   void step() {
     const BodyVelocity velocity = driver.step(truth, time_from_seconds(count * kStep), kStep);
@@ -131,7 +131,8 @@ TEST(SelfDriver, GivesUpSearchingInTheEnd) {
   navigation.localizer.least_searching = 200;
   navigation.localizer.update_turn_rad = 3.0;
   navigation.localizer.update_distance_m = 3.0;
-  SelfDriver driver(navigation, 0.4, world(), elsewhere, std::nullopt, {{}, {1.0, 0.0, 0.0}}, 1, 1);
+  SelfDriver driver(navigation, 0.4, world(), elsewhere, nullptr, std::nullopt,
+                    {{}, {1.0, 0.0, 0.0}}, 1, 1);
   constexpr double kLong = 0.1;
   PlanarPose truth;
   double now = 0.0;
