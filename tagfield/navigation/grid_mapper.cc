@@ -39,6 +39,7 @@ MatchOptions polishing(MatchOptions options) {
   options.search_cells = 2;
   options.outlier_m = 0.03;
   options.trust = 1.0;
+  options.most_ends = MatchOptions{}.most_ends;
   return options;
 }
 

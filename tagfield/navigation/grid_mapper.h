@@ -15,6 +15,14 @@
 
 namespace tagfield {
 
+/// While the map grows some cells have been seen by many scans, and others by one: they are to
+/// weigh alike in a surface.
+inline MatchOptions growing_map() {
+  MatchOptions options;
+  options.most_ends = 20.0;
+  return options;
+}
+
 struct MapperSettings {
   double resolution_m = 0.05;
   int particles = 10;
@@ -24,7 +32,7 @@ struct MapperSettings {
   int first_scans = 15;             ///< Entered before it moves, so that the map begins sharp.
   double most_clear_m = 15.0;       ///< How far a beam that met nothing clears the map.
   double point_spacing_m = 0.06;    ///< Of the points that are matched.
-  MatchOptions match;
+  MatchOptions match = growing_map();
   int threads = 1;  ///< The map does not depend on it.
 };
 

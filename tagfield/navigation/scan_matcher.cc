@@ -49,7 +49,7 @@ std::optional<Eigen::Vector2i> nearest_occupied(const HitGrid& map, const Eigen:
 }
 
 /// The surface through the occupied cells around `cell`.
-Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell) {
+Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_ends) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   double weight = 0.0;
@@ -59,7 +59,7 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell) {
       const HitCell& near = map.at(x, y);
       if (!near.is_occupied()) continue;
       const Eigen::Vector2d p = map.mean_of(x, y, near) - middle;
-      const auto w = static_cast<double>(near.hits);
+      const double w = std::min<double>(near.hits, most_ends);
       sum += w * p;
       squares += w * p * p.transpose();
       weight += w;
@@ -117,7 +117,7 @@ Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
       continue;
     }
     ++sums.matched;
-    const Surface surface = surface_at(map, *cell);
+    const Surface surface = surface_at(map, *cell, options.most_ends);
     const Eigen::Vector2d arm(-turned.y(), turned.x());
     const Eigen::Vector2d off = p - surface.mean;
     if (surface.normal.isZero()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "tagfield/motion/unicycle.h"
@@ -18,6 +19,10 @@ struct MatchOptions {
   /// Share of a point's information that counts: neighbouring beams err together, by what the map
   /// and the pose of its scans have wrong.
   double trust = 0.1;
+  /// A cell weighs in its surface no more than so many ends. Without a limit the surface is where
+  /// the ends are in the mean; a low one shifts it by up to half of their spread where a wall lies
+  /// near the border of two cells.
+  double most_ends = std::numeric_limits<double>::infinity();
 };
 
 struct ScanMatch {

@@ -134,7 +134,7 @@ def check_own_program(context, prefix):
 
 def check_own_method(context, prefix):
     out = build_example(context, prefix, "05_own_method", context.shipped("paper_warehouse"))
-    rows = re.findall(r"^  (\w+) +(\d+)/30 +\d+ +\d+ +([\d.]+)", out, re.MULTILINE)
+    rows = re.findall(r"^  (\w+) +(\d+)/30 +\d+ +\d+ +\d+ +([\d.]+)", out, re.MULTILINE)
     check_equal([row[0] for row in rows], 2 * ["hyperbola", "centroid", "sharper"],
                 f"methods in {out!r}")
     mean_mm = [float(row[2]) for row in rows]
