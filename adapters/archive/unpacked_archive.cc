@@ -21,6 +21,11 @@ struct FreeArchive {
 };
 using OpenArchive = std::unique_ptr<archive, FreeArchive>;
 
+[[noreturn]] void fail_to_read(const std::string& path, archive* of) {
+  const char* why = archive_error_string(of);
+  fail({path, 0}, fmt::format("can't be unpacked: {}", why == nullptr ? "damaged" : why));
+}
+
 /// Only what libarchive reads by itself: no other programs are started.
 OpenArchive opened(const std::string& path) {
   OpenArchive of(archive_read_new());
@@ -35,8 +40,7 @@ OpenArchive opened(const std::string& path) {
   }
   constexpr std::size_t kBlock = 1U << 16U;
   if (archive_read_open_filename(of.get(), path.c_str(), kBlock) != ARCHIVE_OK) {
-    const char* why = archive_error_string(of.get());
-    fail({path, 0}, fmt::format("can't be unpacked: {}", why == nullptr ? "damaged" : why));
+    fail_to_read(path, of.get());
   }
   return of;
 }
@@ -83,15 +87,11 @@ class Unpacking {
   [[noreturn]] void refuse(const std::string& what) const {
     fail({path_, 0}, fmt::format("holds {}: it is not unpacked", what));
   }
-  [[noreturn]] void fail_to_read() const {
-    const char* why = archive_error_string(archive_.get());
-    fail({path_, 0}, fmt::format("can't be unpacked: {}", why == nullptr ? "damaged" : why));
-  }
 
   bool next(archive_entry*& entry) {
     const int status = archive_read_next_header(archive_.get(), &entry);
     if (status == ARCHIVE_EOF) return false;
-    if (status != ARCHIVE_OK) fail_to_read();
+    if (status != ARCHIVE_OK) fail_to_read(path_, archive_.get());
     return true;
   }
 
@@ -136,7 +136,7 @@ class Unpacking {
     std::array<char, std::size_t{1} << 16U> block{};
     while (true) {
       const la_ssize_t count = archive_read_data(archive_.get(), block.data(), block.size());
-      if (count < 0) fail_to_read();
+      if (count < 0) fail_to_read(path_, archive_.get());
       if (count == 0) break;
       bytes_ += static_cast<std::uint64_t>(count);
       if (bytes_ > limits_.bytes) refuse(fmt::format("more than {} bytes", limits_.bytes));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "tagfield/map/true_map.h"
@@ -50,6 +51,27 @@ TEST(GridMapper, TheMapIsThatOfTheRoom) {
       EXPECT_LT(distance(mapped.mapper.pose_at(mapped.odometry), mapped.truth), 0.03) << seed;
     }
   }
+}
+
+// Looking along x it sees the wall of 6 m across, one end each 6 cm, and 5 m of both walls beside
+// it: σ²/n of the ends that tell x and of those that tell y, each of them known to 2 cm. Boxes hide
+// some.
+TEST(GridMapper, TellsByHowMuchTheMapMayBeOff) {
+  MapperSettings settings;
+  GridMapper mapper(settings, LaserParameters{}.X_RL, loop().start, 1);
+  EXPECT_EQ(mapper.start_covariance(), Eigen::Matrix3d::Zero());
+  sense(room(), {loop().start, {{{0.0, 0.0}, 1.0}}}, {}, 1,
+        [&](const LaserScan& scan, const PlanarPose& odometry, const PlanarPose&) {
+          mapper.update(scan, odometry);
+        });
+  // The information of each by itself, as y goes together with the yaw.
+  const Eigen::Matrix3d information = mapper.start_covariance().inverse();
+  const double of_x = 6.0 / settings.point_spacing_m / (0.02 * 0.02);
+  const double of_y = 10.0 / settings.point_spacing_m / (0.02 * 0.02);
+  EXPECT_GT(information(0, 0), of_x / 2.0);
+  EXPECT_LT(information(0, 0), of_x * 2.0);
+  EXPECT_GT(information(1, 1), of_y / 2.0);
+  EXPECT_LT(information(1, 1), of_y * 2.0);
 }
 
 TEST(GridMapper, TheSameSeedGivesTheSameMapOnAnyNumberOfThreads) {

@@ -52,6 +52,39 @@ TEST(MonteCarloLocalizer, FollowsFromAKnownStart) {
   EXPECT_GT(known.fit(), 0.9);
 }
 
+// Walls beside the middles of their cells shift the match by as much. Particles go by the middles,
+// and their spread is the match's prior, which takes back a part.
+TEST(MonteCarloLocalizer, WallsAreWhereTheMappingFoundThemInTheirCells) {
+  const OccupancyGrid map = map_of_room();
+  const Eigen::Vector2d shift(0.012, -0.008);
+  std::vector<Eigen::Vector2d> ends;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (is_occupied(map.at(x, y))) ends.push_back(map.centre_of(x, y) + shift);
+    }
+  }
+  HitGrid walls(map.resolution_m);
+  walls.add_ends(ends);
+  walls.add_ends(ends);
+  MonteCarloLocalizer in_the_middle = localizer(1);
+  MonteCarloLocalizer beside(map, LocalizerSettings{}, LaserParameters{}.X_RL, 1, &walls);
+  in_the_middle.start_at(roughly(loop().start));
+  beside.start_at(roughly(loop().start));
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int count = 0;
+  sense(room(), loop(), {}, 11,
+        [&](const LaserScan& scan, const PlanarPose& odometry, const PlanarPose&) {
+          in_the_middle.update(scan, odometry);
+          beside.update(scan, odometry);
+          sum += position_of(beside.estimate_at(odometry).pose_M) -
+                 position_of(in_the_middle.estimate_at(odometry).pose_M);
+          ++count;
+        });
+  const Eigen::Vector2d share = (sum / count).cwiseQuotient(shift);
+  EXPECT_GT(share.minCoeff(), 0.4);
+  EXPECT_LT(share.maxCoeff(), 1.0);
+}
+
 TEST(MonteCarloLocalizer, FindsItselfWithoutAStart) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     MonteCarloLocalizer lost = localizer(seed);

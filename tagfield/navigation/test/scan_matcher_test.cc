@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tagfield/motion/planar_pose.h"
 
@@ -50,6 +51,25 @@ TEST(ScanMatcher, FindsThePoseFarBelowTheCell) {
     EXPECT_NEAR(match.matched_share, 1.0, 1e-12);
     EXPECT_LT(match.rms_m, 2e-3);
   }
+}
+
+// A wall a deviation beside a border of cells: five of six ends are on its side of it, which a
+// limit on ends makes three of six.
+TEST(ScanMatcher, AWallNearABorderOfCellsIsWhereItsEndsAreInTheMean) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::vector<Eigen::Vector2d> wall;
+  for (double y = -2.0; y <= 2.0; y += 0.02) wall.emplace_back(3.01, y);
+  HitGrid map(0.05);
+  for (int scan = 0; scan < 100; ++scan) {
+    std::vector<Eigen::Vector2d> ends = wall;
+    for (Eigen::Vector2d& end : ends) end.x() += noise(random);
+    map.add_ends(ends);
+  }
+  MatchOptions limited;
+  limited.most_ends = 20.0;
+  EXPECT_NEAR(match_scan(map, wall, {}, {}, kLoose, {}).pose_M.x, 0.0, 5e-4);
+  EXPECT_GT(std::abs(match_scan(map, wall, {}, {}, kLoose, limited).pose_M.x), 2e-3);
 }
 
 TEST(ScanMatcher, AlongAWallThePriorDecides) {
