@@ -15,9 +15,11 @@ target_precompile_headers(tagfield_headers PRIVATE ${tagfield_common_headers} <f
 tagfield_warnings(tagfield_headers)
 
 # tagfield_read_headers_once(TARGET [<header>…]): those, and more if there are; of a library that links
-# fmt and is of position-independent code.
+# fmt and is of position-independent code. A unity build reads those others seldom as it is.
 function(tagfield_read_headers_once target)
-  if(ARGN)
+  if(ARGN AND CMAKE_UNITY_BUILD)
+    return()
+  elseif(ARGN)
     target_precompile_headers(${target} PRIVATE ${tagfield_common_headers} <fmt/format.h> ${ARGN})
   else()
     target_precompile_headers(${target} REUSE_FROM tagfield_headers)

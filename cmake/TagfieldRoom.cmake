@@ -1,14 +1,13 @@
-# tagfield_room(NAME [ONE_BY_ONE] SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
+# tagfield_room(NAME SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
 #               HEADERS <header> … TESTS a_test.cc … TEST_PARTS n)
 #
 # One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
 # links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
 # sources and are included by their path from the top of the source tree; PUBLIC_HEADERS are for users'
 # programs too (docs/api.md). HEADERS are those of libraries that many of its sources include and other
-# rooms don't. ONE_BY_ONE says that its sources can't be compiled as one, as names of theirs stand for
-# several things.
+# rooms don't.
 function(tagfield_room name)
-  cmake_parse_arguments(ROOM "ONE_BY_ONE" "TEST_PARTS"
+  cmake_parse_arguments(ROOM "" "TEST_PARTS"
     "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
   foreach(link IN LISTS ROOM_LINKS)
     if(link MATCHES "^tagfield::" AND NOT TARGET ${link})
@@ -24,8 +23,8 @@ function(tagfield_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE})
   tagfield_warnings(${target})
-  # For the plugins the core is compiled once more; there each room at one go, if it can be.
-  if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND AND NOT ROOM_ONE_BY_ONE)
+  # For the plugins the core is compiled once more; there each room at one go.
+  if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
     tagfield_compile_together(${target})
   else()
     tagfield_read_headers_once(${target} ${ROOM_HEADERS})
@@ -89,12 +88,18 @@ endfunction()
 # tagfield_compile_together(TARGET): all its sources as one, so that their headers are read once.
 function(tagfield_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  # GCC takes the sources, which are included, for headers.
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE ${tagfield_unity_options})
 endfunction()
+
+# GCC takes sources that are included for headers; and what one source names globally may be the name of
+# something local in another.
+set(tagfield_unity_options -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
 
 function(tagfield_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wold-style-cast -Werror)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE ${tagfield_unity_options})
+  endif()
 endfunction()

@@ -52,7 +52,7 @@ struct Row {
   Unknowns slope = Unknowns::Zero();
 };
 
-struct Point {
+struct RestPoint {
   Unknowns unknowns;
   Normal normal = Normal::Zero();
   Unknowns right = Unknowns::Zero();
@@ -158,8 +158,8 @@ Row row_of(const Followed& of, const TagPhases::Span& span, Index i, const Unkno
 }
 
 /// Offsets are eliminated; what can't be learnt or is known stays where it is.
-Point at(const Followed& of, const Unknowns& unknowns) {
-  Point point;
+RestPoint at(const Followed& of, const Unknowns& unknowns) {
+  RestPoint point;
   point.unknowns = unknowns;
   point.errors.resize(of.phases.size());
   for (const TagPhases::Span& span : of.phases.spans) {
@@ -234,12 +234,12 @@ bool is_elsewhere(const DepartureFit& fit, const Candidate& claim) {
          distance_of(off, fit.covariance.topLeftCorner<2, 2>()) > kCertainOfTwo;
 }
 
-Point fitted(const Followed& of, const Unknowns& start) {
+RestPoint fitted(const Followed& of, const Unknowns& start) {
   LevenbergMarquardt how;
   how.most_damping = 1e8;
   how.least_relative_gain = 1e-9;
-  using Next = std::optional<Point>;
-  return descend(at(of, start), how, [&](const Point& here, double damping) -> Next {
+  using Next = std::optional<RestPoint>;
+  return descend(at(of, start), how, [&](const RestPoint& here, double damping) -> Next {
     const Unknowns next =
         here.unknowns + damped(here.normal, damping, kRidge).ldlt().solve(here.right);
     return is_possible(of, next) ? Next(at(of, next)) : std::nullopt;
@@ -247,7 +247,7 @@ Point fitted(const Followed& of, const Unknowns& start) {
 }
 
 /// From the place and from some about it: one that was found without a departure can be far off.
-Point best_fit(const Followed& of, const PlaceVector& start) {
+RestPoint best_fit(const Followed& of, const PlaceVector& start) {
   constexpr double kFarther[] = {0.25, 0.75};  // Of the rms distance to the antenna.
   constexpr std::size_t kReads = 100;
   Followed few = of;
@@ -257,14 +257,14 @@ Point best_fit(const Followed& of, const PlaceVector& start) {
       (few.phases.x - start.x()).square() + (few.phases.y - start.y()).square();
   Unknowns begin = Unknowns::Zero();
   begin.head<3>() = start;
-  Point best = fitted(few, begin);
+  RestPoint best = fitted(few, begin);
   for (const double farther : kFarther) {
     for (int turn = 0; turn < 6; ++turn) {
       Unknowns beside = begin;
       const double angle = kTwoPi * turn / 6.0;
       beside.head<2>() +=
           farther * std::sqrt(squares.mean()) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      Point point = fitted(few, beside);
+      RestPoint point = fitted(few, beside);
       if (point.cost < best.cost) best = std::move(point);
     }
   }
@@ -377,7 +377,7 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
   if (departure == Departure::kLateness && !has_tracks) return std::nullopt;
   const Followed of = followed(problem, tag, std::move(phases), p_WT, departure);
   const PlaceVector start = to_unknowns(of.height, p_WT);
-  const Point end = best_fit(of, start);
+  const RestPoint end = best_fit(of, start);
   DepartureFit fit;
   fit.place = end.unknowns.head<3>();
   fit.departure = end.unknowns.tail<2>();

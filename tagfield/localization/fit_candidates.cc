@@ -12,9 +12,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kAnything = 1e12;  // [m²]
-constexpr double kSame = 0.03;      ///< Fits nearer than this are one [m].
-constexpr std::size_t kMost = 8;    ///< Candidates of one tag.
+constexpr double kUnboundedVariance = 1e12;  // [m²]
+constexpr double kSameFit = 0.03;            ///< Fits nearer than this are one [m].
+constexpr std::size_t kMostCandidates = 8;   ///< Candidates of one tag.
 
 double mean_square_wavenumber(const TagPhases& phases) { return phases.wavenumber.square().mean(); }
 
@@ -24,9 +24,9 @@ std::vector<TagFit> distinct(std::vector<TagFit> fits) {
   std::vector<TagFit> kept;
   for (TagFit& fit : fits) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TagFit& other) {
-      return (other.unknowns - fit.unknowns).head<2>().norm() < kSame;
+      return (other.unknowns - fit.unknowns).head<2>().norm() < kSameFit;
     });
-    if (is_new && kept.size() < kMost) kept.push_back(std::move(fit));
+    if (is_new && kept.size() < kMostCandidates) kept.push_back(std::move(fit));
   }
   return kept;
 }
@@ -47,7 +47,7 @@ double range_rate_spread(const TagPhases& phases, const HeightModel& height, con
   return any_known ? std::max(std::abs(low), std::abs(high)) : 0.5 * (high - low);
 }
 
-constexpr double kNear = 0.35;  ///< Reads nearer in time than this are neighbours [s].
+constexpr double kNeighbour = 0.35;  ///< Reads nearer in time than this are neighbours [s].
 
 /// Without the rows of a known height.
 Eigen::Matrix3d of_unknowns(const HeightModel& height, Eigen::Matrix3d covariance) {
@@ -120,7 +120,7 @@ std::vector<double> neighbour_differences(const TagPhases& phases, const Eigen::
   std::vector<double> differences;
   for (const TagPhases::Span& span : phases.spans) {
     for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
-      if (phases.time_s[i] - phases.time_s[i - 1] > kNear) continue;
+      if (phases.time_s[i] - phases.time_s[i - 1] > kNeighbour) continue;
       differences.push_back(std::abs(errors[i] - errors[i - 1]) * phases.wavenumber[i]);
     }
   }
@@ -152,7 +152,7 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
       residual_variance(phases.spans, errors) * correlation_factor(phases.spans, errors);
   const Eigen::Matrix3d normal =
       normal_of(phases, height, fit.unknowns) / mean_square_wavenumber(phases);
-  const Eigen::Matrix3d anything = kAnything * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d anything = kUnboundedVariance * Eigen::Matrix3d::Identity();
   return of_unknowns(height, noise * inverse_of(normal).value_or(anything));
 }
 

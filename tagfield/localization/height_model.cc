@@ -7,6 +7,9 @@ namespace {
 
 /// Antennas at heights that differ by less than this are at one height [m].
 constexpr double kLevel = 0.01;
+/// Planes that are searched where the height is unknown.
+constexpr int kPlanes = 4;
+constexpr double kPlanesApart = 0.7;  ///< [m]
 
 }  // namespace
 
@@ -18,6 +21,15 @@ HeightModel height_model(const LocalizationProblem& problem, const std::string& 
   if (phases.size() == 0) return {HeightModel::Kind::kLevel, 0.0, sign};
   const bool is_level = phases.z.maxCoeff() - phases.z.minCoeff() < kLevel;
   return {is_level ? HeightModel::Kind::kLevel : HeightModel::Kind::kFree, phases.z.mean(), sign};
+}
+
+std::vector<double> heights_to_search(const HeightModel& height) {
+  if (height.kind == HeightModel::Kind::kKnown) return {height.z};
+  std::vector<double> heights;
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    heights.push_back(height.z + height.side * kPlanesApart * plane);
+  }
+  return heights;
 }
 
 PlaceVector to_unknowns(const HeightModel& height, const Eigen::Vector3d& p_WT) {

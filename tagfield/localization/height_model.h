@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tagfield/localization/tag_phases.h"
 
@@ -28,6 +29,9 @@ struct HeightModel {
 /// For these samples of the tag.
 HeightModel height_model(const LocalizationProblem& problem, const std::string& tag,
                          const TagPhases& phases);
+
+/// Heights at which a search looks [m]: the known one, or four that are 0.7 m apart.
+std::vector<double> heights_to_search(const HeightModel& height);
 
 /// Unknowns of a place: x, y and, where it is estimated, q or z; else the third is 0.
 using PlaceVector = Eigen::Vector3d;

@@ -44,10 +44,10 @@ class Arcs {
   std::vector<double> sums_, squares_;  ///< Of the first so many, over two turns.
 };
 
-using Channels = std::map<double, std::vector<double>>;
+using PhasesByChannel = std::map<double, std::vector<double>>;
 
-Channels channels_of(const std::vector<PhaseSample>& series, double multiple) {
-  Channels channels;
+PhasesByChannel channels_of(const std::vector<PhaseSample>& series, double multiple) {
+  PhasesByChannel channels;
   for (const PhaseSample& sample : series) {
     channels[sample.frequency_hz].push_back(wrap_to_two_pi(multiple * sample.phase_rad));
   }

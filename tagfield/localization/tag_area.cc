@@ -34,10 +34,10 @@ double side_of(TagSide side, const Eigen::Vector2d& along, const Eigen::Vector2d
 
 /// Those of the first one's place: nearer than it is certain, or than 3 cm.
 void drop_repeats(std::vector<Candidate>& candidates) {
-  constexpr double kSame = 0.03;
+  constexpr double kSamePlace = 0.03;
   if (candidates.empty()) return;
   const Candidate first = candidates.front();
-  const double apart = std::max(kSame, first.expected_error_m);
+  const double apart = std::max(kSamePlace, first.expected_error_m);
   candidates.erase(std::remove_if(candidates.begin() + 1, candidates.end(),
                                   [&](const Candidate& other) {
                                     return (other.p_WT - first.p_WT).norm() < apart;

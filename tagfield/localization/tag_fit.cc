@@ -36,7 +36,7 @@ double span_offset(const TagPhases& phases, const HeightModel& height, const Pla
 
 /// One linearization: of e ≈ e₀ − J δ the sums that the next step needs, in radians, and how far
 /// each offset is off.
-struct Step {
+struct FitStep {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::VectorXd offset_shift;   ///< By span: the mean error there [m],
@@ -45,14 +45,14 @@ struct Step {
 };
 
 /// A fit under way.
-struct Point {
+struct FitPoint {
   TagFit fit;
-  Step step;
+  FitStep step;
   double cost = 0.0;
 };
 
 void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& fit, std::size_t s,
-              Step& step) {
+              FitStep& step) {
   const Span& span = phases.spans[s];
   const auto row = static_cast<Eigen::Index>(s);
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -85,8 +85,8 @@ void add_span(const TagPhases& phases, const HeightModel& height, const TagFit& 
   step.cost += weight * std::max(error_squares, 0.0);
 }
 
-Step step_at(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
-  Step step;
+FitStep step_at(const TagPhases& phases, const HeightModel& height, const TagFit& fit) {
+  FitStep step;
   const auto spans = static_cast<Eigen::Index>(phases.spans.size());
   step.offset_shift = Eigen::VectorXd::Zero(spans);
   step.mean_gradient = Eigen::MatrixXd::Zero(spans, 3);
@@ -95,12 +95,12 @@ Step step_at(const TagPhases& phases, const HeightModel& height, const TagFit& f
   return step;
 }
 
-void linearize(const TagPhases& phases, const HeightModel& height, Point& point) {
+void linearize(const TagPhases& phases, const HeightModel& height, FitPoint& point) {
   point.step = step_at(phases, height, point.fit);
   point.cost = point.step.cost;
 }
 
-TagFit moved(const TagFit& fit, const Step& step, const PlaceVector& move) {
+TagFit moved(const TagFit& fit, const FitStep& step, const PlaceVector& move) {
   TagFit next;
   next.unknowns = fit.unknowns + move;
   next.offsets = fit.offsets + step.offset_shift - step.mean_gradient * move;
@@ -135,19 +135,20 @@ TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVe
   constexpr double kTolerance = 1e-6;  // [m]
   constexpr double kRidge = 1e-9;
   constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-6, .least_raised = 1e-3};
-  Point point;
+  FitPoint point;
   point.fit.unknowns = start;
   point.fit.offsets = offsets_at(phases, height, start);
   linearize(phases, height, point);
-  point = descend(point, kHow, [&](const Point& here, double damping) -> std::optional<Point> {
-    const PlaceVector move =
-        damped(here.step.normal, damping, kRidge).ldlt().solve(here.step.gradient);
-    if (!is_worthwhile(move, kTolerance)) return std::nullopt;
-    Point there;
-    there.fit = moved(here.fit, here.step, move);
-    linearize(phases, height, there);
-    return there;
-  });
+  point =
+      descend(point, kHow, [&](const FitPoint& here, double damping) -> std::optional<FitPoint> {
+        const PlaceVector move =
+            damped(here.step.normal, damping, kRidge).ldlt().solve(here.step.gradient);
+        if (!is_worthwhile(move, kTolerance)) return std::nullopt;
+        FitPoint there;
+        there.fit = moved(here.fit, here.step, move);
+        linearize(phases, height, there);
+        return there;
+      });
   point.fit.offsets += point.step.offset_shift;
   point.fit.cost = point.cost;
   return point.fit;

@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// Looks at places so near to each other, or from such places in such directions, are the same.
-constexpr double kSamePlace = 0.5;
+constexpr double kSameView = 0.5;
 constexpr double kSameDirection = 0.5;
 /// Metres of way that a metre of frontier is worth, and from which size on more is worth no more.
 constexpr double kWayForSize = 1.0;
@@ -203,9 +203,9 @@ double way_length(const FloorRoom& floor, const Spread& ways, const Eigen::Vecto
 }
 
 bool is_same(const Viewpoint& a, const Viewpoint& b) {
-  const bool same_place = (position_of(a.from_M) - position_of(b.from_M)).norm() < kSamePlace;
+  const bool same_place = (position_of(a.from_M) - position_of(b.from_M)).norm() < kSameView;
   const double turned = std::abs(wrap_to_pi(a.from_M.yaw - b.from_M.yaw));
-  return (a.at_M - b.at_M).norm() < kSamePlace || (same_place && turned < kSameDirection);
+  return (a.at_M - b.at_M).norm() < kSameView || (same_place && turned < kSameDirection);
 }
 
 /// From where to look at the frontier's cell `target`; none where that was done.
@@ -213,9 +213,7 @@ std::optional<Viewpoint> new_look(const Reach& reach, const Eigen::Vector2i& tar
                                   const std::vector<Viewpoint>& looks) {
   const OccupancyGrid& grid = reach.seen;
   const Eigen::Vector2d at = grid.centre_of(target.x(), target.y());
-  const auto was_there = [&](const Viewpoint& look) {
-    return (look.at_M - at).norm() < kSamePlace;
-  };
+  const auto was_there = [&](const Viewpoint& look) { return (look.at_M - at).norm() < kSameView; };
   if (std::any_of(looks.begin(), looks.end(), was_there)) return std::nullopt;
   const std::optional<Eigen::Vector2i> place = standing_place(reach, target);
   if (!place) return std::nullopt;

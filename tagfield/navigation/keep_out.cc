@@ -9,10 +9,10 @@
 namespace tagfield {
 namespace {
 
-constexpr std::int8_t kOccupiedCell = 100;
+constexpr std::int8_t kKeptOutCell = 100;
 
 void mark(OccupancyGrid& map, int x, int y) {
-  if (map.contains(x, y)) map.cells[map.index(x, y)] = kOccupiedCell;
+  if (map.contains(x, y)) map.cells[map.index(x, y)] = kKeptOutCell;
 }
 
 /// Where the rings cross the line y = `y`, from left to right.

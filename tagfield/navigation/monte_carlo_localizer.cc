@@ -86,10 +86,10 @@ std::vector<float> wall_distances(const OccupancyGrid& map) {
   return distance_field(map, occupied, 1.0);
 }
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
 
 Eigen::Matrix3d diagonal_covariance(double sigma_m, double sigma_rad) {
-  return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
+  return Eigen::Vector3d(squared(sigma_m), squared(sigma_m), squared(sigma_rad)).asDiagonal();
 }
 Eigen::Matrix3d least_covariance() { return diagonal_covariance(kLeastSpread_m, kLeastSpread_rad); }
 Eigen::Matrix3d found_covariance() { return diagonal_covariance(kFoundSigma_m, kFoundSigma_rad); }

@@ -16,7 +16,7 @@ constexpr double kUnsure = 0.1;
 constexpr double kMostUnsure = 0.25;
 
 /// The robot on its way through a manoeuvre.
-struct Walk {
+struct ReachedWalk {
   PlanarPose pose;
   BodyVelocity velocity;
   BodyVelocity mean;  ///< Of the last step.
@@ -98,7 +98,7 @@ Outcome Rollouts::outcome(const Manoeuvre& manoeuvre) const {
   Outcome result;
   result.end_clear_m = around_.standing->at(position_of(pose_M_));
   result.clear_m = result.end_clear_m;
-  Walk walk{pose_M_, present_, {}, 0.0};
+  ReachedWalk walk{pose_M_, present_, {}, 0.0};
   while (walk.t < kHorizon && walk.step(manoeuvre, settings_.limits)) {
     check(walk.pose, walk.mean, walk.t, result);
   }
@@ -109,7 +109,7 @@ Outcome Rollouts::outcome(const Manoeuvre& manoeuvre) const {
 }
 
 PlanarPose Rollouts::after(const Manoeuvre& manoeuvre, double seconds) const {
-  Walk walk{pose_M_, present_, {}, 0.0};
+  ReachedWalk walk{pose_M_, present_, {}, 0.0};
   while (walk.t < seconds - kAlmost && walk.step(manoeuvre, settings_.limits)) {
   }
   return walk.pose;

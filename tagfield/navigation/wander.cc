@@ -19,9 +19,9 @@ constexpr double kLeastWay = 0.8;
 /// Kept free beside the robot and its margin: its way is not quite straight [m].
 constexpr double kBeside = 0.05;
 /// What was seen from a place holds for so far around it [m].
-constexpr double kSamePlace = 0.5;
+constexpr double kSameGoal = 0.5;
 /// What is lost by a radian of turning, and by each crumb so near to a way's end [m].
-constexpr double kPerRadian = 0.4;
+constexpr double kTurnCost = 0.4;
 constexpr double kPerCrumb = 1.0;
 constexpr int kMostCrumbs = 3;
 constexpr double kNearCrumb = 1.2;
@@ -130,7 +130,7 @@ void Wander::see(const LaserScan& scan, const PlanarPose& pose_O) {
 /// 0 where nothing is known of that direction from about here.
 double Wander::way_towards(std::size_t sector, const Eigen::Vector2d& here_O) const {
   const Room& room = rooms_[sector];
-  if ((room.from_O - here_O).norm() > kSamePlace) return 0.0;
+  if ((room.from_O - here_O).norm() > kSameGoal) return 0.0;
   std::vector<Eigen::Vector2d> hidden;
   for (const Eigen::Vector2d& p_O : hidden_O_) {
     if ((p_O - here_O).norm() < kSight + half_width_m_) hidden.emplace_back(p_O - here_O);
@@ -145,7 +145,7 @@ double Wander::gain(std::size_t sector, double way, const PlanarPose& pose_O) co
   const auto crumbs =
       std::count_if(crumbs_O_.begin(), crumbs_O_.end(),
                     [&](const Eigen::Vector2d& p) { return (p - end).norm() < kNearCrumb; });
-  return way - kPerRadian * std::abs(wrap_to_pi(yaw - pose_O.yaw)) -
+  return way - kTurnCost * std::abs(wrap_to_pi(yaw - pose_O.yaw)) -
          kPerCrumb * std::min(static_cast<int>(crumbs), kMostCrumbs);
 }
 

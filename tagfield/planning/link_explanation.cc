@@ -17,7 +17,7 @@ namespace {
 /// Below this nothing gets through, however little it may take [dBm].
 constexpr double kNothing_dbm = -250.0;
 /// Ends in one place would send the paper's RSSI beyond all bounds [m].
-constexpr double kLeastDistance = 1e-3;
+constexpr double kLeastLinkDistance = 1e-3;
 
 std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna, Time time) {
   for (const PortCycle& cycle : port_cycles(physical_antennas(scenario))) {
@@ -28,7 +28,7 @@ std::optional<Time> turn_of(const Scenario& scenario, const std::string& antenna
 
 PaperLink paper_link(const LinkQuestion& question, double distance_m) {
   const AntennaParameters& antenna = question.antenna.parameters;
-  const double apart_m = std::max(distance_m, kLeastDistance);
+  const double apart_m = std::max(distance_m, kLeastLinkDistance);
   PaperLink link;
   const PaperAntenna& model = paper(antenna);
   link.range_m = model.range_m;

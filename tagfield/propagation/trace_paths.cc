@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// A tag must be further than this before a facet's plane to be seen by it [m].
-constexpr double kLeastHeight = 1e-6;
+constexpr double kLeastMirrorDistance = 1e-6;
 /// Paths by way of the same points are one path [m].
 constexpr double kSamePoint = 1e-6;
 
@@ -152,7 +152,7 @@ void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& i
   RadioPath& path = paths.blank();
   path.length_m = (p_WT - image.p_W).norm();
   if (path.length_m > options.most_length_m) return;
-  if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastHeight)) return;
+  if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastMirrorDistance)) return;
   if (!find_bounces(scene, set, image, p_WT, path)) return;
   if (!walk_all(scene, set.p_WA, p_WT, options, path)) return;
   set_ends(set.p_WA, p_WT, path);

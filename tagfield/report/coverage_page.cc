@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::size_t kMostTags = 500;
 
-std::string big(const std::string& name, const std::string& value, bool lead = false) {
+std::string big_number(const std::string& name, const std::string& value, bool lead = false) {
   return fmt::format("<div{}><dt>{}</dt><dd>{}</dd></div>\n", lead ? " class=\"lead\"" : "",
                      escaped(name), escaped(value));
 }
 
-std::string fact(const std::string& name, const std::string& value) {
+std::string coverage_fact(const std::string& name, const std::string& value) {
   return "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
 }
 
@@ -32,16 +32,16 @@ std::size_t count(const Coverage& coverage, TagVerdict verdict) {
 std::string numbers(const Coverage& coverage) {
   std::string html = "<dl class=\"numbers\">\n";
   for (const CoverageLayer& layer : coverage.layers) {
-    html += big(fmt::format("Area read at {:.2f} m", layer.height_m + 0.0),
-                fmt::format("{:.0f} %", 100.0 * share_read(layer)), true);
+    html += big_number(fmt::format("Area read at {:.2f} m", layer.height_m + 0.0),
+                       fmt::format("{:.0f} %", 100.0 * share_read(layer)), true);
   }
-  html += big(
+  html += big_number(
       "Tags read",
       fmt::format("{} of {}", grouped(coverage.tags.size() - count(coverage, TagVerdict::kNever)),
                   grouped(coverage.tags.size())));
   if (coverage.antennas.size() > 1) {
-    html += big("By others too", grouped(count(coverage, TagVerdict::kAlsoOther)));
-    html += big("By others only", grouped(count(coverage, TagVerdict::kWrong)));
+    html += big_number("By others too", grouped(count(coverage, TagVerdict::kAlsoOther)));
+    html += big_number("By others only", grouped(count(coverage, TagVerdict::kWrong)));
   }
   return html + "</dl>\n";
 }
@@ -58,11 +58,12 @@ std::string antennas_text(const Coverage& coverage) {
 }
 
 std::string facts(const Coverage& coverage) {
-  return "<dl class=\"facts\">\n" + fact("Tag", coverage.tag_kind) +
-         fact("Orientation", coverage.orientation) + fact("Antennas", antennas_text(coverage)) +
-         fact("When", coverage.moment) +
-         fact("Cells", fmt::format("{} of {:g} m at each height", grouped(coverage.grid.size()),
-                                   coverage.grid.step_m)) +
+  return "<dl class=\"facts\">\n" + coverage_fact("Tag", coverage.tag_kind) +
+         coverage_fact("Orientation", coverage.orientation) +
+         coverage_fact("Antennas", antennas_text(coverage)) +
+         coverage_fact("When", coverage.moment) +
+         coverage_fact("Cells", fmt::format("{} of {:g} m at each height",
+                                            grouped(coverage.grid.size()), coverage.grid.step_m)) +
          "</dl>\n";
 }
 

@@ -10,12 +10,12 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNameWidth = 122.0;
-constexpr double kTop = 30.0;
+constexpr double kTagNameWidth = 122.0;
+constexpr double kErrorTop = 30.0;
 constexpr double kBottom = 48.0;
 constexpr double kValueRoom = 46.0;
 constexpr double kGreatSpread = 12.0;   ///< Greatest error over the median.
-constexpr double kLeast = 0.01;         ///< [mm] What is smaller is drawn here.
+constexpr double kLeastError = 0.01;    ///< [mm] What is smaller is drawn here.
 constexpr std::size_t kMostSpots = 60;  ///< Of one row.
 
 std::string millimetres(double error_m) {
@@ -31,21 +31,21 @@ bool is_spread(const ErrorStatistics& errors) {
 Axes row_axes(const ErrorStatistics& errors, std::size_t rows, bool several) {
   Axes axes;
   axes.x = several && is_spread(errors)
-               ? logarithmic_scale(std::max(1e3 * errors.min, kLeast), 1e3 * errors.max)
+               ? logarithmic_scale(std::max(1e3 * errors.min, kLeastError), 1e3 * errors.max)
                : round_scale(0.0, 1e3 * errors.max, 5);
-  axes.x.from = kNameWidth;
+  axes.x.from = kTagNameWidth;
   axes.x.to = kDrawingWidth - kValueRoom;
-  axes.y.to = kTop;
-  axes.y.from = kTop + row_height(rows) * static_cast<double>(rows) + 4.0;
+  axes.y.to = kErrorTop;
+  axes.y.from = kErrorTop + row_height(rows) * static_cast<double>(rows) + 4.0;
   return axes;
 }
 
 double row_center(std::size_t row, std::size_t rows) {
-  return kTop + row_height(rows) * (static_cast<double>(row) + 0.5) + 2.0;
+  return kErrorTop + row_height(rows) * (static_cast<double>(row) + 0.5) + 2.0;
 }
 
 void draw_name(Svg& svg, const std::string& tag, double y) {
-  add_text(svg, {kNameWidth - 10.0, y + 5.0}, shortened(tag, 10), Anchor::kEnd);
+  add_text(svg, {kTagNameWidth - 10.0, y + 5.0}, shortened(tag, 10), Anchor::kEnd);
 }
 
 void draw_bar(Svg& svg, const Axes& axes, const TagRow& row, double y) {
@@ -132,7 +132,7 @@ std::vector<double> class_bounds(double low, double high) {
 }
 
 void draw_histogram(Figure& figure, std::vector<double> errors) {
-  for (double& error : errors) error = std::max(1e3 * error, kLeast);
+  for (double& error : errors) error = std::max(1e3 * error, kLeastError);
   const std::vector<double> bounds = class_bounds(errors.front(), errors.back());
   std::vector<std::size_t> counts(bounds.size() - 1);
   for (const double error : errors) {

@@ -10,8 +10,8 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNameWidth = 122.0;
-constexpr double kTop = 12.0;
+constexpr double kStripNameWidth = 122.0;
+constexpr double kStripTop = 12.0;
 
 /// The strongest, in the order they were in.
 std::vector<TagStrength> strongest(std::vector<TagStrength> strengths, std::size_t most) {
@@ -46,10 +46,11 @@ void draw_strip(Svg& svg, const Axes& axes, const TagStrength& strength, double 
 Axes strip_axes(const std::vector<TagStrength>& strengths) {
   const auto [low, high] = range_of(strengths);
   Axes axes{round_scale(low, high, 4), {}};
-  axes.x.from = kNameWidth;
+  axes.x.from = kStripNameWidth;
   axes.x.to = kDrawingWidth - 26.0;
-  axes.y.to = kTop;
-  axes.y.from = kTop + row_height(strengths.size()) * static_cast<double>(strengths.size()) + 4.0;
+  axes.y.to = kStripTop;
+  axes.y.from =
+      kStripTop + row_height(strengths.size()) * static_cast<double>(strengths.size()) + 4.0;
   return axes;
 }
 
@@ -66,8 +67,9 @@ Figure fixed_strip_figure(const RunFiles& run) {
   figure.svg.height = axes.y.from + 48.0;
   draw_x_axis(figure.svg, axes, "RSSI [dBm]");
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double y = kTop + row_height(shown.size()) * (static_cast<double>(i) + 0.5) + 2.0;
-    add_text(figure.svg, {kNameWidth - 10.0, y + 5.0}, shortened(shown[i].tag, 10), Anchor::kEnd);
+    const double y = kStripTop + row_height(shown.size()) * (static_cast<double>(i) + 0.5) + 2.0;
+    add_text(figure.svg, {kStripNameWidth - 10.0, y + 5.0}, shortened(shown[i].tag, 10),
+             Anchor::kEnd);
     draw_strip(figure.svg, axes, shown[i], y, colors, kMostMarks / shown.size());
   }
   figure.caption =

@@ -9,7 +9,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kColorBar = 50.0;
+constexpr double kPathColorBar = 50.0;
 constexpr double kFarthestTag = 30.0;  ///< [m] An estimate further off the path is not shown.
 
 /// A read with the place of the antenna.
@@ -90,7 +90,7 @@ Figure path_rssi_figure(const RunFiles& run) {
   const TagOutcome* outcome = outcome_of(run, tag);
   const std::vector<PlacedRead> reads = placed(*track, tag);
   const auto [low, high] = rssi_range(reads);
-  MapView map = make_map(figure.name, content_of(*track, outcome), run.top_view, kColorBar);
+  MapView map = make_map(figure.name, content_of(*track, outcome), run.top_view, kPathColorBar);
   figure.svg.height = map_bottom(map);
   draw_color_bar(figure.svg, 2.0, low, high);
   draw_map(figure.svg, map, run.top_view);

@@ -15,7 +15,7 @@ namespace tagfield {
 namespace {
 
 constexpr double kMaxPoseGap = 0.5;  ///< [s] As localization does by default.
-constexpr double kTop = 58.0;
+constexpr double kPhaseTop = 58.0;
 constexpr std::size_t kMostRules = 40;
 constexpr std::size_t kFewReads =
     8;  ///< Shorter segments, as at the edge of the range, only clutter.
@@ -169,8 +169,8 @@ void draw_segments(Svg& svg, const std::vector<Segment>& segments, bool truth_kn
   const auto measured = [](const PhasePoint& point) { return point.measured_m; };
   const auto [low, high] = range_of(segments, measured);
   Axes axes{time_scale(segments), round_scale(low, high, 6)};
-  axes.y.to = kTop;
-  axes.y.from = kTop + 250.0;
+  axes.y.to = kPhaseTop;
+  axes.y.from = kPhaseTop + 250.0;
   std::vector<LegendEntry> legend = {{Symbol::kDot, "measured", "unwrapped phase distance"}};
   if (truth_known) legend.push_back({Symbol::kLine, "true-line", "true change of distance"});
   draw_legend(svg, legend);

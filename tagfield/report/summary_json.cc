@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kFarOff = 0.3;  ///< [m]
+constexpr double kFarOffM = 0.3;  ///< [m]
 
 // What structs have in the file, by name, in the file's order. It is written and read by these.
 
@@ -268,7 +268,7 @@ std::string to_json(const Summary& summary) {
   Json& tags = json["tags"] = Json::array();
   for (const TagOutcome& outcome : summary.tags) tags.push_back(tag_json(outcome));
   json["error_m"] = json_of(error_statistics(summary));
-  json["over_0_3_m"] = count_over(summary, kFarOff);
+  json["over_0_3_m"] = count_over(summary, kFarOffM);
   json["located"] = count(summary, Verdict::kLocated);
   json["ambiguous"] = count(summary, Verdict::kAmbiguous);
   json["not_located"] = count(summary, Verdict::kNotLocated);

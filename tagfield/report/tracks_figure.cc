@@ -9,24 +9,24 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLeft = 50.0;
-constexpr double kTop = 60.0;
+constexpr double kTracksLeft = 50.0;
+constexpr double kTracksTop = 60.0;
 constexpr double kPlotHeight = 300.0;
 
-struct Box {
+struct Bounds {
   double low[2] = {1e300, 1e300};
   double high[2] = {-1e300, -1e300};
 };
 
-void take_in(const Eigen::Vector3d& p, Box& box) {
+void take_in(const Eigen::Vector3d& p, Bounds& box) {
   for (int i = 0; i < 2; ++i) {
     box.low[i] = std::min(box.low[i], p(i));
     box.high[i] = std::max(box.high[i], p(i));
   }
 }
 
-Box box_of(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas) {
-  Box box;
+Bounds bounds_of(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas) {
+  Bounds box;
   for (const AntennaPose& pose : antennas) take_in(pose.X_WA.translation, box);
   for (const TagTrack& tag : tracks) {
     if (tag.tracks.empty()) continue;
@@ -63,16 +63,16 @@ std::map<std::string, std::vector<Place>> true_ways(const std::vector<TagTrack>&
 
 std::string tracks_figure(const std::vector<TagTrack>& tracks,
                           const std::vector<AntennaPose>& antennas, const Truth& truth) {
-  const Box box = box_of(tracks, antennas);
+  const Bounds box = bounds_of(tracks, antennas);
   Axes axes;
   axes.x = tight_scale(box.low[0], box.high[0], 6);
   axes.y = tight_scale(box.low[1], box.high[1], 6);
-  axes.x.from = kLeft;
+  axes.x.from = kTracksLeft;
   axes.x.to = kDrawingWidth - 15.0;
-  axes.y.from = kTop + kPlotHeight;
-  axes.y.to = kTop;
+  axes.y.from = kTracksTop + kPlotHeight;
+  axes.y.to = kTracksTop;
   Svg svg;
-  svg.height = kTop + kPlotHeight + 50.0;
+  svg.height = kTracksTop + kPlotHeight + 50.0;
   draw_axes(svg, axes, "x [m]", "y [m]");
   for (const auto& [tag, way] : true_ways(tracks, truth, axes)) {
     add_polyline(svg, way, stroked("#909090", 0.8, 3.0));

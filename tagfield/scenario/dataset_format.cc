@@ -45,7 +45,7 @@ StampForm stamp_of(YamlMap map) {
   return form;
 }
 
-AntennaForm antenna_of(YamlMap map) {
+AntennaForm antenna_form(YamlMap map) {
   AntennaForm form;
   if (map.has("column")) {
     form.column = column_of(map);
@@ -119,7 +119,7 @@ PoseTableForm pose_table_of(YamlMap map) {
   PoseTableForm form;
   if (map.has("table")) form.csv = csv_of(YamlMap(map.at("table")));
   form.stamp = stamp_of(YamlMap(map.at("stamp")));
-  form.antenna = antenna_of(YamlMap(map.at("antenna")));
+  form.antenna = antenna_form(YamlMap(map.at("antenna")));
   form.position = position_of_rows(YamlMap(map.at("position")));
   map.finish();
   return form;
@@ -155,7 +155,7 @@ DatasetForm read_dataset_form(const std::string& path) {
   YamlMap tag(map.at("tag"));
   form.tag_column = column_of(tag);
   tag.finish();
-  form.antenna = antenna_of(YamlMap(map.at("antenna")));
+  form.antenna = antenna_form(YamlMap(map.at("antenna")));
   if (map.has("phase")) form.phase = phase_of(YamlMap(map.at("phase")));
   if (map.has("rssi")) {
     YamlMap rssi(map.at("rssi"));

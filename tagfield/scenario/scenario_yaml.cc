@@ -27,9 +27,6 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr NumberRange kPositive = NumberRange::kPositive;
-constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
-
 WorldSpec world_of(YamlMap map) {
   WorldSpec world;
   if (!map.has("path")) {

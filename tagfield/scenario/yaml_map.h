@@ -17,6 +17,8 @@ namespace tagfield {
 
 /// What a number may be.
 enum class NumberRange { kAny, kNotNegative, kPositive };
+inline constexpr NumberRange kPositive = NumberRange::kPositive;
+inline constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
 
 /// A value somewhere in a YAML file: where it stands and what its path is ("antennas[0].pose").
 class YamlValue {

@@ -11,12 +11,11 @@
 #include "tagfield/map/visible_map.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/keep_out.h"
+#include "tagfield/simulator/robot_clearance.h"
 
 namespace tagfield {
 namespace {
 
-/// What is lower is a floor, or its unevenness, which a P3-AT's wheels roll over [m].
-constexpr double kThreshold = 0.06;
 /// Places that are drawn are so many cells of the map farther from everything than they must be.
 constexpr double kSpareCells = 2.0;
 
@@ -134,7 +133,8 @@ NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
     fail(robot.location,
          fmt::format("robot '{}' has no floor around its start to draw places from", robot.name));
   }
-  if (navigation.keep_out) world.low_things = top_view(scene, kThreshold, laser_height(navigation));
+  if (navigation.keep_out)
+    world.low_things = top_view(scene, kRolledOver, laser_height(navigation));
   return world;
 }
 

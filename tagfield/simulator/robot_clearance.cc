@@ -12,8 +12,6 @@ namespace tagfield {
 namespace {
 
 constexpr double kResolution = 0.02;
-/// What a P3-AT's wheels roll over [m].
-constexpr double kThreshold = 0.06;
 /// Beyond this from the origin nothing is of interest: a robot's map has some 100 m.
 constexpr double kFarthest = 200.0;
 /// About solids the grid goes on for so long.
@@ -114,7 +112,7 @@ double distance_to_line(const RobotOutline& outline, const Eigen::Vector2d& a,
 RobotClearance::RobotClearance(const Scene& scene, const RobotOutline& outline)
     : outline_(outline), reach_m_(kMost + half_of(outline).norm()) {
   const std::vector<Silhouette> solids =
-      top_view(scene, kThreshold, outline.height_m, /*margin=*/1e-3);
+      top_view(scene, kRolledOver, outline.height_m, /*margin=*/1e-3);
   for (const Silhouette& solid : solids) {
     for (const Polygon& ring : solid.rings) {
       for (std::size_t i = 0; i < ring.size(); ++i) {

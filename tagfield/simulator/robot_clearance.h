@@ -15,6 +15,9 @@
 
 namespace tagfield {
 
+/// What a P3-AT's wheels roll over [m]; what is lower is a floor, or its unevenness.
+inline constexpr double kRolledOver = 0.06;
+
 /// A robot seen from above: a rectangle about its base, x forward. The default is a P3-AT with its
 /// wheels.
 struct RobotOutline {

@@ -70,13 +70,21 @@ def flags_of(entry):
     return flags
 
 
+def compiled_by(entry):
+    """Paths of the sources of an entry of the compile database: several in a unity build."""
+    path = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
+    if "Unity" not in path.split(os.sep) or not os.path.exists(path):
+        return [path]
+    return [os.path.realpath(name) for name in HEADER.findall(pathlib.Path(path).read_text(encoding="utf-8"))]
+
+
 def sources_of(database, top):
     """Flags of each of the project's sources, by its path."""
     found = {}
     for entry in json.loads(database.read_text(encoding="utf-8")):
-        path = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
-        if is_looked_at(os.path.relpath(path, top)) and os.path.exists(path):
-            found.setdefault(path, flags_of(entry))
+        for path in compiled_by(entry):
+            if is_looked_at(os.path.relpath(path, top)) and os.path.exists(path):
+                found.setdefault(path, flags_of(entry))
     return found
 
 

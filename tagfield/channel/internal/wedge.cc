@@ -8,7 +8,7 @@ namespace tagfield {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex kJ{0.0, 1.0};
+constexpr Complex kImaginary{0.0, 1.0};
 
 /// e^{jπ/4}.
 Complex eighth_turn() { return std::polar(1.0, 0.25 * kPi); }
@@ -59,8 +59,9 @@ Complex term(const WedgeGeometry& wedge, double a) {
 Complex transition(double x) {
   const double root = std::sqrt(x);
   const Complex z = root * eighth_turn();
-  if (root > kFar) return kJ * root * std::conj(eighth_turn()) * erfcx_far(z);
-  return kJ * std::sqrt(kPi) * root * std::conj(eighth_turn()) * std::exp(kJ * x) * erfc_near(z);
+  if (root > kFar) return kImaginary * root * std::conj(eighth_turn()) * erfcx_far(z);
+  return kImaginary * std::sqrt(kPi) * root * std::conj(eighth_turn()) * std::exp(kImaginary * x) *
+         erfc_near(z);
 }
 
 Complex fresnel_tail(double a) {
@@ -68,7 +69,7 @@ Complex fresnel_tail(double a) {
   if (a < 0.0) return whole - fresnel_tail(-a);
   const Complex z = a * eighth_turn();
   if (a <= kFar) return 0.5 * whole * erfc_near(z);
-  return 0.5 * std::conj(eighth_turn()) * std::exp(-kJ * a * a) * erfcx_far(z);
+  return 0.5 * std::conj(eighth_turn()) * std::exp(-kImaginary * a * a) * erfcx_far(z);
 }
 
 WedgeTerms wedge_terms(const WedgeGeometry& wedge) {

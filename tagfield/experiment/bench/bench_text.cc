@@ -10,19 +10,19 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostName = 24;
+constexpr std::size_t kMostTextName = 24;
 
 std::size_t name_width(const Bench& bench) {
   std::size_t width = 6;
   for (const BenchEntry& entry : bench.entries) {
-    width = std::max(width, length_of(shortened(entry.name, kMostName)));
+    width = std::max(width, length_of(shortened(entry.name, kMostTextName)));
   }
   return width;
 }
 
 /// Counted by characters, not by bytes.
 std::string padded(const std::string& name, std::size_t width) {
-  const std::string text = shortened(name, kMostName);
+  const std::string text = shortened(name, kMostTextName);
   return text + std::string(width - length_of(text), ' ');
 }
 

@@ -17,8 +17,6 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr NumberRange kPositive = NumberRange::kPositive;
-constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 constexpr double kLeastEvery_s = 1e-3;
 constexpr double kMostLate_s = 3600.0;

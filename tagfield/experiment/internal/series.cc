@@ -13,8 +13,8 @@ namespace {
 constexpr double kNameWidth = 176.0;
 constexpr double kMarkHeight = 15.0;
 constexpr double kGroupGap = 9.0;
-constexpr double kBottom = 48.0;
-constexpr std::size_t kMostName = 22;
+constexpr double kSeriesBottom = 48.0;
+constexpr std::size_t kMostSeriesName = 22;
 constexpr double kLeast = 1e-3;  // What is beyond is drawn here.
 constexpr double kMost = 1e4;
 
@@ -57,7 +57,7 @@ void draw_group(Svg& svg, const Bench& bench, const Axes& axes, const MarkGroup&
                 double top) {
   const double height = height_of(group);
   add_line(svg, {2.0, top}, {axes.x.to, top}, styled("grid"));
-  add_text(svg, {2.0, top + 0.5 * height + 5.0}, shortened(group.condition, kMostName),
+  add_text(svg, {2.0, top + 0.5 * height + 5.0}, shortened(group.condition, kMostSeriesName),
            Anchor::kStart);
   double y = top + 0.5 * (kGroupGap + kMarkHeight);
   for (const RowMark& mark : group.marks) {
@@ -94,8 +94,8 @@ std::vector<LegendEntry> legend_of(const Bench& bench, const std::vector<std::st
   legend.reserve(names.size());
   for (const std::string& name : names) {
     const Series series = series_of(bench, name);
-    legend.push_back(
-        {symbol, symbol == Symbol::kLine ? series.line : series.dot, shortened(name, kMostName)});
+    legend.push_back({symbol, symbol == Symbol::kLine ? series.line : series.dot,
+                      shortened(name, kMostSeriesName)});
   }
   return legend;
 }
@@ -109,7 +109,7 @@ void draw_groups(Svg& svg, const Bench& bench, const std::vector<MarkGroup>& gro
   Axes axes{scale_of(groups), {}};
   axes.y.to = top;
   axes.y.from = bottom;
-  svg.height = bottom + kBottom;
+  svg.height = bottom + kSeriesBottom;
   draw_x_axis(svg, axes, title);
   const double one = place_on(axes.x, 1.0);
   add_line(svg, {one, top}, {one, bottom}, styled("rule"));

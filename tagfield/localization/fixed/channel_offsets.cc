@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kFewestChannels = 3;
-constexpr int kRounds = 20;
+constexpr int kOffsetRounds = 20;
 
 double wavenumber(double carrier_hz) { return 2.0 * kTwoPi / wavelength(carrier_hz); }
 
@@ -24,16 +24,17 @@ Complex unit(const Complex& value) {
 }
 
 /// The phases of a tag at a known place, its distance taken out.
-using Reduced = std::map<double, Complex>;
+using ReducedOffsets = std::map<double, Complex>;
 
 /// By antenna, of each reference tag.
-std::map<std::string, std::vector<Reduced>> reduced_references(const LocalizationProblem& problem) {
-  std::map<std::string, std::vector<Reduced>> all;
+std::map<std::string, std::vector<ReducedOffsets>> reduced_references(
+    const LocalizationProblem& problem) {
+  std::map<std::string, std::vector<ReducedOffsets>> all;
   for (const auto& [tag, p_WT] : problem.reference_tags) {
     const auto samples = problem.samples.find(tag);
     if (samples == problem.samples.end()) continue;
     for (const FixedReads& reads : fixed_reads(problem, samples->second)) {
-      Reduced reduced;
+      ReducedOffsets reduced;
       const double distance = (p_WT - reads.p_WA).norm();
       for (const auto& [carrier, phase] : reads.channels) {
         reduced[carrier] = unit(phase.mean) * std::polar(1.0, -wavenumber(carrier) * distance);
@@ -45,15 +46,15 @@ std::map<std::string, std::vector<Reduced>> reduced_references(const Localizatio
 }
 
 /// A port's offsets: each tag's turn and each channel's in turns, from the tag with most channels.
-std::map<double, ChannelTurn> offsets_by(std::vector<Reduced> references) {
+std::map<double, ChannelTurn> offsets_by(std::vector<ReducedOffsets> references) {
   std::sort(references.begin(), references.end(),
-            [](const Reduced& a, const Reduced& b) { return a.size() > b.size(); });
+            [](const ReducedOffsets& a, const ReducedOffsets& b) { return a.size() > b.size(); });
   std::map<double, ChannelTurn> offsets;
   for (const auto& [carrier, turn] : references.front()) offsets[carrier] = {turn, 1.0};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kOffsetRounds; ++round) {
     std::map<double, Complex> sums;
     std::map<double, double> counts;
-    for (const Reduced& reduced : references) {
+    for (const ReducedOffsets& reduced : references) {
       Complex own = 0.0;
       for (const auto& [carrier, turn] : reduced) {
         const auto found = offsets.find(carrier);
@@ -163,12 +164,12 @@ double spread_of(const std::vector<double>& values, double mean) {
 /// wavenumbers, of which a plan has few.
 std::map<std::int64_t, Complex> form_by_difference(const Channels& channels,
                                                    const Eigen::MatrixXcd& inverse) {
-  constexpr double kSame = 1e-5;  // [rad/m]
+  constexpr double kSameSlope = 1e-5;  // [rad/m]
   std::map<std::int64_t, Complex> form;
   for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
     for (Eigen::Index j = 0; j < inverse.cols(); ++j) {
       const double difference = channels.wavenumbers[i] - channels.wavenumbers[j];
-      form[std::llround(difference / kSame)] +=
+      form[std::llround(difference / kSameSlope)] +=
           std::conj(channels.phases[i]) * inverse(i, j) * channels.phases[j];
     }
   }

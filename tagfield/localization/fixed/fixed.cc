@@ -72,8 +72,8 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
   return estimate;
 }
 
-LocalizationResult locate_all(const LocalizationProblem& problem, int threads,
-                              Diagnostics& diagnostics, const FixedOptions& options) {
+LocalizationResult locate_from_fixed(const LocalizationProblem& problem, int threads,
+                                     Diagnostics& diagnostics, const FixedOptions& options) {
   const FixedScene scene = fixed_scene(problem, threads, options);
   if (scene.out_of_order) {
     diagnostics.warn(
@@ -98,7 +98,7 @@ LocalizationResult locate_all(const LocalizationProblem& problem, int threads,
 }
 
 /// The keys of its options.
-const OptionTable<FixedOptions>& option_table() {
+const OptionTable<FixedOptions>& fixed_options() {
   using O = FixedOptions;
   static const OptionTable<O> of{with_lobe<O>(
       {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
@@ -123,7 +123,7 @@ const OptionTable<FixedOptions>& option_table() {
 Method fixed_method(const FixedOptions& options) {
   return method_with("fixed",
                      "antennas at rest: strengths by a law that tags share, phases over channels",
-                     option_table(), options, locate_all);
+                     fixed_options(), options, locate_from_fixed);
 }
 
 }  // namespace tagfield

@@ -9,10 +9,10 @@ namespace tagfield {
 namespace {
 
 constexpr double kNegligible = 12.0;  ///< ln below the best under which cells are dropped.
-constexpr double kUnlikely = 6.0;     ///< Likewise, of cells over which no part reaches.
+constexpr double kUncovered = 6.0;    ///< Likewise, of cells over which no part reaches.
 constexpr std::size_t kMany = 6000;   ///< Cells that are not split further.
 constexpr double kFinest = 2e-3;      ///< [m]
-constexpr double kLeastShare = 0.03;  ///< Of a part that is told.
+constexpr double kLeastPart = 0.03;   ///< Of a part that is told.
 
 void keep(AreaCells& cells, const Eigen::ArrayXd& logs, double below) {
   const double least = logs.maxCoeff() - below;
@@ -53,7 +53,7 @@ std::vector<int> parts_of(const AreaCells& cells, const Eigen::ArrayXd& logs, in
                std::lround(middle.y() / cells.size_m - 0.25)};
   };
   std::map<Key, std::size_t> at;
-  const double least = logs.maxCoeff() - kUnlikely;
+  const double least = logs.maxCoeff() - kUncovered;
   for (std::size_t i = 0; i < cells.middles.size(); ++i) {
     if (logs[static_cast<Eigen::Index>(i)] > least) at[key_of(cells.middles[i])] = i;
   }
@@ -109,7 +109,7 @@ std::vector<PosteriorPart> posterior_parts(AreaCells cells, const LogDensity& lo
   std::vector<PosteriorPart> parts;
   for (int i = 0; i < count; ++i) {
     const PosteriorPart part = part_of(cells, weights, numbers, i);
-    if (part.share >= kLeastShare) parts.push_back(part);
+    if (part.share >= kLeastPart) parts.push_back(part);
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.share > b.share; });

@@ -9,13 +9,13 @@
 namespace tagfield {
 namespace {
 
-constexpr double kNearest = 0.1;      ///< Distances below this count as this [m].
-constexpr double kAnyLevel = 60.0;    ///< Standard deviation of the level beforehand [dB].
-constexpr double kUsualLevel = -45;   ///< [dBm at 1 m]
-constexpr double kWorth = 4.0;        ///< So many strengths the fading's prior is worth.
-constexpr int kRounds = 25;           ///< At most,
-constexpr double kSettled = 0.02;     ///< or until ln of the likelihood changes by less.
-constexpr double kNegligible = 1e-4;  ///< Weight of a cell.
+constexpr double kNearestCell = 0.1;        ///< Distances below this count as this [m].
+constexpr double kAnyLevel = 60.0;          ///< Standard deviation of the level beforehand [dB].
+constexpr double kUsualLevel = -45;         ///< [dBm at 1 m]
+constexpr double kWorth = 4.0;              ///< So many strengths the fading's prior is worth.
+constexpr int kLawRounds = 25;              ///< At most,
+constexpr double kSettled = 0.02;           ///< or until ln of the likelihood changes by less.
+constexpr double kNegligibleWeight = 1e-4;  ///< Weight of a cell.
 
 /// What a tag tells of the law: its normal equations, and its share of the fading.
 struct Told {
@@ -95,7 +95,7 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
   Told told{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0.0,
             static_cast<double>(count)};
   for (Eigen::Index cell = 0; cell < weights.size(); ++cell) {
-    if (weights[cell] < kNegligible) continue;
+    if (weights[cell] < kNegligibleWeight) continue;
     const Eigen::MatrixXd rows = design(tag, cell, size);
     const Eigen::VectorXd strengths = less_gain(tag, cell);
     const Eigen::MatrixXd weighted = weights[cell] * rows.transpose() * inverse;
@@ -200,7 +200,7 @@ TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<Fixed
     tag.rssi_dbm[i] = of.rssi_dbm;
     for (Eigen::Index j = 0; j < places; ++j) {
       const Eigen::Vector3d way = cells[static_cast<std::size_t>(j)] - of.p_WA;
-      tag.log_distance(j, i) = std::log10(std::max(way.norm(), kNearest));
+      tag.log_distance(j, i) = std::log10(std::max(way.norm(), kNearestCell));
       tag.gain_db(j, i) = lobe_db(lobe, of.boresight_W, way);
     }
   }
@@ -228,7 +228,7 @@ LearnedLaw learn_law(const std::vector<TagOnGrid>& tags, std::size_t antennas,
   learned.of_tag.assign(tags.size(), before);
   std::vector<Told> told(tags.size());
   double log_of_law = 0.0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kLawRounds; ++round) {
     const double before_round = log_of_law;
     log_of_law = 0.0;
     for (std::size_t i = 0; i < tags.size(); ++i) {

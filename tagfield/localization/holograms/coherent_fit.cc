@@ -17,13 +17,13 @@
 namespace tagfield {
 namespace {
 
-constexpr double kSame = 0.03;  ///< Maxima nearer than this are one [m].
+constexpr double kSameMaximum = 0.03;  ///< Maxima nearer than this are one [m].
 /// Of the best place's coherence before the climb; less is a side lobe.
 constexpr double kWorthWhile = 0.4;
 constexpr std::size_t kMirrored = 3;    ///< Of so many best places the mirror images are tried.
 constexpr std::size_t kMostNamed = 16;  ///< Maxima that are looked at.
-constexpr double kNear = 0.3;           ///< Maxima nearer than this are lobes of one place [m].
-constexpr double kUnlikely = 4.0;       ///< A log-likelihood so much less is that of another place.
+constexpr double kSameLobes = 0.3;      ///< Maxima nearer than this are lobes of one place [m].
+constexpr double kOtherPlace = 4.0;     ///< A log-likelihood so much less is that of another place.
 
 /// S of one aperture.
 std::complex<double> sum_of(const TagPhases& phases, const Aperture& part,
@@ -154,7 +154,8 @@ std::vector<Maximum> distinct(const TagPhases& phases, const HeightModel& height
   std::vector<Maximum> kept;
   for (const Maximum& maximum : ranked) {
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](const Maximum& other) {
-      return (to_place(height, other.place) - to_place(height, maximum.place)).norm() > kSame;
+      return (to_place(height, other.place) - to_place(height, maximum.place)).norm() >
+             kSameMaximum;
     });
     if (apart && kept.size() < kMostNamed) kept.push_back(maximum);
   }
@@ -240,9 +241,9 @@ Rivals rivals_of(const TagPhases& phases, const HeightModel& height,
   Rivals rivals;
   for (std::size_t i = 1; i < maxima.size(); ++i) {
     const Maximum& maximum = maxima[i];
-    if (unlikely != nullptr && unlikely->of(maximum) > kUnlikely) continue;
+    if (unlikely != nullptr && unlikely->of(maximum) > kOtherPlace) continue;
     if (is_worse(phases, best, residuals_at(phases, height, maximum))) continue;
-    const bool near = (to_place(height, maximum.place) - p_WT).norm() < kNear;
+    const bool near = (to_place(height, maximum.place) - p_WT).norm() < kSameLobes;
     (unlikely != nullptr && near ? rivals.lobes : rivals.others).push_back(maximum);
   }
   return rivals;
@@ -275,9 +276,10 @@ Candidate scaled(Candidate candidate, double factor) {
 /// are taken for distance in part. Those of reflections, correlated over a metre or two of the way,
 /// were twice as great (docs/methods.md); white noise has no such part.
 double fitted_away(const TagPhases& phases, const Eigen::ArrayXd& errors) {
-  constexpr double kSlow = 3.0;  // Reads that are worth one; from there on errors are slow.
+  constexpr double kSlowErrors = 3.0;  // Reads that are worth one; from there on errors are slow.
   if (phases.pose_error) return 1.0;
-  return 1.0 + std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlow - 1.0));
+  return 1.0 +
+         std::min(1.0, (correlation_factor(phases.spans, errors) - 1.0) / (kSlowErrors - 1.0));
 }
 
 /// Where phases are bent, residuals may tell of more than the told pose error does.

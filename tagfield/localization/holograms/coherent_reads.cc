@@ -11,7 +11,7 @@ namespace tagfield {
 namespace {
 
 /// Travel between two reads [m].
-double travel(const TagPhases& phases, Eigen::Index from, Eigen::Index to) {
+double path_between(const TagPhases& phases, Eigen::Index from, Eigen::Index to) {
   return std::hypot(phases.x[to] - phases.x[from], phases.y[to] - phases.y[from],
                     phases.z[to] - phases.z[from]);
 }
@@ -21,7 +21,7 @@ void cut(const TagPhases& phases, const TagPhases::Span& span, double length,
   Aperture piece{span.begin, 1, false};
   double gone = 0.0;
   for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
-    gone += travel(phases, i - 1, i);
+    gone += path_between(phases, i - 1, i);
     if (gone <= length) {
       ++piece.count;
       continue;

@@ -107,7 +107,7 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
 }
 
 /// The keys of its options.
-const OptionTable<DahOptions>& option_table() {
+const OptionTable<DahOptions>& dah_options() {
   using O = DahOptions;
   static const OptionTable<O> of = [] {
     OptionTable<O> table{
@@ -142,7 +142,7 @@ Tile differential_brightness(const SearchReads& reads, double noise_rad, const T
 Method dah_method(const DahOptions& options) {
   return one_by_one("dah",
                     "differential augmented hologram: phase differences, weighted by probability",
-                    option_table(), options, locate_by_differences);
+                    dah_options(), options, locate_by_differences);
 }
 
 }  // namespace tagfield

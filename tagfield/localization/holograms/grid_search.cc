@@ -10,15 +10,15 @@ namespace {
 constexpr std::size_t kMostKept = 250;  ///< Cells of a level that are split.
 constexpr std::size_t kFewestKept = 100;
 constexpr float kBrightEnough = 0.6f;  ///< Of the brightest.
-constexpr double kApart = 0.05;        ///< Maxima nearer than this are one [m].
+constexpr double kBoxesApart = 0.05;   ///< Maxima nearer than this are one [m].
 
-struct Cell {
+struct SearchCell {
   std::int64_t i = 0, j = 0;
   float brightness = 0.0f;
 };
 
 /// A level's grid: cell (i, j) has its middle at (i, j) · size.
-using Cells = std::vector<Cell>;
+using Cells = std::vector<SearchCell>;
 
 Cells all_cells(const Grid& grid, const std::function<bool(const Eigen::Vector2d&)>& within) {
   Cells cells;
@@ -52,7 +52,7 @@ void illuminate(const GridLevel& brightness, double size, Cells& cells) {
 }
 
 /// By falling brightness, then by place, so that the order is the same everywhere.
-bool is_brighter(const Cell& a, const Cell& b) {
+bool is_brighter(const SearchCell& a, const SearchCell& b) {
   if (a.brightness != b.brightness) return a.brightness > b.brightness;
   return a.i != b.i ? a.i < b.i : a.j < b.j;
 }
@@ -62,7 +62,7 @@ Cells split(Cells cells) {
   std::sort(cells.begin(), cells.end(), is_brighter);
   Cells finer;
   for (std::size_t k = 0; k < std::min(cells.size(), kMostKept); ++k) {
-    const Cell& cell = cells[k];
+    const SearchCell& cell = cells[k];
     if (k >= kFewestKept && cell.brightness < kBrightEnough * cells.front().brightness) break;
     for (std::int64_t a = -1; a <= 1; ++a) {
       for (std::int64_t b = -1; b <= 1; ++b) {
@@ -81,9 +81,9 @@ std::uint64_t key_of(std::int64_t i, std::int64_t j) {
 Cells local_maxima(const Cells& cells) {
   std::unordered_map<std::uint64_t, float> light;
   light.reserve(cells.size());
-  for (const Cell& cell : cells) light[key_of(cell.i, cell.j)] = cell.brightness;
+  for (const SearchCell& cell : cells) light[key_of(cell.i, cell.j)] = cell.brightness;
   Cells maxima;
-  for (const Cell& cell : cells) {
+  for (const SearchCell& cell : cells) {
     bool highest = true;
     for (std::int64_t a = -1; a <= 1 && highest; ++a) {
       for (std::int64_t b = -1; b <= 1 && highest; ++b) {
@@ -100,11 +100,11 @@ Cells local_maxima(const Cells& cells) {
 std::vector<GridMaximum> apart(const Cells& maxima, double size, const Eigen::Vector2d& middle,
                                std::size_t count) {
   std::vector<GridMaximum> kept;
-  for (const Cell& cell : maxima) {
+  for (const SearchCell& cell : maxima) {
     const Eigen::Vector2d p =
         middle + size * Eigen::Vector2d(static_cast<double>(cell.i), static_cast<double>(cell.j));
     const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const GridMaximum& other) {
-      return (p - other.p).norm() > kApart;
+      return (p - other.p).norm() > kBoxesApart;
     });
     if (is_apart) kept.push_back({p, cell.brightness});
     if (kept.size() == count) break;

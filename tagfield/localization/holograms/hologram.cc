@@ -16,8 +16,6 @@ constexpr double kFinestCell = 0.1;       ///< [λ]
 constexpr double kThoroughCell = 0.16;    ///< Half of a lobe's width [λ].
 constexpr double kMostCells = 1000.0;     ///< From the middle to the edge of a grid.
 constexpr Eigen::Index kReachReads = 60;  ///< Antenna places by which the range is checked.
-constexpr double kPlanesApart = 0.7;      ///< Of unknown height [m].
-constexpr int kPlanes = 4;
 
 /// The place near `start` where growing apertures lead the fit.
 PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, PlaceVector place) {
@@ -127,8 +125,7 @@ std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightMode
                                        const SearchOptions& options, const Brightness& brightness) {
   std::vector<PlaceVector> places;
   const bool known = height.kind == HeightModel::Kind::kKnown;
-  for (int plane = 0; plane < (known ? 1 : kPlanes); ++plane) {
-    const double z = height.z + height.side * kPlanesApart * plane;
+  for (const double z : heights_to_search(height)) {
     for (const Eigen::Vector2d& p : search_plane(phases, z, options, brightness)) {
       const PlaceVector place = to_unknowns(height, {p.x(), p.y(), z});
       places.push_back(known ? place : climb_gradually(phases, height, place));

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFirstHalf = 0.45;  ///< Half of the first box's sides [m].
-constexpr double kDeviations = 4.5;  ///< Half of the next ones' sides.
+constexpr double kHalfSide = 4.5;    ///< Half of the next ones' sides.
 constexpr double kLeastHalf = 1e-4;  ///< [m]
 constexpr int kMostBoxes = 6;
 
@@ -77,7 +77,7 @@ LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const Vector
   LikelihoodSpread spread = over(likelihood, box);
   for (int i = 1; i < kMostBoxes; ++i) {
     const Vector3d deviation = spread.covariance.diagonal().cwiseSqrt();
-    const Vector3d half = (kDeviations * deviation).cwiseMax(kLeastHalf).cwiseMin(box.half);
+    const Vector3d half = (kHalfSide * deviation).cwiseMax(kLeastHalf).cwiseMin(box.half);
     if ((half.head<2>().array() > 0.4 * box.half.head<2>().array()).all()) break;
     box = {spread.mean, half, next};
     if (level) box.half.z() = 0.0;

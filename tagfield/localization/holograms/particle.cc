@@ -254,7 +254,7 @@ TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::s
 }
 
 /// The keys of its options.
-const OptionTable<ParticleOptions>& option_table() {
+const OptionTable<ParticleOptions>& particle_options() {
   using O = ParticleOptions;
   static const OptionTable<O> of{
       {setting<O>("particles", "", "places that are drawn", &O::particles, {100.0, false, 1e6}),
@@ -274,7 +274,7 @@ const OptionTable<ParticleOptions>& option_table() {
 
 Method particle_method(const ParticleOptions& options) {
   return one_by_one("particle", "particles drawn together by the likelihood of wrapped phase",
-                    option_table(), options, locate_by_particles);
+                    particle_options(), options, locate_by_particles);
 }
 
 }  // namespace tagfield

@@ -14,19 +14,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFirstCell = 0.9;    ///< Of λ/2, by which phases turn once.
-constexpr std::size_t kMaxima = 24;   ///< On each plane.
-constexpr double kOnePlace = 0.45;    ///< Maxima nearer than this are of one place [m].
-constexpr double kLeastShare = 0.01;  ///< Of the probability, of a place that is named.
-constexpr double kPlanesApart = 0.7;  ///< Of unknown height [m].
-constexpr int kPlanes = 4;
+constexpr double kFirstCell = 0.9;          ///< Of λ/2, by which phases turn once.
+constexpr std::size_t kMaxima = 24;         ///< On each plane.
+constexpr double kOnePlace = 0.45;          ///< Maxima nearer than this are of one place [m].
+constexpr double kLeastProbability = 0.01;  ///< Of the probability, of a place that is named.
 /// What stands within a wavelength of a tag shifts the place that its waves come from, along with
 /// it: standard deviation along each axis, chosen over twelve halls and held against twelve others
 /// (docs/methods.md) [λ].
 constexpr double kShift = 0.025;
 
 /// What the steps of one tag share.
-struct Search {
+struct RobustSearch {
   TagPhases phases;
   HeightModel height;
   double wavelength = 0.0;  ///< Of the carrier [m].
@@ -40,7 +38,7 @@ double wavelength_of(const LocalizationProblem& problem, const TagPhases& phases
 }
 
 /// The best places at a height, with the plane's height.
-std::vector<Vector3d> best_on_plane(const Search& search, const TagPhases& coarse, double z) {
+std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases& coarse, double z) {
   const StretchedReads few = stretched_reads(coarse, search.wavelength, z, search.middle);
   const auto level = [&](int first, int last) {
     return [&few, choice = StretchChoice{first, last}](const Tile& x, const Tile& y) {
@@ -60,23 +58,21 @@ std::vector<Vector3d> best_on_plane(const Search& search, const TagPhases& coars
   return places;
 }
 
-std::vector<Vector3d> best_places(const Search& search, std::size_t reads) {
+std::vector<Vector3d> best_places(const RobustSearch& search, std::size_t reads) {
   const TagPhases coarse = thinned(search.phases, reads);
-  const bool known = search.height.kind == HeightModel::Kind::kKnown;
   std::vector<Vector3d> places;
-  for (int plane = 0; plane < (known ? 1 : kPlanes); ++plane) {
-    const double z = search.height.z + search.height.side * kPlanesApart * plane;
+  for (const double z : heights_to_search(search.height)) {
     for (const Vector3d& p : best_on_plane(search, coarse, z)) places.push_back(p);
   }
   return places;
 }
 
-Vector3d origin_of(const Search& search) {
+Vector3d origin_of(const RobustSearch& search) {
   return {search.middle.x(), search.middle.y(), search.height.z};
 }
 
 /// Of a part of the way, or of all.
-LogLikelihood likelihood_of(const Search& search, int part) {
+LogLikelihood likelihood_of(const RobustSearch& search, int part) {
   return [&search, part](const Tile& x, const Tile& y, const Tile& z) {
     return stretch_likelihood(search.all, {kForPlaces.first, kForPlaces.last, part}, x, y, z);
   };
@@ -84,7 +80,7 @@ LogLikelihood likelihood_of(const Search& search, int part) {
 
 /// How much more the parts of the way disagree than chance lets them: twice the log-likelihood that
 /// a place for each part gains over one for all, of which chance makes one a degree of freedom.
-double disagreement(const Search& search, LikelihoodSpread spread) {
+double disagreement(const RobustSearch& search, LikelihoodSpread spread) {
   spread.mean -= origin_of(search);
   constexpr double kDeviations = 6.0;
   std::vector<LogLikelihood> parts;
@@ -97,7 +93,7 @@ double disagreement(const Search& search, LikelihoodSpread spread) {
 }
 
 /// How the likelihood, taken to the power of 1/`doubt`, spreads about `p`.
-LikelihoodSpread spread_about(const Search& search, const Vector3d& p, double doubt) {
+LikelihoodSpread spread_about(const RobustSearch& search, const Vector3d& p, double doubt) {
   const bool level = search.height.kind == HeightModel::Kind::kKnown;
   const Vector3d origin = origin_of(search);
   LikelihoodSpread spread =
@@ -113,8 +109,8 @@ bool is_new(const std::vector<LikelihoodSpread>& all, const Vector3d& p) {
 }
 
 /// One for all places that are near each other, the most probable first.
-std::vector<LikelihoodSpread> distinct(const Search& search, const std::vector<Vector3d>& places,
-                                       double doubt) {
+std::vector<LikelihoodSpread> distinct(const RobustSearch& search,
+                                       const std::vector<Vector3d>& places, double doubt) {
   std::vector<LikelihoodSpread> all;
   for (const Vector3d& p : places) {
     if (is_new(all, p)) all.push_back(spread_about(search, p, doubt));
@@ -129,7 +125,8 @@ std::vector<LikelihoodSpread> distinct(const Search& search, const std::vector<V
 }
 
 /// More widely where parts of the way disagree at the most probable place.
-std::vector<LikelihoodSpread> doubted(const Search& search, const std::vector<Vector3d>& places) {
+std::vector<LikelihoodSpread> doubted(const RobustSearch& search,
+                                      const std::vector<Vector3d>& places) {
   std::vector<LikelihoodSpread> spreads = distinct(search, places, 1.0);
   if (spreads.empty()) return spreads;
   const double doubt = disagreement(search, spreads.front());
@@ -138,7 +135,7 @@ std::vector<LikelihoodSpread> doubted(const Search& search, const std::vector<Ve
 
 /// What the likelihood does not know of: the shift, and a told pose error, which is slower than
 /// fading.
-Eigen::Matrix3d beyond_likelihood(const Search& search, const TagFit& fit) {
+Eigen::Matrix3d beyond_likelihood(const RobustSearch& search, const TagFit& fit) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   const double shift = kShift * search.wavelength;
   covariance.topLeftCorner<2, 2>() += shift * shift * Eigen::Matrix2d::Identity();
@@ -147,7 +144,7 @@ Eigen::Matrix3d beyond_likelihood(const Search& search, const TagFit& fit) {
                                           honest_covariance(search.phases, search.height, fit));
 }
 
-Candidate candidate_of(const Search& search, const LikelihoodSpread& spread) {
+Candidate candidate_of(const RobustSearch& search, const LikelihoodSpread& spread) {
   Candidate candidate;
   candidate.p_WT = spread.mean;
   if (search.height.kind == HeightModel::Kind::kKnown) candidate.p_WT.z() = search.height.z;
@@ -159,14 +156,14 @@ Candidate candidate_of(const Search& search, const LikelihoodSpread& spread) {
   return candidate;
 }
 
-TagEstimate judged(const LocalizationProblem& problem, const Search& search,
+TagEstimate judged(const LocalizationProblem& problem, const RobustSearch& search,
                    const std::vector<LikelihoodSpread>& spreads, TagEstimate estimate) {
   if (spreads.empty()) {
     return not_located(std::move(estimate), "no place is in reach of most reads");
   }
   for (const LikelihoodSpread& spread : spreads) {
     const double less = spread.log_mass - spreads.front().log_mass;
-    if (less < std::log(kLeastShare)) break;
+    if (less < std::log(kLeastProbability)) break;
     estimate.candidates.push_back(candidate_of(search, spread));
   }
   judge(problem.limits, estimate);
@@ -178,7 +175,7 @@ TagEstimate locate_robustly(const LocalizationProblem& problem, const std::strin
   TagEstimate estimate = begun(tag, samples);
   const std::string hopeless = why_hopeless(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  Search search;
+  RobustSearch search;
   search.phases = coherent_reads(problem, samples);
   estimate.reads = static_cast<std::size_t>(search.phases.size());
   const std::string why_too_few = too_few(search.phases);
@@ -192,7 +189,7 @@ TagEstimate locate_robustly(const LocalizationProblem& problem, const std::strin
                 std::move(estimate));
 }
 
-const OptionTable<RobustOptions>& option_table() {
+const OptionTable<RobustOptions>& robust_options() {
   using O = RobustOptions;
   static const OptionTable<O> of{
       {setting<O>("max_range_m", "m", "half of the reads are from nearer", &O::max_range_m,
@@ -206,7 +203,7 @@ const OptionTable<RobustOptions>& option_table() {
 Method robust_method(const RobustOptions& options) {
   return one_by_one("robust",
                     "amid reflections: stretches of the way, each as far as its waves add up",
-                    option_table(), options, locate_robustly);
+                    robust_options(), options, locate_robustly);
 }
 
 }  // namespace tagfield

@@ -33,7 +33,7 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
 }
 
 /// The keys of its options.
-const OptionTable<SarOptions>& option_table() {
+const OptionTable<SarOptions>& sar_options() {
   static const OptionTable<SarOptions> of = [] {
     OptionTable<SarOptions> table{
         {setting<SarOptions>("min_share", "", "of the waves that add up; less is no tag at rest",
@@ -48,7 +48,7 @@ const OptionTable<SarOptions>& option_table() {
 
 Method sar_method(const SarOptions& options) {
   return one_by_one("sar", "hologram of a synthetic aperture: waves added up over a grid",
-                    option_table(), options, locate_by_hologram);
+                    sar_options(), options, locate_by_hologram);
 }
 
 }  // namespace tagfield

@@ -20,7 +20,7 @@ Eigen::Vector3d padded(const Eigen::VectorXd& u, Index knot, int size) {
 }
 
 /// A system under way.
-struct Point {
+struct SystemPoint {
   JointSystem system;
   double cost = 0.0;
 };
@@ -120,18 +120,18 @@ double minimize(JointSystem& system, int rounds, int threads) {
   how.most_steps = rounds;
   how.least_gain = 1e-4;  // A hundredth of a standard deviation is 1e-4 in the cost.
   double length = std::numeric_limits<double>::infinity();  // Of the last step.
-  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+  const auto step = [&](const SystemPoint& here, double damping) -> std::optional<SystemPoint> {
     if (length < kTolerance) return std::nullopt;
     const Move move = damped_move(here.system, damping, threads);
-    if (!is_finite(move)) return Point{{}, std::numeric_limits<double>::quiet_NaN()};
+    if (!is_finite(move)) return SystemPoint{{}, std::numeric_limits<double>::quiet_NaN()};
     length = length_of(here.system, move);
-    Point there{here.system, 0.0};
+    SystemPoint there{here.system, 0.0};
     apply(move, there.system);
     there.cost = cost_of(there.system);
     return there;
   };
   const double cost = cost_of(system);
-  system = descend(Point{std::move(system), cost}, how, step).system;
+  system = descend(SystemPoint{std::move(system), cost}, how, step).system;
   return cost_of(system);
 }
 

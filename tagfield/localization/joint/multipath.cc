@@ -251,7 +251,7 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
   return result;
 }
 
-const OptionTable<MultipathOptions>& option_table() {
+const OptionTable<MultipathOptions>& multipath_options() {
   using O = MultipathOptions;
   static const OptionTable<O> of{
       {setting<O>("least_directness", "", "share of the direct path's amplitude in replies in use",
@@ -265,7 +265,7 @@ const OptionTable<MultipathOptions>& option_table() {
 Method multipath_method(const MultipathOptions& options) {
   return method_with("multipath",
                      "all tags and the pose error, less the traced reflections of a known world",
-                     option_table(), options, locate_through_world);
+                     multipath_options(), options, locate_through_world);
 }
 
 }  // namespace tagfield

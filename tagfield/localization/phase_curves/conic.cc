@@ -12,7 +12,7 @@ namespace {
 constexpr double kParallelSine = 0.02;
 /// A discriminant this far below 0, relative to its terms, comes from noise at a double root.
 constexpr double kDiscriminantSlack = 0.02;
-constexpr double kReach = 15.0;  // How far a curve is traced to either side [m].
+constexpr double kTraceReach = 15.0;  // How far a curve is traced to either side [m].
 constexpr int kTraceSteps = 64;
 
 struct Roots {
@@ -114,7 +114,7 @@ bool polish(const Conic& a, const Conic& b, Eigen::Vector3d& p) {
     const double determinant = slope.determinant();
     if (std::abs(determinant) < 1e-12) return false;
     const Eigen::Vector2d step = slope.inverse() * error;
-    if (!step.allFinite() || step.norm() > kReach) return false;
+    if (!step.allFinite() || step.norm() > kTraceReach) return false;
     p.head<2>() -= step;
   }
   return false;
@@ -192,7 +192,7 @@ TracedConic trace(const Conic& conic, double height) {
                          0.25 * length * length};
   // Steps grow with the distance from the baseline, as the curve straightens out.
   constexpr double kNear = 0.3;
-  const double last = std::asinh(kReach / kNear);
+  const double last = std::asinh(kTraceReach / kNear);
   for (int i = 0; i <= kTraceSteps; ++i) {
     const double w = kNear * std::sinh(last * (2.0 * i / kTraceSteps - 1.0));
     trace_at(frame, conic.delta, w, traced);

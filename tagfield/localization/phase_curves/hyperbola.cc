@@ -14,7 +14,7 @@ namespace tagfield {
 namespace {
 
 /// The keys of its options.
-const OptionTable<HyperbolaOptions>& option_table() {
+const OptionTable<HyperbolaOptions>& hyperbola_options() {
   using O = HyperbolaOptions;
   static const OptionTable<O> of{
       {setting<O>("stride_m", "m", "travel of the antenna between two hyperbolae", &O::stride_m,
@@ -73,7 +73,7 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
                                  double tag_height, const HyperbolaOptions& options,
                                  const EstimateLimits& limits,
                                  const std::optional<PoseErrorModel>& pose_error) {
-  check_options(option_table(), options);
+  check_options(hyperbola_options(), options);
   if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
   TagEstimate estimate = begun(tag, samples);
   const std::string hopeless = why_hopeless(samples);
@@ -99,7 +99,7 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
 Method hyperbola_method(const HyperbolaOptions& options) {
   return one_by_one("hyperbola",
                     "hyperbolae from unwrapped phase, their intersections (the paper's)",
-                    option_table(), options,
+                    hyperbola_options(), options,
                     [](const LocalizationProblem& problem, const std::string& tag,
                        const SamplesOfTag& samples, const HyperbolaOptions& of) {
                       return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of,

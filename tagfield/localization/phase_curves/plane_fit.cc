@@ -38,14 +38,15 @@ Eigen::ArrayXd distances(const TagPhases& phases, const TagPhases::Span& span, d
 }
 
 /// A place with the normal matrix, the gradient and the sum of squares there.
-struct Point {
+struct PlanePoint {
   Eigen::Vector2d p;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   double cost = 0.0;
 };
 
-void add_span(const TagPhases& phases, const TagPhases::Span& span, double height, Point& point) {
+void add_span(const TagPhases& phases, const TagPhases::Span& span, double height,
+              PlanePoint& point) {
   const Eigen::Vector2d& p = point.p;
   const Eigen::ArrayXd range = distances(phases, span, height, p).max(1e-9);
   Eigen::ArrayXd error = phases.value.segment(span.begin, span.count) - range;
@@ -60,8 +61,8 @@ void add_span(const TagPhases& phases, const TagPhases::Span& span, double heigh
   point.cost += error.square().sum();
 }
 
-Point point_at(const TagPhases& phases, double height, const Eigen::Vector2d& p) {
-  Point point;
+PlanePoint point_at(const TagPhases& phases, double height, const Eigen::Vector2d& p) {
+  PlanePoint point;
   point.p = p;
   for (const TagPhases::Span& span : phases.spans) add_span(phases, span, height, point);
   point.normal(1, 0) = point.normal(0, 1);
@@ -119,7 +120,7 @@ Eigen::Vector2d refine(const TagPhases& phases, double height, const Eigen::Vect
   constexpr double kRidge = 1e-12;
   constexpr LevenbergMarquardt kHow{
       .most_steps = 40, .damping = 1e-4, .least_damping = 1e-12, .raise = 8.0};
-  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
+  const auto step = [&](const PlanePoint& here, double damping) -> std::optional<PlanePoint> {
     const Eigen::Vector2d move =
         evenly_damped(here.normal, damping, kRidge).ldlt().solve(here.gradient);
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;

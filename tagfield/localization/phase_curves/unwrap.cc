@@ -15,7 +15,7 @@ constexpr double kNoiseMargin = 2.5;
 /// However noisy, phases this part of a quarter wavelength apart are followed.
 constexpr double kMinStep = 0.5;
 
-double travel(const PhaseSample& from, const PhaseSample& to) {
+double travel_between(const PhaseSample& from, const PhaseSample& to) {
   return (to.p_WA - from.p_WA).norm();
 }
 
@@ -33,7 +33,7 @@ std::vector<PhaseSegment> unwrap(const std::vector<PhaseSample>& samples, double
     const PhaseSample& sample = samples[i];
     const double lambda = wavelength(sample.frequency_hz);
     const bool follows = i > 0 && samples[i - 1].frequency_hz == sample.frequency_hz &&
-                         travel(samples[i - 1], sample) <= limit * lambda / 4.0;
+                         travel_between(samples[i - 1], sample) <= limit * lambda / 4.0;
     if (!follows) segments.emplace_back();
     PhaseSegment& segment = segments.back();
     const double turn = follows ? wrap_to_pi(sample.phase_rad - samples[i - 1].phase_rad) : 0.0;

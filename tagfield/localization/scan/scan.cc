@@ -210,8 +210,8 @@ std::vector<Eigen::ArrayXd> pooled(const std::vector<ScannedTag>& tags) {
   return expected;
 }
 
-std::vector<TagEstimate> locate(const LocalizationProblem& problem, int threads,
-                                const ScanOptions& options) {
+std::vector<TagEstimate> locate_by_scan(const LocalizationProblem& problem, int threads,
+                                        const ScanOptions& options) {
   const std::vector<ScannedTag> tags = look_at_all(problem, threads, options);
   const std::vector<Eigen::ArrayXd> expected = pooled(tags);
   std::vector<TagEstimate> estimates;
@@ -230,7 +230,7 @@ std::vector<TagEstimate> locate(const LocalizationProblem& problem, int threads,
 }
 
 /// The keys of its options.
-const OptionTable<ScanOptions>& option_table() {
+const OptionTable<ScanOptions>& scan_options() {
   using O = ScanOptions;
   static const OptionTable<O> of{
       {setting<O>("max_range_m", "m", "no tag is further from the scan", &O::max_range_m,
@@ -246,7 +246,7 @@ const OptionTable<ScanOptions>& option_table() {
 
 Method scan_method(const ScanOptions& options) {
   return method_with("scan", "a short straight scan amid reflections: phase and RSSI by two paths",
-                     option_table(), options, locate);
+                     scan_options(), options, locate_by_scan);
 }
 
 }  // namespace tagfield

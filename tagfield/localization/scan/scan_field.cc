@@ -57,11 +57,11 @@ struct Cell {
   double reads = 0.0;
 };
 
-using Channel = std::map<int, Cell>;  ///< By place.
+using ScanChannel = std::map<int, Cell>;  ///< By place.
 
-std::map<double, Channel> channels_of(const ScanLine& line, double place_m,
-                                      const std::vector<PhaseSample>& series) {
-  std::map<double, Channel> channels;
+std::map<double, ScanChannel> channels_of(const ScanLine& line, double place_m,
+                                          const std::vector<PhaseSample>& series) {
+  std::map<double, ScanChannel> channels;
   for (const PhaseSample& sample : series) {
     const double along = line.along.dot(sample.p_WA.head<2>() - line.middle);
     const int place = static_cast<int>(std::lround(along / place_m));
@@ -82,14 +82,14 @@ std::map<double, Channel> channels_of(const ScanLine& line, double place_m,
 }
 
 /// All channels as one, each turned so that it agrees best with the others.
-Channel in_agreement(const std::map<double, Channel>& channels) {
+ScanChannel in_agreement(const std::map<double, ScanChannel>& channels) {
   constexpr int kRounds = 4;
   const auto longest = std::max_element(
       channels.begin(), channels.end(),
       [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  Channel together = longest->second;
+  ScanChannel together = longest->second;
   for (int round = 0; round < kRounds; ++round) {
-    Channel sum;
+    ScanChannel sum;
     for (const auto& [carrier, places] : channels) {
       std::complex<double> turn = 0.0;
       for (const auto& [place, cell] : places) {
@@ -116,7 +116,7 @@ Channel in_agreement(const std::map<double, Channel>& channels) {
 }
 
 /// The longest stretch without a gap.
-std::vector<Cell> longest_stretch(const Channel& places, double gap_m) {
+std::vector<Cell> longest_stretch(const ScanChannel& places, double gap_m) {
   std::vector<Cell> longest;
   std::vector<Cell> stretch;
   for (const auto& [place, cell] : places) {
@@ -205,7 +205,7 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
     scan.why_not = fmt::format("the antenna's way is not straight: it strays by {:.2f} m", strays);
     return scan;
   }
-  const Channel together = in_agreement(channels_of(scan.line, kPlace * lambda, series));
+  const ScanChannel together = in_agreement(channels_of(scan.line, kPlace * lambda, series));
   const std::vector<Cell> cells = longest_stretch(together, kGap * lambda);
   if (cells.size() < kFewestReads ||
       cells.back().along_m - cells.front().along_m < kShortest * lambda) {

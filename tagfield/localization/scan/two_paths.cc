@@ -10,12 +10,12 @@ namespace {
 
 using Steering = Eigen::MatrixXcf;  ///< A row a place: its field along the scan, of norm 1.
 
-constexpr double kNearest = 0.1;           ///< No tag is nearer to the scan [m].
+constexpr double kNearestWall = 0.1;       ///< No tag is nearer to the scan [m].
 constexpr double kAlongStep = 1.0 / 13.0;  ///< [λ]
 constexpr double kAwayFactor = 1.035;
 constexpr double kOtherAlongStep = 1.0 / 3.0;  ///< Of the second path's places [λ].
 constexpr double kOtherAwayFactor = 1.12;
-constexpr double kLeastLeft = 1e-6;  ///< Of the power; floats tell no less.
+constexpr double kLeastPathLeft = 1e-6;  ///< Of the power; floats tell no less.
 constexpr Eigen::Index kBlock = 64;
 
 Eigen::ArrayXd evenly(double low, double high, double step) {
@@ -79,10 +79,11 @@ double likelihood_of(const Others& others, const Eigen::ArrayXcf& overlap, std::
     const std::complex<float> second = (others.seen[j] - std::conj(overlap[j]) * seen) / apart;
     if (std::norm(second) > std::norm(first)) continue;
     const float told = std::real(std::conj(seen) * first + std::conj(others.seen[j]) * second);
-    const float left = std::max(1.0f - told, static_cast<float>(kLeastLeft));
+    const float left = std::max(1.0f - told, static_cast<float>(kLeastPathLeft));
     least = std::min(least, left);
     // Relative to the least power that may be left, so that nothing overflows.
-    sum += others.area[j] * std::exp(exponent * std::log(kLeastLeft / static_cast<double>(left)));
+    sum +=
+        others.area[j] * std::exp(exponent * std::log(kLeastPathLeft / static_cast<double>(left)));
   }
   return sum;
 }
@@ -93,7 +94,7 @@ ScanGrid scan_grid(const ScanField& scan, double furthest_m) {
   const double lambda = kTwoPi / scan.wavenumber;
   const double beyond = 0.5 * (scan.end_m - scan.begin_m);
   return {evenly(scan.begin_m - beyond, scan.end_m + beyond, kAlongStep * lambda),
-          by_factor(kNearest, furthest_m, kAwayFactor)};
+          by_factor(kNearestWall, furthest_m, kAwayFactor)};
 }
 
 double one_path_share(const ScanField& scan, const ScanGrid& grid) {
@@ -106,7 +107,7 @@ TwoPathLikelihood two_path_likelihood(const ScanField& scan, const ScanGrid& gri
   const double beyond = scan.end_m - scan.begin_m;
   const ScanGrid of_others = {
       evenly(scan.begin_m - beyond, scan.end_m + beyond, kOtherAlongStep * lambda),
-      by_factor(kNearest, grid.away_m[grid.away_m.size() - 1], kOtherAwayFactor)};
+      by_factor(kNearestWall, grid.away_m[grid.away_m.size() - 1], kOtherAwayFactor)};
   const Eigen::VectorXcf field = scan.field.matrix().cast<std::complex<float>>();
   Others others{steering(scan, of_others), {}, areas(of_others)};
   others.seen = (others.rows.conjugate() * field).array();

@@ -184,8 +184,8 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
   return estimate;
 }
 
-std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
-                                    const LandmarcOptions& options) {
+std::vector<TagEstimate> locate_by_references(const LocalizationProblem& problem, int threads,
+                                              const LandmarcOptions& options) {
   References references = references_of(problem, options);
   references.go_by_place = go_by_place(references);
   return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
@@ -194,7 +194,7 @@ std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int thre
 }
 
 /// The keys of its options.
-const OptionTable<LandmarcOptions>& option_table() {
+const OptionTable<LandmarcOptions>& landmarc_options() {
   using O = LandmarcOptions;
   static const OptionTable<O> of{
       {setting<O>("neighbours", "", "nearest reference tags whose mean is taken", &O::neighbours,
@@ -210,8 +210,8 @@ const OptionTable<LandmarcOptions>& option_table() {
 }  // namespace
 
 Method landmarc_method(const LandmarcOptions& options) {
-  return method_with("landmarc", "the nearest reference tags by RSSI, their mean", option_table(),
-                     options, locate_all);
+  return method_with("landmarc", "the nearest reference tags by RSSI, their mean",
+                     landmarc_options(), options, locate_by_references);
 }
 
 }  // namespace tagfield

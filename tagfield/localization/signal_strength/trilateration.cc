@@ -15,17 +15,17 @@
 namespace tagfield {
 namespace {
 
-constexpr double kCell = 0.5;       ///< Of the grid that is searched [m].
-constexpr double kSame = 0.2;       ///< Minima nearer than this are one [m].
-constexpr std::size_t kStarts = 8;  ///< Cells to start a fit from.
-constexpr double kNearest = 0.05;   ///< Distances below this count as this [m].
-constexpr double kAnything = 1e6;   ///< Expected error where nothing is known [m].
+constexpr double kCell = 0.5;             ///< Of the grid that is searched [m].
+constexpr double kSameMinimum = 0.2;      ///< Minima nearer than this are one [m].
+constexpr std::size_t kRssiStarts = 8;    ///< Cells to start a fit from.
+constexpr double kNearestAntenna = 0.05;  ///< Distances below this count as this [m].
+constexpr double kAnything = 1e6;         ///< Expected error where nothing is known [m].
 constexpr Eigen::Index kFewestBins = 6;
 /// The error of a mean of many reads does not go below this [dB]: reflections and the pattern.
-constexpr double kLeastNoise = 0.5;
+constexpr double kLeastRssiNoise = 0.5;
 
 /// Height of an antenna's line as far as it is known [dBm at 1 m].
-struct Level {
+struct RssiLevel {
   double mean_dbm = 0.0;
   double precision = 0.0;  ///< 1/variance [1/dB²], in units of the bins' noise; 0: unknown.
 };
@@ -33,7 +33,7 @@ struct Level {
 /// The law of one problem.
 struct Law {
   double slope_db = 40.0;
-  std::map<std::string, Level> levels;  ///< By antenna.
+  std::map<std::string, RssiLevel> levels;  ///< By antenna.
 };
 
 /// The bins of one tag, antenna after antenna.
@@ -85,7 +85,7 @@ Eigen::ArrayXd distances(const Bins& bins, const Eigen::Vector3d& p_WT) {
   return ((bins.x - p_WT.x()).square() + (bins.y - p_WT.y()).square() +
           (bins.z - p_WT.z()).square())
       .sqrt()
-      .max(kNearest);
+      .max(kNearestAntenna);
 }
 
 /// Of the lobes, towards a tag [dB].
@@ -106,13 +106,13 @@ Eigen::ArrayXd gain_slopes(const Bins& bins, const Eigen::Vector3d& p_WT,
   return (gains(bins, p_WT + kStep * axis) - gains(bins, p_WT - kStep * axis)) / (2.0 * kStep);
 }
 
-Level level_of(const Law& law, const std::string& antenna) {
+RssiLevel level_of(const Law& law, const std::string& antenna) {
   const auto level = law.levels.find(antenna);
-  return level == law.levels.end() ? Level{} : level->second;
+  return level == law.levels.end() ? RssiLevel{} : level->second;
 }
 
 /// A span's level that suits best, with what is known of it.
-double best_level(const Bins& bins, const TagPhases::Span& span, const Level& known,
+double best_level(const Bins& bins, const TagPhases::Span& span, const RssiLevel& known,
                   const Eigen::ArrayXd& above_line) {
   const auto weight = bins.weight.segment(span.begin, span.count);
   const double sum = (weight * above_line.segment(span.begin, span.count)).sum();
@@ -129,7 +129,7 @@ Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) 
   Misfit misfit;
   misfit.residuals = bins.rssi - gains(bins, p_WT) + law.slope_db * distances(bins, p_WT).log10();
   for (const TagPhases::Span& span : bins.spans) {
-    const Level known = level_of(law, span.antenna);
+    const RssiLevel known = level_of(law, span.antenna);
     const double level = best_level(bins, span, known, misfit.residuals);
     misfit.residuals.segment(span.begin, span.count) -= level;
     misfit.cost += known.precision * (level - known.mean_dbm) * (level - known.mean_dbm);
@@ -140,20 +140,20 @@ Misfit misfit_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) 
 }
 
 /// Σ J Jᵀ by x and y [dB²/m²], levels eliminated, and the gradient.
-struct Step {
+struct RssiStep {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
 };
 
-Step step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
-             const Eigen::ArrayXd& residuals) {
+RssiStep step_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT,
+                 const Eigen::ArrayXd& residuals) {
   const Eigen::ArrayXd square = distances(bins, p_WT).square();
   const double factor = -law.slope_db / std::log(10.0);
   Eigen::ArrayXd ux =
       factor * (p_WT.x() - bins.x) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitX());
   Eigen::ArrayXd uy =
       factor * (p_WT.y() - bins.y) / square + gain_slopes(bins, p_WT, Eigen::Vector3d::UnitY());
-  Step step;
+  RssiStep step;
   for (const TagPhases::Span& span : bins.spans) {
     const auto weight = bins.weight.segment(span.begin, span.count);
     const double sum = weight.sum() + level_of(law, span.antenna).precision;
@@ -177,13 +177,13 @@ struct Fit {
 };
 
 /// A fit under way.
-struct Point {
+struct RssiPoint {
   Eigen::Vector3d p_WT;
   Eigen::ArrayXd residuals;
   double cost = 0.0;
 };
 
-Point point_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
+RssiPoint point_at(const Bins& bins, const Law& law, const Eigen::Vector3d& p_WT) {
   Misfit misfit = misfit_at(bins, law, p_WT);
   return {p_WT, std::move(misfit.residuals), misfit.cost};
 }
@@ -194,14 +194,14 @@ Fit refined(const Bins& bins, const Law& law, const Eigen::Vector3d& start) {
   constexpr double kRidge = 1e-9;
   constexpr double kLongestStep = 1.0;  // [m]
   constexpr LevenbergMarquardt kHow{.most_steps = 30, .damping = 1e-3, .raise = 8.0};
-  const auto step = [&](const Point& here, double damping) -> std::optional<Point> {
-    const Step at = step_at(bins, law, here.p_WT, here.residuals);
+  const auto step = [&](const RssiPoint& here, double damping) -> std::optional<RssiPoint> {
+    const RssiStep at = step_at(bins, law, here.p_WT, here.residuals);
     Eigen::Vector2d move = evenly_damped(at.normal, damping, kRidge).inverse() * at.gradient;
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;
     if (move.norm() > kLongestStep) move.normalize();
     return point_at(bins, law, here.p_WT + Eigen::Vector3d(move.x(), move.y(), 0.0));
   };
-  const Point best = descend(point_at(bins, law, start), kHow, step);
+  const RssiPoint best = descend(point_at(bins, law, start), kHow, step);
   return {best.p_WT, best.cost};
 }
 
@@ -241,15 +241,15 @@ std::vector<Fit> cells_of(const Bins& bins, const Law& law, double height, doubl
 /// Minima of the misfit about its least cells, best first.
 std::vector<Fit> minima_of(const Bins& bins, const Law& law, std::vector<Fit> cells) {
   std::vector<Fit> fits;
-  for (const Fit& cell : distinct(std::move(cells), 2.0 * kCell, kStarts)) {
+  for (const Fit& cell : distinct(std::move(cells), 2.0 * kCell, kRssiStarts)) {
     fits.push_back(refined(bins, law, cell.p_WT));
   }
-  return distinct(std::move(fits), kSame, kStarts);
+  return distinct(std::move(fits), kSameMinimum, kRssiStarts);
 }
 
 /// Variance of a residual, of which so many are independent [dB²].
 double noise_of(const Bins& bins, const Eigen::ArrayXd& residuals) {
-  return std::max(residual_variance(bins.spans, residuals), kLeastNoise * kLeastNoise) *
+  return std::max(residual_variance(bins.spans, residuals), kLeastRssiNoise * kLeastRssiNoise) *
          correlation_factor(bins.spans, residuals);
 }
 
@@ -284,7 +284,7 @@ double log_evidence(const Bins& bins, const std::vector<Fit>& cells, const Eigen
   const double without = misfit_at(unaimed, flat, cells.front().p_WT).cost;
   const auto count = static_cast<double>(best.size());
   const double half = 0.5 * count / correlation_factor(bins.spans, best);
-  const double least = count * kLeastNoise * kLeastNoise;
+  const double least = count * kLeastRssiNoise * kLeastRssiNoise;
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(cells.size()));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     logs[static_cast<Eigen::Index>(i)] =
@@ -484,8 +484,8 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
   return estimate;
 }
 
-std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int threads,
-                                    const TrilaterationOptions& options) {
+std::vector<TagEstimate> locate_by_rssi(const LocalizationProblem& problem, int threads,
+                                        const TrilaterationOptions& options) {
   const Law law = law_of(problem, options);
   return locate_each(problem, threads, [&](const std::string& tag, const SamplesOfTag& samples) {
     return locate_by_strength(problem, law, tag, samples, options);
@@ -493,7 +493,7 @@ std::vector<TagEstimate> locate_all(const LocalizationProblem& problem, int thre
 }
 
 /// The keys of its options.
-const OptionTable<TrilaterationOptions>& option_table() {
+const OptionTable<TrilaterationOptions>& trilateration_options() {
   using O = TrilaterationOptions;
   static const OptionTable<O> of{with_lobe<O>(
       {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
@@ -517,7 +517,7 @@ const OptionTable<TrilaterationOptions>& option_table() {
 Method trilateration_method(const TrilaterationOptions& options) {
   return method_with("trilateration",
                      "distances by RSSI over a logarithmic law, its slope fitted too",
-                     option_table(), options, locate_all);
+                     trilateration_options(), options, locate_by_rssi);
 }
 
 }  // namespace tagfield

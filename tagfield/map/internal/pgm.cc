@@ -11,7 +11,7 @@ namespace tagfield {
 namespace {
 
 /// A side of no map is longer; the product of two fits an int64.
-constexpr int kMostCells = 1'000'000;
+constexpr int kMostPgmCells = 1'000'000;
 constexpr int kMostWhite = 65'535;
 
 bool is_space(char c) {
@@ -125,8 +125,8 @@ GreyImage read_pgm(const std::string& bytes, const std::string& file) {
     fail({file, 0}, "byte 0: is no grey PGM image (it would begin with P5 or P2)");
   }
   GreyImage image;
-  image.width = reader.number("the width", 1, kMostCells);
-  image.height = reader.number("the height", 1, kMostCells);
+  image.width = reader.number("the width", 1, kMostPgmCells);
+  image.height = reader.number("the height", 1, kMostPgmCells);
   image.white = reader.number("the greatest grey", 1, kMostWhite);
   if (magic == "P5") {
     read_binary(reader, image);

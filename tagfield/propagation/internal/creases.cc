@@ -181,12 +181,12 @@ bool is_one_line(const DiffractingEdge& one, const DiffractingEdge& other) {
   return true;
 }
 
-std::size_t root(std::vector<std::size_t>& parents, std::size_t i) {
+std::size_t welded_root(std::vector<std::size_t>& parents, std::size_t i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
 }
 
-/// Segments that go on into one another get one root.
+/// Segments that go on into one another get one welded_root.
 std::vector<std::size_t> joined(const std::vector<Segment>& segments) {
   std::vector<std::pair<std::uint32_t, std::size_t>> at;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -199,7 +199,7 @@ std::vector<std::size_t> joined(const std::vector<Segment>& segments) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     for (std::size_t j = i + 1; j < at.size() && at[j].first == at[i].first; ++j) {
       if (is_one_line(segments[at[i].second].edge, segments[at[j].second].edge)) {
-        parents[root(parents, at[j].second)] = root(parents, at[i].second);
+        parents[welded_root(parents, at[j].second)] = welded_root(parents, at[i].second);
       }
     }
   }
@@ -222,7 +222,7 @@ std::vector<DiffractingEdge> creases(const WeldedMesh& mesh) {
   std::vector<std::size_t> parents = joined(segments);
   std::vector<DiffractingEdge> whole(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    DiffractingEdge& edge = whole[root(parents, i)];
+    DiffractingEdge& edge = whole[welded_root(parents, i)];
     if (edge.length_m > 0.0) {
       grow(segments[i].edge, edge);
     } else {

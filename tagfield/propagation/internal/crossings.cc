@@ -8,11 +8,11 @@ namespace {
 
 /// Hits of one solid that are nearer to each other are at one place: touching parts of the solid, a
 /// sheet with two faces, or an edge that two triangles share [m].
-constexpr double kSame = 1e-5;
+constexpr double kSameCrossing = 1e-5;
 
 using Hits = std::vector<SurfaceHit>::iterator;
 
-bool is_before(const SurfaceHit& one, const SurfaceHit& other) {
+bool is_nearer(const SurfaceHit& one, const SurfaceHit& other) {
   return one.collision != other.collision ? one.collision < other.collision
                                           : one.distance_m < other.distance_m;
 }
@@ -26,7 +26,7 @@ Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
   const auto enters_it = [&](const SurfaceHit& hit) { return enters(scene, hit); };
   Hits out = begin;
   for (Hits place = begin; place != end;) {
-    const double limit = place->distance_m + kSame;
+    const double limit = place->distance_m + kSameCrossing;
     const Hits next =
         std::find_if(place, end, [&](const SurfaceHit& hit) { return hit.distance_m > limit; });
     const Hits leaving = std::partition(place, next, enters_it);
@@ -71,7 +71,7 @@ void join(std::vector<Inside>& inside, std::size_t first) {
   });
   auto last = begin;
   for (auto part = begin + 1; part != inside.end(); ++part) {
-    if (part->from_m <= last->to_m + kSame) {
+    if (part->from_m <= last->to_m + kSameCrossing) {
       last->to_m = std::max(last->to_m, part->to_m);
     } else {
       *++last = *part;
@@ -107,7 +107,7 @@ bool enters(const RadioScene& scene, const SurfaceHit& hit) {
 void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W,
                    double length_m, std::vector<SurfaceHit>& hits, CrossingScratch& scratch,
                    std::vector<Crossing>& crossings) {
-  std::sort(hits.begin(), hits.end(), is_before);
+  std::sort(hits.begin(), hits.end(), is_nearer);
   scratch.inside.clear();
   for (Hits begin = hits.begin(); begin != hits.end();) {
     const Hits end = std::find_if(begin, hits.end(), [&](const SurfaceHit& hit) {

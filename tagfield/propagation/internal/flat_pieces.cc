@@ -9,9 +9,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kFlat = 1e-4;       // [m]
-constexpr double kSameWay = 0.99;    // Cosine between normals; small triangles' are noisy.
-constexpr double kRectangle = 1e-9;  // Of the area.
+constexpr double kFlatPiece = 1e-4;   // [m]
+constexpr double kSameNormal = 0.99;  // Cosine between normals; small triangles' are noisy.
+constexpr double kRectangle = 1e-9;   // Of the area.
 /// Directions of so many edges are tried for the bounding rectangle.
 constexpr std::size_t kMostDirections = 64;
 
@@ -69,9 +69,9 @@ class Grower {
     const Corners abc = corners(triangle);
     const double same = vector_area(abc).normalized().dot(normal);
     const bool closed = pieces_.pieces[pieces_.of_triangle[triangle]].closed;
-    if ((closed ? same : std::abs(same)) < kSameWay) return false;
+    if ((closed ? same : std::abs(same)) < kSameNormal) return false;
     return std::all_of(abc.begin(), abc.end(), [&](const Eigen::Vector3d& q) {
-      return std::abs(normal.dot(q - p)) < kFlat;
+      return std::abs(normal.dot(q - p)) < kFlatPiece;
     });
   }
 

@@ -9,7 +9,7 @@ namespace {
 /// Twice the triangle's area, so that no point between two triangles is lost to rounding.
 constexpr double kRim = 1e-12;
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using FacetCorners = std::array<Eigen::Vector3d, 3>;
 
 /// Twice the area of the triangle `from`, `to`, `p`; below 0 if it is turned the other way.
 double area(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& p,
@@ -18,7 +18,7 @@ double area(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen:
 }
 
 /// `normal` may point to either side: triangles of open sheets are turned as they like.
-bool is_in(const Corners& corners, const Eigen::Vector3d& normal, const Eigen::Vector3d& p) {
+bool is_in(const FacetCorners& corners, const Eigen::Vector3d& normal, const Eigen::Vector3d& p) {
   const double one = area(corners[0], corners[1], p, normal);
   const double two = area(corners[1], corners[2], p, normal);
   if ((one > kRim && two < -kRim) || (one < -kRim && two > kRim)) return false;

@@ -22,8 +22,8 @@ struct Borders {
 };
 
 /// Right, up, left, down.
-const std::array<Eigen::Vector2i, 4> kSteps = {Eigen::Vector2i(1, 0), Eigen::Vector2i(0, 1),
-                                               Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, -1)};
+const std::array<Eigen::Vector2i, 4> kDirections = {Eigen::Vector2i(1, 0), Eigen::Vector2i(0, 1),
+                                                    Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, -1)};
 /// Where the border of a cell that is walked in that direction begins.
 const std::array<Eigen::Vector2i, 4> kCorners = {Eigen::Vector2i(0, 0), Eigen::Vector2i(1, 0),
                                                  Eigen::Vector2i(1, 1), Eigen::Vector2i(0, 1)};
@@ -37,7 +37,7 @@ Borders borders_of(const OccupancyGrid& grid, const std::function<bool(std::int8
     for (int x = 0; x < grid.width; ++x) {
       if (!is_in(x, y)) continue;
       for (std::size_t i = 0; i < 4; ++i) {
-        const Eigen::Vector2i& outwards = kSteps[(i + 3) % 4];
+        const Eigen::Vector2i& outwards = kDirections[(i + 3) % 4];
         if (is_in(x + outwards.x(), y + outwards.y())) continue;
         borders.at(Eigen::Vector2i(x, y) + kCorners[i]) |= static_cast<std::uint8_t>(1U << i);
       }
@@ -72,7 +72,7 @@ void append_ring(std::string& data, Borders& borders, Eigen::Vector2i corner) {
       length = 0;
     }
     direction = next;
-    corner += kSteps[direction];
+    corner += kDirections[direction];
     ++length;
   }
   append_run(data, direction, length);

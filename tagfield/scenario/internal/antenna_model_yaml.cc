@@ -7,9 +7,6 @@
 namespace tagfield {
 namespace {
 
-constexpr NumberRange kPositive = NumberRange::kPositive;
-constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
-
 /// Keys of the paper's model that no physical one has.
 constexpr std::array<const char*, 7> kPaperKeys = {"range_m",
                                                    "range_sigma",

@@ -9,9 +9,6 @@
 namespace tagfield {
 namespace {
 
-constexpr NumberRange kPositive = NumberRange::kPositive;
-constexpr NumberRange kNotNegative = NumberRange::kNotNegative;
-
 PoseSource mode_of(const YamlValue& value) {
   constexpr PoseSource kModes[] = {PoseSource::kTrue, PoseSource::kNoisy, PoseSource::kOdometry,
                                    PoseSource::kSlam};

@@ -15,14 +15,14 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kMostOffsets = 12;  ///< More, and those of an antenna take turns.
-constexpr double kAnyOffset = 100.0;      ///< Variance of an offset that nothing is known of.
-constexpr double kKnownOffset = 1e-6;     ///< Of one that is known.
-constexpr int kPasses = 4;                ///< After the last jump was found.
-constexpr int kPassesBefore = 3;          ///< Any is looked for, so that the track has settled.
-constexpr int kMostJumps = 4;             ///< Times that they are looked for.
-constexpr double kNearest = 1e-3;         ///< [m]
-constexpr double kLeastNoise = 0.02;      ///< [rad]
+constexpr std::size_t kMostOffsets = 12;    ///< More, and those of an antenna take turns.
+constexpr double kAnyOffset = 100.0;        ///< Variance of an offset that nothing is known of.
+constexpr double kKnownOffset = 1e-6;       ///< Of one that is known.
+constexpr int kPasses = 4;                  ///< After the last jump was found.
+constexpr int kPassesBefore = 3;            ///< Any is looked for, so that the track has settled.
+constexpr int kMostJumps = 4;               ///< Times that they are looked for.
+constexpr double kNearestApproach = 1e-3;   ///< [m]
+constexpr double kLeastMotionNoise = 0.02;  ///< [rad]
 /// Directions in which less than this part of the most is known are not known at all.
 constexpr double kUnknown = 1e-9;
 constexpr std::size_t kJumpSpan = 6;  ///< Reads before and after that tell a jump.
@@ -84,7 +84,7 @@ double predicted_phase(const PassRead& read, const Eigen::Vector3d& place) {
 
 Linear by_taylor(const PassRead& read, const Eigen::Vector3d& place) {
   const Eigen::Vector3d away = place - read.p_WA;
-  const double r = std::max(away.norm(), kNearest);
+  const double r = std::max(away.norm(), kNearestApproach);
   return {read.k * r, read.k / r * away.transpose(), 0.0};
 }
 
@@ -321,7 +321,7 @@ double evidence_of(const Input& input, const Slots& slots, const Forward& forwar
   const auto count = static_cast<double>(input.pass.reads.size());
   double log_evidence = forward.log_likelihood + 0.5 * count * std::log(kTwoPi);
   log_evidence +=
-      0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastNoise));
+      0.5 * std::log(kPi / count) - std::log(std::log(kMostPhaseNoise_rad / kLeastMotionNoise));
   const Slots before = slots_of(input.pass);
   for (std::size_t i = 0; i < slots.fresh.size(); ++i) {
     if (slots.fresh[i] == 0 || input.pass.reads[i].offset_known) continue;
@@ -426,7 +426,7 @@ Track smooth(const Pass& pass, const TrackingOptions& options, Linearization lin
     forward = filter(input, slots, noise, smoothed);
     smoothed = smooth_backward(forward.steps);
     residuals = residuals_of(pass, slots, smoothed);
-    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kLeastNoise);
+    if (!keep_noise) noise = robust_noise(residuals, 4 + count_fresh(slots), kLeastMotionNoise);
     if (iteration >= kPassesBefore && splits < kMostJumps &&
         split_at_jumps(pass, residuals, noise, slots)) {
       ++splits;

@@ -10,7 +10,7 @@ namespace {
 using Index = Eigen::Index;
 
 /// Keeps matrices invertible where nothing is told of an unknown [1/m²].
-constexpr double kTiny = 1e-6;
+constexpr double kTinyPivot = 1e-6;
 
 template <int D>
 ChainPart<D> empty_chain(Index knots) {
@@ -94,7 +94,7 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
       add_read(system, tag, s, i, part);
     }
   }
-  part.normal.diagonal().array() += kTiny;
+  part.normal.diagonal().array() += kTinyPivot;
   return part;
 }
 

@@ -21,7 +21,7 @@ namespace {
 using Index = Eigen::Index;
 
 /// Knots a time constant: straight lines between them miss 2 % of the variance.
-constexpr double kKnotsPerTimeConstant = 40.0;
+constexpr double kStateKnots = 40.0;
 /// With many tags, where the knots' own system is solved whole.
 constexpr double kCoarseKnots = 20.0;
 constexpr double kMostUnknowns = 3000.0;  ///< Of the knots in that case.
@@ -47,7 +47,7 @@ std::vector<Period> reading_periods(const LocalizationProblem& problem, double l
 /// Time between knots, finer where few tags make that cheap.
 double knot_spacing(const LocalizationProblem& problem, std::size_t tags, double time_constant_s) {
   constexpr Index kUnknownsOfTag = 4;
-  const double fine = time_constant_s / kKnotsPerTimeConstant;
+  const double fine = time_constant_s / kStateKnots;
   const std::vector<Period> periods = reading_periods(problem, time_constant_s);
   double duration = 0.0;
   for (const Period& period : periods) duration += period.end_s - period.begin_s;
