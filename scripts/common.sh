@@ -16,7 +16,9 @@ become_owner() {
 
 # What build/release is configured with wherever tests are built in it; only one set, as another would
 # build everything anew.
-with_tests=(-DTAGFIELD_TESTS=ON -DTAGFIELD_BENCHMARKS=ON -DTAGFIELD_GZ=ON)
+with_ros=(-DTAGFIELD_ROS1=ON -DTAGFIELD_ROS2=ON)
+without_ros=(-DTAGFIELD_ROS1=OFF -DTAGFIELD_ROS2=OFF)
+with_tests=("${with_ros[@]}" -DTAGFIELD_TESTS=ON -DTAGFIELD_BENCHMARKS=ON -DTAGFIELD_GZ=ON)
 
 # build [TARGET…]: configures if need be and builds build/release.
 build() {

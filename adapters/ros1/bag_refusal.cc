@@ -6,8 +6,8 @@ namespace tagfield {
 BagRecording read_bag(const std::string& path, const BagOptions& /*options*/,
                       Diagnostics& /*diagnostics*/) {
   fail({path, 0},
-       "this tagfield was built without ROS 1 and cannot read bags; build it with "
-       "-DTAGFIELD_ROS1=ON");
+       "this tagfield was built without ROS 1 and cannot read bags; build it again after "
+       "'scripts/setup --ros' (TAGFIELD_ROS1)");
 }
 
 }  // namespace tagfield

@@ -9,7 +9,9 @@ const bool kHasDds = false;
 struct DdsSink::Impl {};
 
 DdsSink::DdsSink(std::uint32_t /*domain*/, const std::string& /*node_name*/) {
-  throw Error("this tagfield was built without ROS 2 (-DTAGFIELD_ROS2=OFF)");
+  throw Error(
+      "this tagfield was built without ROS 2; build it again after 'scripts/setup --ros' "
+      "(TAGFIELD_ROS2)");
 }
 
 DdsSink::~DdsSink() = default;

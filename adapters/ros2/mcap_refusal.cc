@@ -5,7 +5,7 @@
 namespace tagfield::ros2 {
 
 std::shared_ptr<MessageSink> mcap_file(const std::string& /*path*/) {
-  throw Error("this tagfield was built without MCAP (liblz4 and libzstd were not there)");
+  throw Error("this tagfield was built without MCAP; build it again after 'scripts/setup --ros'");
 }
 
 }  // namespace tagfield::ros2

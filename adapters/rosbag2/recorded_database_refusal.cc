@@ -5,7 +5,9 @@ namespace tagfield {
 
 std::unique_ptr<RecordedFile> open_recorded_database(const std::string& path,
                                                      Diagnostics& /*diagnostics*/) {
-  fail({path, 0}, "is a database, and this tagfield was built without SQLite (libsqlite3-dev)");
+  fail({path, 0},
+       "is a database, and this tagfield was built without SQLite; build it again after "
+       "'scripts/setup --ros'");
 }
 
 }  // namespace tagfield

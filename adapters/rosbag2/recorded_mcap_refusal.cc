@@ -5,7 +5,9 @@ namespace tagfield {
 
 std::unique_ptr<RecordedFile> open_recorded_mcap(const std::string& path,
                                                  Diagnostics& /*diagnostics*/) {
-  fail({path, 0}, "is MCAP, and this tagfield was built without it (liblz4 and libzstd)");
+  fail({path, 0},
+       "is MCAP, and this tagfield was built without it; build it again after "
+       "'scripts/setup --ros'");
 }
 
 }  // namespace tagfield

@@ -11,7 +11,7 @@ TEST(BagRefusal, SaysWhichOptionReadsBags) {
   EXPECT_TRUE(is_bag("runs/run.bag"));
   EXPECT_EQ(error_of([&] { read_bag("runs/run.bag", {}, diagnostics); }),
             "runs/run.bag: this tagfield was built without ROS 1 and cannot read bags; build it "
-            "with -DTAGFIELD_ROS1=ON");
+            "again after 'scripts/setup --ros' (TAGFIELD_ROS1)");
 }
 
 }  // namespace
