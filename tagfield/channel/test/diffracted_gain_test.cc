@@ -15,9 +15,9 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-constexpr double kFrequency = 865.7e6;
+constexpr double kEdgeFrequency = 865.7e6;
 
-AntennaPattern isotropic(double tilt_rad) {
+AntennaPattern without_pattern(double tilt_rad) {
   AntennaPattern pattern;
   pattern.tilt_rad = tilt_rad;
   return pattern;
@@ -34,7 +34,7 @@ RadioWorld world_of(const Shape& shape, const RigidTransform& X_WC, const Materi
   return radio_world(scene, options, diagnostics);
 }
 
-/// A sheet in the plane x = 0 with its border along z at y = 0.
+/// A sheet in the plane x = 0 with its border along z placed y = 0.
 MeshPtr half_plane(double half) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, -half}, {0, 0, half}, {0, -half, half}, {0, -half, -half}};
@@ -56,7 +56,7 @@ Field field_at(const RadioWorld& world, const RadioEnd& antenna, const RadioEnd&
   const Vector3d& p_WA = antenna.X_WA.translation;
   const Vector3d& p_WT = tag.X_WA.translation;
   trace_paths(world.scene, images_of(world.scene, p_WA, options), p_WT, options, paths);
-  const Carrier carrier = carrier_in(world, kFrequency);
+  const Carrier carrier = carrier_in(world, kEdgeFrequency);
   Field field{one_way_gain(paths, antenna, tag, world, carrier, effects), 0.0};
   std::vector<DiffractedPath> over;
   trace_diffracted(world.scene, world.edges(), p_WA, p_WT, options, over);
@@ -67,7 +67,7 @@ Field field_at(const RadioWorld& world, const RadioEnd& antenna, const RadioEnd&
   return field;
 }
 
-RigidTransform at(const Vector3d& p_W) { return {Eigen::Quaterniond::Identity(), p_W}; }
+RigidTransform placed(const Vector3d& p_W) { return {Eigen::Quaterniond::Identity(), p_W}; }
 
 /// Knife edge of Recommendation ITU-R P.526, exactly: |(1 + j)/2 ∫_ν^∞ e^{−jπt²/2} dt|.
 double knife_edge_db(double nu) {
@@ -87,13 +87,13 @@ TEST(DiffractedGain, BehindAScreenIsTheKnifeEdges) {
   ASSERT_EQ(world.edges().size(), 4U);
   // Far ends, so that angles are small, where the knife edge holds.
   const double far = 60.0;
-  const double lambda = wavelength(kFrequency);
+  const double lambda = wavelength(kEdgeFrequency);
   for (const double depth : {0.0, 0.5, 1.0, 2.0, 4.0}) {
     std::vector<double> bent;
     for (const double tilt : {0.0, 0.5 * kPi}) {
-      const AntennaPattern pattern = isotropic(tilt);
-      const RigidTransform X_WA = at({-far, -depth - 1e-6, 0});
-      const RigidTransform X_WT = at({far, -depth - 1e-6, 0});
+      const AntennaPattern pattern = without_pattern(tilt);
+      const RigidTransform X_WA = placed({-far, -depth - 1e-6, 0});
+      const RigidTransform X_WT = placed({far, -depth - 1e-6, 0});
       const Field field = field_at(world, {pattern, X_WA}, {pattern, X_WT});
       EXPECT_EQ(field.optics, Complex(0.0)) << depth;
       const double free = lambda / (4.0 * kPi * 2.0 * far);
@@ -112,20 +112,22 @@ TEST(DiffractedGain, BehindAScreenIsTheKnifeEdges) {
 double greatest_jump(const RadioWorld& world, const AntennaPattern& pattern, const Vector3d& p_WA,
                      double around_rad, double z, double from, double to, int steps, int order,
                      const ChannelEffects& effects) {
-  const double free = wavelength(kFrequency) / (4.0 * kPi * p_WA.norm());
+  const double free = wavelength(kEdgeFrequency) / (4.0 * kPi * p_WA.norm());
   Complex before;
   double most = 0.0;
   for (int i = 0; i <= steps; ++i) {
     const double angle = from + (to - from) * i / steps;
-    const RigidTransform X_WT = at({around_rad * std::cos(angle), around_rad * std::sin(angle), z});
-    const Complex now = field_at(world, {pattern, at(p_WA)}, {pattern, X_WT}, order, effects).all();
+    const RigidTransform X_WT =
+        placed({around_rad * std::cos(angle), around_rad * std::sin(angle), z});
+    const Complex now =
+        field_at(world, {pattern, placed(p_WA)}, {pattern, X_WT}, order, effects).all();
     if (i > 0) most = std::max(most, std::abs(now - before) / free);
     before = now;
   }
   return most;
 }
 
-struct Case {
+struct EdgeCase {
   const char* what;
   Shape shape;
   RigidTransform X_WC;
@@ -136,10 +138,10 @@ struct Case {
   double antenna;  ///< Its angle.
 };
 
-std::vector<Case> cases() {
-  // The box's edge is along z at x = y = 0; the box is where x < 0 and y < 0.
+std::vector<EdgeCase> edge_cases() {
+  // The box's edge is along z placed x = y = 0; the box is where x < 0 and y < 0.
   const Shape box = Box{{40.0, 40.0, 60.0}};
-  const RigidTransform at_edge = at({-20.0, -20.0, 0.0});
+  const RigidTransform at_edge = placed({-20.0, -20.0, 0.0});
   Material walls = known("concrete");
   walls.wall_m = 0.05;
   Material stated = known("wood");
@@ -158,14 +160,14 @@ std::vector<Case> cases() {
 }
 
 TEST(DiffractedGain, LeavesNoStepAtAnyBoundary) {
-  for (const Case& test : cases()) {
+  for (const EdgeCase& test : edge_cases()) {
     const RadioWorld world = world_of(test.shape, test.X_WC, test.material);
     for (const double z : {0.0, 3.0}) {
       for (const auto& [tilt, polarization] :
            {std::pair(0.0, true), std::pair(0.35 * kPi, true), std::pair(0.35 * kPi, false)}) {
         const Vector3d p_WA(4.0 * std::cos(test.antenna), 4.0 * std::sin(test.antenna), 0.0);
-        EXPECT_LT(greatest_jump(world, isotropic(tilt), p_WA, 1.0, z, test.from, test.to, 8000,
-                                test.order, {true, polarization}),
+        EXPECT_LT(greatest_jump(world, without_pattern(tilt), p_WA, 1.0, z, test.from, test.to,
+                                8000, test.order, {true, polarization}),
                   0.04)
             << test.what << " z " << z << " tilt " << tilt << " " << polarization;
       }
@@ -174,15 +176,15 @@ TEST(DiffractedGain, LeavesNoStepAtAnyBoundary) {
 }
 
 TEST(DiffractedGain, FillsStepsThatOpticsHas) {
-  // The test above would see them: at the shadow's boundary and at the mirror's.
+  // The test above would see them: placed the shadow's boundary and placed the mirror's.
   const RadioWorld world = world_of(half_plane(30.0), {}, known("metal"));
-  const AntennaPattern pattern = isotropic(0.0);
-  const RigidTransform X_WA = at({-4.0, 2.0, 0.0});
+  const AntennaPattern pattern = without_pattern(0.0);
+  const RigidTransform X_WA = placed({-4.0, 2.0, 0.0});
   const auto optics = [&](double angle) {
-    const RigidTransform X_WT = at({std::cos(angle), std::sin(angle), 0.0});
+    const RigidTransform X_WT = placed({std::cos(angle), std::sin(angle), 0.0});
     return field_at(world, {pattern, X_WA}, {pattern, X_WT}).optics;
   };
-  const double free = wavelength(kFrequency) / (4.0 * kPi * X_WA.translation.norm());
+  const double free = wavelength(kEdgeFrequency) / (4.0 * kPi * X_WA.translation.norm());
   for (const double boundary : {std::atan2(-2.0, 4.0), std::atan2(-2.0, -4.0)}) {
     EXPECT_GT(std::abs(optics(boundary + 1e-3) - optics(boundary - 1e-3)) / free, 0.5) << boundary;
   }
@@ -192,7 +194,7 @@ RC_GTEST_PROP(DiffractedGain, IsTheSameFromBothEnds, ()) {
   const auto number = [](double from, double to) {
     return from + (to - from) * *rc::gen::inRange(0, 1000001) * 1e-6;
   };
-  // Not of hollow things, whose walls are taken at the angle at which they are entered.
+  // Not of hollow things, whose walls are taken placed the angle placed which they are entered.
   const char* const names[] = {"metal", "concrete", "wood"};
   const Material material = known(names[*rc::gen::inRange(0, 3)]);
   const RadioWorld world =
@@ -202,7 +204,7 @@ RC_GTEST_PROP(DiffractedGain, IsTheSameFromBothEnds, ()) {
     RC_PRE(p.norm() > 3.0);
     return from_xyz_rpy(p, {number(0, 6), number(0, 6), number(0, 6)});
   };
-  const AntennaPattern pattern = isotropic(number(0, 3));
+  const AntennaPattern pattern = without_pattern(number(0, 3));
   const RigidTransform X_WA = place();
   const RigidTransform X_WT = place();
   const Complex there = field_at(world, {pattern, X_WA}, {pattern, X_WT}).bent;

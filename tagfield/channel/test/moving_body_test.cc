@@ -12,11 +12,11 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-constexpr double kFrequency = 915e6;
+constexpr double kUsFrequency = 915e6;
 
 Carrier carrier() {
   Carrier at;
-  at.lambda_m = wavelength(kFrequency);
+  at.lambda_m = wavelength(kUsFrequency);
   at.wave_number = kTwoPi / at.lambda_m;
   return at;
 }
@@ -30,7 +30,7 @@ MovingBody body_of(const std::string& material, const Vector3d& p_W, const Vecto
   return body;
 }
 
-double db(Complex h) { return 20.0 * std::log10(std::abs(h)); }
+double level_db(Complex h) { return 20.0 * std::log10(std::abs(h)); }
 
 /// Huygens' waves of the plane across the way without those of the screen, with the phase to second
 /// order, summed up.
@@ -82,7 +82,7 @@ TEST(PastBody, AirLetsAllThrough) {
   EXPECT_LT(std::abs(past_body(air, {-2, 0, 0}, {2, 0, 0}, carrier()) - 1.0), 1e-9);
   air.material.crossing_db = 6.0206;
   air.half_m = {0.2, 50.0, 50.0};
-  EXPECT_NEAR(db(past_body(air, {-2, 0, 0}, {2, 0, 0}, carrier())), -6.02, 0.05);
+  EXPECT_NEAR(level_db(past_body(air, {-2, 0, 0}, {2, 0, 0}, carrier())), -6.02, 0.05);
 }
 
 /// Log-derivatives J_n'(x)/J_n(x), n = 0 … most, downwards.
@@ -100,7 +100,7 @@ Complex hankel(int n, double x) { return {std::cyl_bessel_j(n, x), -std::cyl_neu
 /// Field behind an endless cylinder against the free one's, of a line source: the exact series
 /// (J. J. Bowman et al., Electromagnetic and Acoustic Scattering by Simple Shapes, chapter 2).
 /// `along` is the electric field along the axis, else the magnetic.
-Complex by_series(double radius, Complex eta, double before, double after, bool along) {
+Complex field_by_series(double radius, Complex eta, double before, double after, bool along) {
   const double k = carrier().wave_number;
   constexpr int kMost = 24;
   const double ka = k * radius;
@@ -124,14 +124,14 @@ Complex by_series(double radius, Complex eta, double before, double after, bool 
 
 TEST(PastBody, OfAPersonIsBetweenTheExactWaterPhantomsPolarizations) {
   const Material person = find_material(known_materials(), "person");
-  const Complex eta = permittivity(person, kFrequency);
+  const Complex eta = permittivity(person, kUsFrequency);
   for (const double radius : {0.15, 0.2}) {
     for (const auto& [before, after] : {std::pair(1.5, 1.5), {3.0, 3.0}, {1.0, 4.0}}) {
       MovingBody body = body_of("person", {0, 0, 0}, {radius, radius, 100.0});
       body.is_round = true;
-      const double got = db(past_body(body, {-before, 0, 0}, {after, 0, 0}, carrier()));
-      const double upright = db(by_series(radius, eta, before, after, true));
-      const double across = db(by_series(radius, eta, before, after, false));
+      const double got = level_db(past_body(body, {-before, 0, 0}, {after, 0, 0}, carrier()));
+      const double upright = level_db(field_by_series(radius, eta, before, after, true));
+      const double across = level_db(field_by_series(radius, eta, before, after, false));
       // A screen knows no polarization: it lies between the two.
       EXPECT_LT(got, across) << radius << " " << before;
       EXPECT_GT(got, across - 2.0) << radius << " " << before;

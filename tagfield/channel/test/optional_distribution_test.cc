@@ -18,8 +18,8 @@ namespace {
 using Parameters = std::vector<double>;
 using Cdf = std::function<double(double)>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHuge = std::numeric_limits<double>::max();
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 
@@ -224,7 +224,7 @@ TEST(MakeDistribution, RefusesParametersOutOfRange) {
 
 TEST(MakeDistribution, RefusesWhatIsNotFinite) {
   for (const std::string& name : distribution_names()) {
-    for (const double bad : {kNan, kInfinite, -kInfinite}) {
+    for (const double bad : {kNotANumber, kInfinity, -kInfinity}) {
       if (name == "none") continue;
       const bool one = name.rfind("exp", 0) == 0 || name.rfind("chi", 0) == 0;
       EXPECT_THROW(make_distribution(name, one ? Parameters{bad} : Parameters{bad, 1.0}), Error);

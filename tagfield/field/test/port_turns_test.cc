@@ -20,56 +20,56 @@ AntennaParameters antenna(const std::string& reader, const std::string& name, do
   return parameters;
 }
 
-Time at(double seconds) { return time_from_seconds(seconds); }
+Time at_second(double seconds) { return time_from_seconds(seconds); }
 
 TEST(PortCycles, LetEachReadersPortsTakeTurns) {
   const auto cycles =
       port_cycles({antenna("r", "a", 0.2), antenna("q", "z", 1.0), antenna("r", "b", 0.3)});
   ASSERT_EQ(cycles.size(), 2U);
   const PortCycle& of_r = cycles[1];
-  EXPECT_EQ(antenna_on_turn(cycles[0], at(5.5)), "z");
-  EXPECT_EQ(antenna_on_turn(of_r, at(0.0)), "a");
-  EXPECT_EQ(antenna_on_turn(of_r, at(0.2)), "b");
-  EXPECT_EQ(antenna_on_turn(of_r, at(0.499999)), "b");
-  EXPECT_EQ(antenna_on_turn(of_r, at(0.5)), "a");
-  EXPECT_EQ(antenna_on_turn(of_r, at(-0.1)), "b");
+  EXPECT_EQ(antenna_on_turn(cycles[0], at_second(5.5)), "z");
+  EXPECT_EQ(antenna_on_turn(of_r, at_second(0.0)), "a");
+  EXPECT_EQ(antenna_on_turn(of_r, at_second(0.2)), "b");
+  EXPECT_EQ(antenna_on_turn(of_r, at_second(0.499999)), "b");
+  EXPECT_EQ(antenna_on_turn(of_r, at_second(0.5)), "a");
+  EXPECT_EQ(antenna_on_turn(of_r, at_second(-0.1)), "b");
 }
 
 TEST(PortCycles, LetReadersThatShareTimeTakeTurnsTogether) {
   const auto cycles = port_cycles(
       {antenna("r", "a", 0.2, AirSharing::kTime), antenna("q", "z", 0.2, AirSharing::kTime)});
   ASSERT_EQ(cycles.size(), 1U);
-  EXPECT_EQ(antenna_on_turn(cycles[0], at(0.1)), "a");
-  EXPECT_EQ(antenna_on_turn(cycles[0], at(0.3)), "z");
+  EXPECT_EQ(antenna_on_turn(cycles[0], at_second(0.1)), "a");
+  EXPECT_EQ(antenna_on_turn(cycles[0], at_second(0.3)), "z");
 }
 
 TEST(PortCycles, PassOverAntennasWithoutInventory) {
   AntennaParameters plain;
   plain.name = "plain";
   EXPECT_TRUE(port_cycles({plain}).empty());
-  EXPECT_FALSE(next_change({}, at(1.0)));
+  EXPECT_FALSE(next_change({}, at_second(1.0)));
 }
 
 TEST(NextTurn, IsNowWhileItLastsAndElseWhenItBegins) {
   const PortCycle cycle = port_cycles({antenna("r", "a", 0.2), antenna("r", "b", 0.3)}).front();
-  EXPECT_EQ(next_turn(cycle, "b", at(0.05)), at(0.2));
-  EXPECT_EQ(next_turn(cycle, "b", at(0.3)), at(0.3));
-  EXPECT_EQ(next_turn(cycle, "a", at(0.3)), at(0.5));
-  EXPECT_FALSE(next_turn(cycle, "c", at(0.3)));
+  EXPECT_EQ(next_turn(cycle, "b", at_second(0.05)), at_second(0.2));
+  EXPECT_EQ(next_turn(cycle, "b", at_second(0.3)), at_second(0.3));
+  EXPECT_EQ(next_turn(cycle, "a", at_second(0.3)), at_second(0.5));
+  EXPECT_FALSE(next_turn(cycle, "c", at_second(0.3)));
 }
 
 TEST(NextChange, IsTheFirstEndOfAnyTurn) {
   const auto cycles = port_cycles({antenna("r", "a", 0.2), antenna("r", "b", 0.3),
                                    antenna("q", "x", 0.15), antenna("q", "y", 0.15)});
-  EXPECT_EQ(next_change(cycles, at(0.0)), at(0.15));
-  EXPECT_EQ(next_change(cycles, at(0.15)), at(0.2));
-  EXPECT_EQ(next_change(cycles, at(0.2)), at(0.3));
+  EXPECT_EQ(next_change(cycles, at_second(0.0)), at_second(0.15));
+  EXPECT_EQ(next_change(cycles, at_second(0.15)), at_second(0.2));
+  EXPECT_EQ(next_change(cycles, at_second(0.2)), at_second(0.3));
 }
 
 std::vector<std::pair<std::size_t, double>> others(const std::vector<AntennaParameters>& all,
                                                    const AntennaParameters& of, double time_s) {
   std::vector<std::pair<std::size_t, double>> found;
-  for (const SendingAntenna& one : others_sending(all, of, at(time_s))) {
+  for (const SendingAntenna& one : others_sending(all, of, at_second(time_s))) {
     found.emplace_back(one.number, one.time_share);
   }
   return found;

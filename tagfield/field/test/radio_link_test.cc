@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-RadioWorld free_space() {
+RadioWorld empty_world() {
   Diagnostics diagnostics;
   return radio_world(Scene{}, {}, diagnostics);
 }
@@ -54,7 +54,7 @@ class PublishedRange : public testing::TestWithParam<RangeCase> {};
 
 TEST_P(PublishedRange, IsWhereTheChipGetsItsSensitivity) {
   const auto [frequency, eirp, range] = GetParam();
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   const RadioModel model = antenna(eirp, frequency);
   const TagModel kind = tag(2.0, -20.0);
   // The figures are for a polarization loss of 3 dB, which is 10 log10 2 here: 0.12 % of the range.
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(EtsiAndFcc, PublishedRange,
                                          RangeCase{915e6, 36.0, 14.66}));
 
 TEST(Reply, IsAsStrongAsTheBudgetOnPaperSays) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   const RadioModel model = antenna(35.15, 865.7e6);
   const TagModel kind = tag(2.0, -20.0);
   // Rounded to 0.1 dB, and for twice 3 dB of polarization loss instead of 20 log10 2.
@@ -78,7 +78,7 @@ TEST(Reply, IsAsStrongAsTheBudgetOnPaperSays) {
 }
 
 TEST(Reply, PhaseGrowsByTheRoundTrip) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   for (const auto& [frequency, slope] : {std::pair{865.7e6, 36.287}, std::pair{915e6, 38.354}}) {
     const RadioModel model = antenna(35.15, frequency);
     const auto phase = [&](double d) {
@@ -91,7 +91,7 @@ TEST(Reply, PhaseGrowsByTheRoundTrip) {
 
 TEST(Reply, WithoutEffectsHasThePapersMean) {
   // Eq. (5) with gain G is 40 log10(Gλ/(4πD)): a power of 40 log10 G over the plain link.
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   RadioModel model = antenna(0.0, 865.7e6);
   model.effects = no_effects();
   model.antenna = {};
@@ -110,7 +110,7 @@ TEST(Reply, WithoutEffectsHasThePapersMean) {
 }
 
 TEST(Doppler, IsTwiceTheRadialSpeedOverTheWavelength) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   const RadioModel model = antenna(35.15, 865.7e6);
   const RadioLink link = link_at(model, tag(2.0, -20.0), world, 3.0);
   const Vector3d nearer(1.5, 0.3, 0.0);
@@ -143,7 +143,7 @@ TEST(Doppler, IsThePhasesRateOfChangeAmongManyPaths) {
 }
 
 TEST(Receiver, OfItsOwnMakesTheProductOfTwoLinks) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   RadioModel model = antenna(35.15, 865.7e6);
   model.antenna.polarization = PolarizationKind::kLinear;  // The same towards both places.
   model.X_AR = from_translation({0.0, 1.0, 0.0});
@@ -210,7 +210,7 @@ TEST(MovingBodies, TakeOfEachPathWhatTheyTakeOfItsLegs) {
 }
 
 TEST(Diffuse, HasThePowerOfItsKFactor) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = empty_world();
   RadioModel model = antenna(35.15, 865.7e6);
   model.effects.diffuse = true;
   model.diffuse_k_db = 3.0;

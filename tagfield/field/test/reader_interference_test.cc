@@ -10,9 +10,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kFrequency = 866.3e6;
+constexpr double kChannel = 866.3e6;
 
-RadioWorld free_space() {
+RadioWorld open_space() {
   Diagnostics diagnostics;
   return radio_world(Scene{}, {}, diagnostics);
 }
@@ -33,15 +33,15 @@ OtherSender sender_at(const RadioModel& model, const RadioWorld& world, const Ri
 }
 
 TEST(ReceivedFrom, IsFriisBetweenTheAntennas) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = open_space();
   const RadioModel model = facing_model();
-  const RadioView view = view_from(model, world, {}, kFrequency, 1, 1);
+  const RadioView view = view_from(model, world, {}, kChannel, 1, 1);
   const RigidTransform towards = from_xyz_rpy({6.0, 0.0, 0.0}, {0.0, 0.0, kPi});
   const RigidTransform away = from_xyz_rpy({6.0, 0.0, 0.0}, {});
   std::vector<RadioPath> paths;
-  const double free_db = 20.0 * std::log10(wavelength(kFrequency) / (4.0 * kPi * 6.0));
+  const double free_db = 20.0 * std::log10(wavelength(kChannel) / (4.0 * kPi * 6.0));
   const auto received = [&](const RigidTransform& X_WA, double offset_hz, double time_share) {
-    return received_from(sender_at(model, world, X_WA, kFrequency + offset_hz, time_share), view,
+    return received_from(sender_at(model, world, X_WA, kChannel + offset_hz, time_share), view,
                          paths);
   };
   // Two right-circular antennas that face one another fit.
@@ -56,17 +56,17 @@ TEST(ReceivedFrom, IsFriisBetweenTheAntennas) {
 }
 
 TEST(PowerAtTag, IsTheForwardLinksFromTheSender) {
-  const RadioWorld world = free_space();
+  const RadioWorld world = open_space();
   const RadioModel model = facing_model();
   const auto kind = default_tag_model();
   const TagEnd tag{*kind, from_translation({2.0, 0.0, 0.0}), 7};
   std::vector<RadioPath> paths;
   const double power_dbm =
-      to_db(power_at_tag_mw(sender_at(model, world, {}, kFrequency), tag, paths));
+      to_db(power_at_tag_mw(sender_at(model, world, {}, kChannel), tag, paths));
   // Circular to linear takes 3.01 dB.
   EXPECT_NEAR(power_dbm,
               30.0 - 1.5 + 8.0 + kDipole_dbi - 3.0103 +
-                  20.0 * std::log10(wavelength(kFrequency) / (8.0 * kPi)),
+                  20.0 * std::log10(wavelength(kChannel) / (8.0 * kPi)),
               1e-3);
 }
 

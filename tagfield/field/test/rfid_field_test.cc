@@ -79,7 +79,7 @@ AntennaDue antenna_at(const Eigen::Vector3d& p_WA, const std::string& name = "ga
   return {antenna, from_translation(p_WA), std::nullopt};
 }
 
-RigidTransform at(double x, double y, double z) { return from_translation({x, y, z}); }
+RigidTransform at_place(double x, double y, double z) { return from_translation({x, y, z}); }
 
 FieldStep step_at(double seconds) {
   FieldStep step;
@@ -91,8 +91,9 @@ TEST(RfidField, TellsChangesBeforeUpdates) {
   LoggedField field;
   Log& log = *field.log;
   FieldStep step = step_at(0.1);
-  step.added = {{0, "A", "shelf::a", at(1.0, 0.0, 0.0)}, {1, "B", "shelf::b", at(2.0, 0.0, 0.0)}};
-  step.moved = {{1, at(3.0, 0.0, 0.0)}};
+  step.added = {{0, "A", "shelf::a", at_place(1.0, 0.0, 0.0)},
+                {1, "B", "shelf::b", at_place(2.0, 0.0, 0.0)}};
+  step.moved = {{1, at_place(3.0, 0.0, 0.0)}};
   step.due = {antenna_at({0.0, 0.0, 0.0})};
   step.antennas_removed = {"old"};
   field.step(step);
@@ -107,7 +108,7 @@ TEST(RfidField, ReadsAsReadTagDoes) {
   LoggedField field;
   Log& log = *field.log;
   FieldStep step = step_at(0.25);
-  step.added = {{0, "A", "a", at(1.0, 2.0, 2.0)}};
+  step.added = {{0, "A", "a", at_place(1.0, 2.0, 2.0)}};
   const AntennaDue due = antenna_at({0.0, 0.0, 0.0});
   step.due = {due};
   field.step(step);
@@ -121,8 +122,8 @@ TEST(RfidField, LeavesOutWhatIsNowhere) {
   LoggedField field;
   Log& log = *field.log;
   FieldStep step = step_at(0.1);
-  step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
-  step.moved = {{0, at(std::nan(""), 0.0, 0.0)}};
+  step.added = {{0, "A", "a", at_place(1.0, 0.0, 0.0)}};
+  step.moved = {{0, at_place(std::nan(""), 0.0, 0.0)}};
   step.due = {antenna_at({std::nan(""), 0.0, 0.0}, "lost"), antenna_at({0.0, 0.0, 0.0})};
   field.step(step);
   EXPECT_EQ(log.events,
@@ -133,22 +134,22 @@ TEST(RfidField, LeavesOutWhatIsNowhere) {
 TEST(RfidField, RefusesTagsThatAreThereOrNot) {
   LoggedField field;
   FieldStep step = step_at(0.1);
-  step.added = {{0, "A", "a", at(1.0, 0.0, 0.0)}};
+  step.added = {{0, "A", "a", at_place(1.0, 0.0, 0.0)}};
   field.step(step);
   FieldStep again = step_at(0.2);
-  again.added = {{1, "A", "a", at(1.0, 0.0, 0.0)}};
+  again.added = {{1, "A", "a", at_place(1.0, 0.0, 0.0)}};
   EXPECT_TRUE(contains(error_of([&] { field.field.step(again); }), "'A'"));
-  again.added = {{0, "B", "b", at(1.0, 0.0, 0.0)}};
+  again.added = {{0, "B", "b", at_place(1.0, 0.0, 0.0)}};
   EXPECT_TRUE(contains(error_of([&] { field.field.step(again); }), "number 0"));
   FieldStep gone = step_at(0.3);
   gone.removed = {7};
   EXPECT_TRUE(contains(error_of([&] { field.field.step(gone); }), "number 7"));
 }
 
-/// A hall with one metal wall at x = 2 m.
+/// A hall with one metal wall at_place x = 2 m.
 std::shared_ptr<const FieldWorld> walled_world() {
   auto world = std::make_shared<FieldWorld>();
-  world->scene.collisions = {{"wall::link::box", Box{{0.1, 20.0, 20.0}}, at(2.0, 0.0, 0.0)}};
+  world->scene.collisions = {{"wall::link::box", Box{{0.1, 20.0, 20.0}}, at_place(2.0, 0.0, 0.0)}};
   world->materials.rules = {{"wall", find_material(known_materials(), "metal"), {}}};
   return world;
 }
@@ -160,7 +161,7 @@ AntennaDue physical_antenna(const std::string& name, const std::vector<RawParame
   antenna->parameters.model =
       radio_model_from(PropagationModel::kLinkBudget, settings, {}, diagnostics);
   antenna->seed = 5;
-  return {antenna, at(0.0, 0.0, 0.0), std::nullopt};
+  return {antenna, at_place(0.0, 0.0, 0.0), std::nullopt};
 }
 
 TEST(RfidField, LetsWavesMeetTheWorld) {
@@ -168,7 +169,8 @@ TEST(RfidField, LetsWavesMeetTheWorld) {
   Log& log = *field.log;
   FieldStep step = step_at(0.0);
   step.due = {physical_antenna("gate", {})};
-  step.added = {{0, "near", "", at(1.5, 0.0, 0.0)}, {1, "behind", "", at(3.0, 0.0, 0.0)}};
+  step.added = {{0, "near", "", at_place(1.5, 0.0, 0.0)},
+                {1, "behind", "", at_place(3.0, 0.0, 0.0)}};
   field.step(step);
   EXPECT_EQ(log.reads.at("gate").size(), 2U);
   FieldStep walled = step_at(0.1);
@@ -184,7 +186,7 @@ TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
   LoggedField field;
   FieldStep step = step_at(0.0);
   auto broken = std::make_shared<FieldWorld>();
-  broken->scene.collisions = {{"wall::link::box", Box{{1.0, 1.0, 1.0}}, at(1e12, 0.0, 0.0)}};
+  broken->scene.collisions = {{"wall::link::box", Box{{1.0, 1.0, 1.0}}, at_place(1e12, 0.0, 0.0)}};
   step.world = broken;
   field.step(step);
   const std::vector<std::string> warnings = field.field.take_warnings();
@@ -193,14 +195,14 @@ TEST(RfidField, KeepsTheWorldWhereTheNextIsBroken) {
   EXPECT_TRUE(field.field.take_warnings().empty());
 }
 
-/// Two seconds of inventory among three tags, beginning at 0; the reads of all updates.
+/// Two seconds of inventory among three tags, beginning at_place 0; the reads of all updates.
 std::vector<TagRead> inventory_run(LoggedField& field, const AntennaDue& antenna) {
   const std::size_t before = field.log->all.size();
   for (int n = 0; n <= 30; ++n) {
     FieldStep step = step_at(n / 15.0);
     step.due = {antenna};
     for (std::uint32_t number = 0; number < 3; ++number) {
-      step.moved.push_back({number, at(1.0 + number, 0.01 * n, 0.0)});
+      step.moved.push_back({number, at_place(1.0 + number, 0.01 * n, 0.0)});
     }
     field.step(step);
   }
@@ -214,7 +216,9 @@ TEST(RfidField, ReadsTheSameAgainWhenTimeBeginsAnew) {
   const AntennaDue antenna =
       physical_antenna("gate", {{"inventory", "gen2", {}}, {"target", "alternate", {}}});
   FieldStep begin = step_at(0.0);
-  begin.added = {{0, "a", "", at(1, 0, 0)}, {1, "b", "", at(2, 0, 0)}, {2, "c", "", at(3, 0, 0)}};
+  begin.added = {{0, "a", "", at_place(1, 0, 0)},
+                 {1, "b", "", at_place(2, 0, 0)},
+                 {2, "c", "", at_place(3, 0, 0)}};
   field.step(begin);
   const std::vector<TagRead> first = inventory_run(field, antenna);
   const std::vector<TagRead> second = inventory_run(field, antenna);
@@ -244,7 +248,7 @@ RC_GTEST_PROP(RfidField, ReadsExactlyTheTagsThatAreThere, ()) {
     FieldStep step = step_at(n * 0.1);
     for (std::uint32_t number = 0; number < 12; ++number) {
       const int what = *rc::gen::inRange(0, 4);
-      const RigidTransform place = at(0.1 * number, 0.1 * n, 0.0);
+      const RigidTransform place = at_place(0.1 * number, 0.1 * n, 0.0);
       if (what == 0 && present.count(number) != 0) {
         step.removed.push_back(number);
         present.erase(number);

@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-Time at(std::int64_t nanos) { return Time(Duration(nanos)); }
+Time at_nanos(std::int64_t nanos) { return Time(Duration(nanos)); }
 
 /// Writes down what it is told.
 struct Heard final : ReadListener, PoseListener, TruthListener {
@@ -46,7 +46,7 @@ struct Told {
 
 TagRead read_at(std::int64_t nanos, const std::string& tag) {
   TagRead read;
-  read.stamp = at(nanos);
+  read.stamp = at_nanos(nanos);
   read.tag = tag;
   return read;
 }
@@ -60,12 +60,12 @@ std::shared_ptr<const AntennaInfo> antenna(const std::string& name) {
 TEST(Telling, KeepsBackReadsThatAreLaterAndPutsThemInOrder) {
   Told told;
   told.telling.add(read_at(20, "late"), 1.0);
-  told.telling.add(antenna("a"), at(30), {}, std::nullopt);
+  told.telling.add(antenna("a"), at_nanos(30), {}, std::nullopt);
   told.telling.add(read_at(10, "early"), 2.0);
-  told.telling.tell(at(15));
+  told.telling.tell(at_nanos(15));
   EXPECT_EQ(told.heard->words,
             (std::vector<std::string>{"distance early", "read early", "truth a", "update a"}));
-  told.telling.add(antenna("b"), at(30), {}, RigidTransform{});
+  told.telling.add(antenna("b"), at_nanos(30), {}, RigidTransform{});
   told.telling.tell(Time::max());
   EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance early", "read early", "truth a",
                                                          "update a", "distance late", "read late",
@@ -103,7 +103,7 @@ RC_GTEST_PROP(Telling, IsAStableSort, ()) {
       told.telling.add(expected.back(), 1.0);
     }
     told_until += *rc::gen::inRange(0, 20);
-    told.telling.tell(at(told_until));
+    told.telling.tell(at_nanos(told_until));
   }
   told.telling.tell(Time::max());
   std::stable_sort(expected.begin(), expected.end(),

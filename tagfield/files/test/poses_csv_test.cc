@@ -12,7 +12,7 @@
 namespace tagfield {
 namespace {
 
-const char* const kHeader = "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n";
+const char* const kPosesHeader = "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
 std::vector<AntennaPose> poses_of(const std::string& text, const std::string& who = "antenna") {
   const TemporaryFolder folder;
@@ -30,8 +30,9 @@ AntennaPose any_pose() {
 
 TEST(PosesToCsv, WritesADocumentedRow) {
   const AntennaPose pose = {Time(Duration(66'666'667)), "a", from_translation({1.0, -2.5, 0.25})};
-  EXPECT_EQ(poses_to_csv({pose}), std::string(kHeader) + "0.066666667,a,1,-2.5,0.25,0,0,0,1\n");
-  EXPECT_EQ(poses_to_csv({}), kHeader);
+  EXPECT_EQ(poses_to_csv({pose}),
+            std::string(kPosesHeader) + "0.066666667,a,1,-2.5,0.25,0,0,0,1\n");
+  EXPECT_EQ(poses_to_csv({}), kPosesHeader);
 }
 
 TEST(PosesCsv, KeepsCovariancesWhereTheyAreTold) {
@@ -68,22 +69,22 @@ RC_GTEST_PROP(PosesCsv, ReadsBackWhatItWrote, ()) {
 }
 
 TEST(ReadPosesCsv, TakesQuaternionsAsXyzw) {
-  const auto poses = poses_of(std::string(kHeader) + "1,a,0,0,0,0,0,1,0\n");
+  const auto poses = poses_of(std::string(kPosesHeader) + "1,a,0,0,0,0,0,1,0\n");
   ASSERT_EQ(poses.size(), 1u);
   EXPECT_EQ(poses[0].X_WA.rotation.z(), 1.0);
   EXPECT_NEAR(std::abs(yaw_of(poses[0].X_WA.rotation)), std::acos(-1.0), 1e-15);
 }
 
 TEST(ReadPosesCsv, NormalizesRoundedQuaternions) {
-  const auto poses = poses_of(std::string(kHeader) + "1,a,0,0,0,0,0,0.71,0.71\n");
+  const auto poses = poses_of(std::string(kPosesHeader) + "1,a,0,0,0,0,0,0.71,0.71\n");
   EXPECT_NEAR(poses.at(0).X_WA.rotation.norm(), 1.0, 1e-15);
-  EXPECT_NO_THROW(poses_of(std::string(kHeader) + "1,a,0,0,0,0,0,0,1.099\n"));
-  EXPECT_NO_THROW(poses_of(std::string(kHeader) + "1,a,0,0,0,0,0,0,-0.901\n"));
+  EXPECT_NO_THROW(poses_of(std::string(kPosesHeader) + "1,a,0,0,0,0,0,0,1.099\n"));
+  EXPECT_NO_THROW(poses_of(std::string(kPosesHeader) + "1,a,0,0,0,0,0,0,-0.901\n"));
 }
 
 TEST(ReadPosesCsv, RefusesQuaternionsFarFromUnit) {
   for (const char* q : {"0,0,0,0", "0,0,0,1.11", "0,0,0,0.89", "1,1,1,1", "1e200,0,0,0"}) {
-    const std::string text = std::string(kHeader) + "1,a,0,0,0,0,0,0,1\n2,a,0,0,0," + q + "\n";
+    const std::string text = std::string(kPosesHeader) + "1,a,0,0,0,0,0,0,1\n2,a,0,0,0," + q + "\n";
     const std::string message = error_of([&] { poses_of(text); });
     EXPECT_TRUE(contains(message, "p.csv:3: qx,qy,qz,qw has length")) << q << ": " << message;
   }
@@ -91,8 +92,8 @@ TEST(ReadPosesCsv, RefusesQuaternionsFarFromUnit) {
 
 TEST(ReadPosesCsv, NamesColumnAndLineOfBadInput) {
   EXPECT_TRUE(contains(error_of([] { poses_of("stamp_s,antenna\n"); }), "no column 'x_m'"));
-  EXPECT_TRUE(contains(error_of([] { poses_of(kHeader, "robot"); }), "no column 'robot'"));
-  const std::string header = kHeader;
+  EXPECT_TRUE(contains(error_of([] { poses_of(kPosesHeader, "robot"); }), "no column 'robot'"));
+  const std::string header = kPosesHeader;
   EXPECT_TRUE(contains(error_of([&] { poses_of(header + "1,a,x,0,0,0,0,0,1\n"); }), ":2: x_m is"));
   EXPECT_TRUE(contains(error_of([&] { poses_of(header + "1,a,0,nan,0,0,0,0,1\n"); }), "y_m is"));
   EXPECT_TRUE(contains(error_of([&] { poses_of(header + "1,,0,0,0,0,0,0,1\n"); }), "is empty"));

@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-const char* const kHeader = "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n";
+const char* const kReadsHeader = "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n";
 
 std::vector<TagRead> reads_of(const std::string& text) {
   const TemporaryFolder folder;
@@ -21,7 +21,7 @@ std::vector<TagRead> reads_of(const std::string& text) {
 }
 
 TagRead read_with(const std::string& phase) {
-  return reads_of(std::string(kHeader) + "1,r,a,t,865700000," + phase + ",-60\n").at(0);
+  return reads_of(std::string(kReadsHeader) + "1,r,a,t,865700000," + phase + ",-60\n").at(0);
 }
 
 TagRead any_read() {
@@ -39,8 +39,8 @@ TagRead any_read() {
 TEST(ReadsToCsv, WritesADocumentedRow) {
   const TagRead read = {Time(Duration(66'666'667)), "r", "a", "t,1", 865.7e6, 1.25, -62.0};
   EXPECT_EQ(reads_to_csv({read}),
-            std::string(kHeader) + "0.066666667,r,a,\"t,1\",865700000,1.250000,-62\n");
-  EXPECT_EQ(reads_to_csv({}), kHeader);
+            std::string(kReadsHeader) + "0.066666667,r,a,\"t,1\",865700000,1.250000,-62\n");
+  EXPECT_EQ(reads_to_csv({}), kReadsHeader);
 }
 
 RC_GTEST_PROP(ReadsCsv, ReadsBackWhatItWrote, ()) {
@@ -94,7 +94,7 @@ TEST(ReadReadsCsv, NamesColumnAndLineOfBadInput) {
       {"never,r,a,t,9e8,1,-60", "stamp_s: 'never'"},
   };
   for (const auto& [row, complaint] : bad) {
-    const std::string text = std::string(kHeader) + "1,r,a,t,9e8,1,-60\n" + row + "\n";
+    const std::string text = std::string(kReadsHeader) + "1,r,a,t,9e8,1,-60\n" + row + "\n";
     const std::string message = error_of([&] { reads_of(text); });
     EXPECT_TRUE(contains(message, "r.csv:3: " + complaint)) << message;
   }

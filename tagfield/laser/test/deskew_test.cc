@@ -8,26 +8,10 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/laser/simulated_laser.h"
+#include "tagfield/laser/test/plain_room.h"
 
 namespace tagfield {
 namespace {
-
-/// A room from −6 m to 4 m along x and −3 m to 5 m along y.
-Scene room() {
-  Scene scene;
-  scene.collisions = {{"room", Box{{10.0, 8.0, 3.0}}, from_translation({-1.0, 1.0, 1.0})}};
-  return scene;
-}
-
-/// Distance from a point in the room to its wall.
-double to_wall(const Eigen::Vector2d& p, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  const double inf = std::numeric_limits<double>::infinity();
-  const double x = c > 0.0 ? (4.0 - p.x()) / c : (c < 0.0 ? (-6.0 - p.x()) / c : inf);
-  const double y = s > 0.0 ? (5.0 - p.y()) / s : (s < 0.0 ? (-3.0 - p.y()) / s : inf);
-  return std::min(x, y);
-}
 
 /// A robot on an arc, whose odometry has another origin than the world.
 struct Motion {

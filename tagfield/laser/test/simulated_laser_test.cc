@@ -9,32 +9,10 @@
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/statistics.h"
 #include "tagfield/base/units.h"
+#include "tagfield/laser/test/plain_room.h"
 
 namespace tagfield {
 namespace {
-
-/// A room from −6 m to 4 m along x and −3 m to 5 m along y, seen from inside.
-constexpr double kWest = -6.0;
-constexpr double kEast = 4.0;
-constexpr double kSouth = -3.0;
-constexpr double kNorth = 5.0;
-
-Scene room() {
-  Scene scene;
-  scene.collisions = {{"room", Box{{kEast - kWest, kNorth - kSouth, 3.0}},
-                       from_translation({0.5 * (kWest + kEast), 0.5 * (kSouth + kNorth), 1.0})}};
-  return scene;
-}
-
-/// Distance from a point in the room to its wall.
-double to_wall(const Eigen::Vector2d& p, double angle) {
-  const double inf = std::numeric_limits<double>::infinity();
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  const double x = c > 0.0 ? (kEast - p.x()) / c : (c < 0.0 ? (kWest - p.x()) / c : inf);
-  const double y = s > 0.0 ? (kNorth - p.y()) / s : (s < 0.0 ? (kSouth - p.y()) / s : inf);
-  return std::min(x, y);
-}
 
 LaserParameters exact_laser() {
   LaserParameters laser;
@@ -219,7 +197,7 @@ TEST(SimulatedLaser, StampsFollowTheRate) {
 }
 
 /// A robot that turns and drives in the room.
-struct Motion {
+struct LaserMotion {
   double speed_m_s = 0.0;
   double turn_rad_s = 0.0;
   [[nodiscard]] RigidTransform operator()(Time time) const {
@@ -231,7 +209,7 @@ struct Motion {
 TEST(SimulatedLaser, EachBeamLeavesFromWhereTheScannerIsThen) {
   LaserParameters laser = exact_laser();
   laser.sweep_s = 0.025;
-  const Motion motion{1.5, 3.0};
+  const LaserMotion motion{1.5, 3.0};
   const std::int64_t number = 7;
   const LaserScan scan = simulate_scan(RayScene(room()), laser, number, motion, nullptr, 1, 2);
   EXPECT_EQ(scan.stamp, scan_stamp(laser, number));

@@ -17,7 +17,7 @@ using made::Rng;
 constexpr int kTags = 40;
 
 /// Tags that move at one velocity, or are at rest; true poses, which nobody told.
-made::Hall hall_of(const Eigen::Vector3d& velocity, Rng& rng) {
+made::Hall hall_with(const Eigen::Vector3d& velocity, Rng& rng) {
   const made::Path path = made::s_curve(8.0, 0.02);
   made::Hall hall = made::hall(path, path, kTags, {}, rng);
   hall.problem.pose_error.reset();
@@ -51,7 +51,7 @@ LocalizationResult judged(const char* method, const made::Hall& hall, Diagnostic
   return result;
 }
 
-std::size_t located(const LocalizationResult& result) {
+std::size_t located_tags(const LocalizationResult& result) {
   return static_cast<std::size_t>(
       std::count_if(result.estimates.begin(), result.estimates.end(),
                     [](const auto& estimate) { return estimate.verdict == Verdict::kLocated; }));
@@ -60,7 +60,7 @@ std::size_t located(const LocalizationResult& result) {
 TEST(AtRest, TellsAVelocityAsWellAsItSays) {
   Rng rng(1);
   const Eigen::Vector3d velocity(0.02, -0.01, 0.0);
-  const made::Hall hall = hall_of(velocity, rng);
+  const made::Hall hall = hall_with(velocity, rng);
   double squares = 0.0;
   for (const auto& [tag, truth] : hall.truth) {
     const DepartureFit fit = fit_of(hall, tag, Departure::kMotion);
@@ -77,7 +77,7 @@ TEST(AtRest, TellsAVelocityAsWellAsItSays) {
 TEST(AtRest, TellsHowLateStampsAre) {
   Rng rng(2);
   for (const double late_s : {-0.5, 0.2}) {
-    made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+    made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
     make_late(hall.problem, late_s);
     double squares = 0.0;
     for (const auto& [tag, truth] : hall.truth) {
@@ -91,14 +91,14 @@ TEST(AtRest, TellsHowLateStampsAre) {
 TEST(AtRest, TagsAtRestStay) {
   Rng rng(3);
   for (const bool reflected : {false, true}) {
-    made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+    made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
     if (reflected) made::reflect(made::walls(0.5), hall);
     for (const char* method : {"ml", "sar", "robust"}) {
       Diagnostics diagnostics;
-      const std::size_t before =
-          located(find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics));
+      const std::size_t before = located_tags(
+          find_method(built_in_methods(), method).locate(hall.problem, 2, diagnostics));
       EXPECT_GT(before, 0U) << method << reflected;
-      const std::size_t after = located(judged(method, hall, diagnostics));
+      const std::size_t after = located_tags(judged(method, hall, diagnostics));
       // Of wrong places in front of mirrors some are refused.
       EXPECT_GE(after, reflected ? before - before / 10 : before) << method << reflected;
     }
@@ -107,11 +107,11 @@ TEST(AtRest, TagsAtRestStay) {
 
 TEST(AtRest, TagsThatMoveAreRefused) {
   Rng rng(4);
-  made::Hall hall = hall_of({0.05, 0.03, 0.0}, rng);
+  made::Hall hall = hall_with({0.05, 0.03, 0.0}, rng);
   hall.problem.pose_error = PoseErrorModel{};  // Told: none. Else it might be that.
   for (const char* method : {"hyperbola", "ml", "sar", "robust", "trilateration"}) {
     Diagnostics diagnostics;
-    EXPECT_EQ(located(judged(method, hall, diagnostics)), 0U) << method;
+    EXPECT_EQ(located_tags(judged(method, hall, diagnostics)), 0U) << method;
     EXPECT_TRUE(diagnostics.warnings().empty()) << method;
   }
 }
@@ -127,17 +127,17 @@ TEST(AtRest, PosesThatMayBeOffAreNoMotion) {
   hall.problem.pose_error.reset();
   Diagnostics diagnostics;
   const std::size_t before =
-      located(find_method(built_in_methods(), "ml").locate(hall.problem, 2, diagnostics));
-  EXPECT_EQ(located(judged("ml", hall, diagnostics)), before);
+      located_tags(find_method(built_in_methods(), "ml").locate(hall.problem, 2, diagnostics));
+  EXPECT_EQ(located_tags(judged("ml", hall, diagnostics)), before);
 }
 
 TEST(AtRest, SaysThatStampsAreLate) {
   Rng rng(5);
-  made::Hall hall = hall_of(Eigen::Vector3d::Zero(), rng);
+  made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
   make_late(hall.problem, 1.0);
   Diagnostics diagnostics;
   const LocalizationResult result = judged("ml", hall, diagnostics);
-  EXPECT_EQ(located(result), 0U);
+  EXPECT_EQ(located_tags(result), 0U);
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
   EXPECT_NE(diagnostics.warnings().front().find("1.00 s late"), std::string::npos)
       << diagnostics.warnings().front();

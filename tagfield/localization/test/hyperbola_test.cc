@@ -15,12 +15,12 @@ TagEstimate locate(const SamplesOfTag& samples, double height,
   return locate_by_hyperbolae("t", samples, height, options, {});
 }
 
-Tally run(const Study& study, const MakePath& make, const HyperbolaOptions& options = {}) {
+Tally tally_of(const Study& study, const MakePath& make, const HyperbolaOptions& options = {}) {
   return run(hyperbola_method(options), study, make);
 }
 
 TEST(Hyperbola, MeetsTheContractOnACurvedPath) {
-  const Tally tally = run({}, make_aisles);
+  const Tally tally = tally_of({}, make_aisles);
   EXPECT_EQ(tally.errors.size(), 300u);
   EXPECT_LT(tally.mean(), 0.004);       // contract: 15 mm
   EXPECT_LT(tally.part(0.95), 0.015);   // contract: 50 mm
@@ -31,7 +31,7 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
   Study study;
   study.lowest = 0.75;
   study.highest = 0.95;
-  const Tally tally = run(study, make_aisles);
+  const Tally tally = tally_of(study, make_aisles);
   EXPECT_EQ(tally.errors.size(), 300u);
   EXPECT_LT(tally.mean(), 0.005);  // contract: 20 mm
   EXPECT_LT(tally.errors.back(), 0.1);
@@ -40,16 +40,16 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
 TEST(Hyperbola, WithoutRefinementTheBestIntersectionIsGoodToo) {
   HyperbolaOptions options;
   options.refine = false;
-  const Tally tally = run({}, make_aisles, options);
+  const Tally tally = tally_of({}, make_aisles, options);
   EXPECT_GE(tally.errors.size(), 298u);
   EXPECT_LT(tally.mean(), 0.015);
-  EXPECT_GT(tally.mean(), run({}, make_aisles).mean());
+  EXPECT_GT(tally.mean(), tally_of({}, make_aisles).mean());
 }
 
 TEST(Hyperbola, APoseErrorOfACentimetreCostsCentimetres) {
   Study study;
   study.noise.pose_m = 0.01;
-  const Tally tally = run(study, make_aisles);
+  const Tally tally = tally_of(study, make_aisles);
   EXPECT_GE(tally.errors.size(), 290u);
   EXPECT_GT(tally.mean(), 0.010);
   EXPECT_LT(tally.mean(), 0.060);
@@ -59,7 +59,7 @@ TEST(Hyperbola, NoConfidentWrongAnswerOnAnyShape) {
   Study study;
   study.seeds = 110;
   study.farthest = 6.5;
-  const Tally tally = run(study, make_any_shape);
+  const Tally tally = tally_of(study, make_any_shape);
   EXPECT_GT(tally.errors.size(), 1050u);
   EXPECT_EQ(tally.worse_than(0.3), 0u);
   EXPECT_EQ(tally.ambiguous_with_truth, tally.ambiguous);
@@ -69,12 +69,12 @@ TEST(Hyperbola, LostReadsAndNoiseCostAccuracyNotTruth) {
   Study lossy;
   lossy.seeds = 10;
   lossy.noise.lost = 0.3;
-  EXPECT_LT(run(lossy, make_aisles).part(1.0), 0.1);
+  EXPECT_LT(tally_of(lossy, make_aisles).part(1.0), 0.1);
   for (const double sigma : {0.3, 0.5}) {
     Study noisy;
     noisy.seeds = 10;
     noisy.noise.phase_rad = sigma;
-    const Tally tally = run(noisy, make_aisles);
+    const Tally tally = tally_of(noisy, make_aisles);
     EXPECT_LT(tally.mean(), 0.02) << sigma;
     EXPECT_EQ(tally.worse_than(0.3), 0u) << sigma;
   }
@@ -84,7 +84,7 @@ TEST(Hyperbola, AnySpeedWillDo) {
   for (const double speed : {0.1, 0.5, 0.8}) {
     Study study;
     study.seeds = 4;
-    const Tally tally = run(study, [=](Rng&) { return aisles(speed / 15.0); });
+    const Tally tally = tally_of(study, [=](Rng&) { return aisles(speed / 15.0); });
     EXPECT_EQ(tally.errors.size(), 40u) << speed;
     EXPECT_LT(tally.errors.back(), 0.1) << speed;
   }
@@ -97,7 +97,7 @@ TEST(Hyperbola, AStraightPathLeavesTheMirrorImage) {
   for (const double jitter : {0.0, 0.003, 0.01}) {
     study.noise.pose_m = jitter;
     study.noise.pose_time = 0.0;
-    const Tally tally = run(study, make_straight);
+    const Tally tally = tally_of(study, make_straight);
     EXPECT_EQ(tally.ambiguous, 300) << jitter;
     EXPECT_EQ(tally.ambiguous_with_truth, 300) << jitter;
   }
@@ -108,7 +108,7 @@ TEST(Hyperbola, AStraightPathWithADriftingPoseIsAmbiguousToo) {
   study.nearest = 0.5;
   study.farthest = 5.0;
   study.noise.pose_m = 0.01;
-  const Tally tally = run(study, make_straight);
+  const Tally tally = tally_of(study, make_straight);
   EXPECT_EQ(tally.errors.size(), 0u);
   EXPECT_GE(tally.ambiguous_with_truth, 270);
 }
@@ -130,7 +130,7 @@ TEST(Hyperbola, ATurnTellsTheMirrorImagesApart) {
   Study study;
   study.seeds = 10;
   study.nearest = 0.5;
-  const Tally tally = run(study, [](Rng&) { return l_turn(4.0, 2.0, 0.02); });
+  const Tally tally = tally_of(study, [](Rng&) { return l_turn(4.0, 2.0, 0.02); });
   EXPECT_EQ(tally.errors.size(), 100u);
   EXPECT_LT(tally.errors.back(), 0.3);
 }
@@ -164,7 +164,7 @@ TEST(Hyperbola, AnAntennaThatAlsoMovesUpAndDownLocates) {
   Study study;
   study.seeds = 5;
   study.highest = 1.5;
-  const Tally tally = run(study, [](Rng&) {
+  const Tally tally = tally_of(study, [](Rng&) {
     Path path = aisles(0.02);
     for (std::size_t i = 0; i < path.size(); ++i) {
       path[i].z() += 0.75 - 0.75 * std::cos(0.02 * static_cast<double>(i));

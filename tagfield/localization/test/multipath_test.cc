@@ -40,7 +40,7 @@ TraceReplies known(const std::vector<Mirror>& mirrors) {
   };
 }
 
-struct Study {
+struct TracedStudy {
   double pose_m = 0.0;
   double believed_gain = 0.5;  ///< Of the walls; truly 0.5.
   bool half_turns = false;
@@ -54,7 +54,7 @@ std::size_t about_the_world(const Diagnostics& diagnostics) {
   }));
 }
 
-Tally with(const Method& method, const Study& study, std::size_t* warnings = nullptr) {
+Tally with(const Method& method, const TracedStudy& study, std::size_t* warnings = nullptr) {
   Tally tally;
   for (const unsigned seed : {1U, 2U}) {
     Noise noise;

@@ -12,19 +12,19 @@
 namespace tagfield {
 namespace {
 
-using Rng = std::mt19937;
+using Draws = std::mt19937;
 
-double uniform(Rng& rng, double from, double to) {
+double between(Draws& rng, double from, double to) {
   return std::uniform_real_distribution<double>(from, to)(rng);
 }
 
 /// Four antennas at rest that read a tag `reads` times on each of 20 carriers, the phase that
 /// `phase` says, of the number of the read and the carrier's mean.
-SamplesOfTag at_rest(int reads, Rng& rng, const std::function<double(int, double)>& phase) {
+SamplesOfTag at_rest(int reads, Draws& rng, const std::function<double(int, double)>& phase) {
   SamplesOfTag samples;
   for (int antenna = 0; antenna < 4; ++antenna) {
     for (int channel = 0; channel < 20; ++channel) {
-      const double mean = uniform(rng, 0.0, kTwoPi);
+      const double mean = between(rng, 0.0, kTwoPi);
       for (int i = 0; i < reads; ++i) {
         PhaseSample sample;
         sample.stamp = time_from_seconds(channel + 0.01 * i);
@@ -40,10 +40,10 @@ SamplesOfTag at_rest(int reads, Rng& rng, const std::function<double(int, double
 
 // Brute force: every way to put five phases into two groups.
 TEST(PhaseGroups, TheScatterIsTheLeastOfAllDivisions) {
-  Rng rng(1);
+  Draws rng(1);
   for (int trial = 0; trial < 100; ++trial) {
     std::vector<double> phases;
-    for (int i = 0; i < 6; ++i) phases.push_back(uniform(rng, 0.0, kTwoPi));
+    for (int i = 0; i < 6; ++i) phases.push_back(between(rng, 0.0, kTwoPi));
     double least = 1e9;
     for (unsigned turns = 0; turns < 64; ++turns) {  // Each phase as it is, or a turn further.
       for (unsigned group = 0; group < 64; ++group) {
@@ -67,7 +67,7 @@ TEST(PhaseGroups, TheScatterIsTheLeastOfAllDivisions) {
 }
 
 TEST(PhaseGroups, NoiseOutliersAndRandomPhasesAreOneTag) {
-  Rng rng(2);
+  Draws rng(2);
   std::normal_distribution<double> normal;
   for (const int reads : {4, 5, 8, 40}) {
     for (const double sigma : {0.02, 0.1, 0.6}) {
@@ -78,14 +78,14 @@ TEST(PhaseGroups, NoiseOutliersAndRandomPhasesAreOneTag) {
     }
     EXPECT_LT(*group_ratio(at_rest(reads, rng,
                                    [&](int, double mean) {
-                                     return uniform(rng, 0.0, 1.0) < 0.05
-                                                ? uniform(rng, 0.0, kTwoPi)
+                                     return between(rng, 0.0, 1.0) < 0.05
+                                                ? between(rng, 0.0, kTwoPi)
                                                 : mean + 0.1 * normal(rng);
                                    })),
               6.0)
         << reads;
     EXPECT_LT(
-        *group_ratio(at_rest(reads, rng, [&](int, double) { return uniform(rng, 0.0, kTwoPi); })),
+        *group_ratio(at_rest(reads, rng, [&](int, double) { return between(rng, 0.0, kTwoPi); })),
         6.0)
         << reads;
   }
@@ -93,13 +93,13 @@ TEST(PhaseGroups, NoiseOutliersAndRandomPhasesAreOneTag) {
 }
 
 TEST(PhaseGroups, TwoTagsAreTwoGroups) {
-  Rng rng(3);
+  Draws rng(3);
   std::normal_distribution<double> normal;
   for (const int reads : {4, 8, 40}) {
     for (const double sigma : {0.05, 0.2}) {
       double other = 0.0;
       const auto ratio = group_ratio(at_rest(reads, rng, [&](int i, double mean) {
-        if (i == 0) other = uniform(rng, 0.0, kTwoPi);
+        if (i == 0) other = between(rng, 0.0, kTwoPi);
         return (i % 2 == 0 ? mean : other) + sigma * normal(rng);
       }));
       EXPECT_GT(*ratio, 16.0) << reads << " reads, " << sigma;
@@ -108,7 +108,7 @@ TEST(PhaseGroups, TwoTagsAreTwoGroups) {
 }
 
 TEST(PhaseGroups, FewReadsOrAMovingAntennaSayNothing) {
-  Rng rng(4);
+  Draws rng(4);
   EXPECT_FALSE(group_ratio(at_rest(3, rng, [](int, double mean) { return mean; })));
   SamplesOfTag moving = at_rest(8, rng, [](int, double mean) { return mean; });
   for (auto& [antenna, series] : moving) {

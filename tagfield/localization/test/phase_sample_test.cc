@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TagRead read_at(double time, double phase = 1.0, const std::string& antenna = "a",
+TagRead read_of(double time, double phase = 1.0, const std::string& antenna = "a",
                 const std::string& tag = "t") {
   return {time_from_seconds(time), "r", antenna, tag, 865.7e6, phase, -50.0};
 }
@@ -28,7 +28,7 @@ SamplesByTag join(const std::vector<TagRead>& reads, const std::vector<AntennaPo
 TEST(Join, InterpolatesThePoseAtTheReadsStamp) {
   Diagnostics diagnostics;
   const auto joined =
-      join({read_at(10.1, 2.5)}, {pose_at_x(10.0, 1.0), pose_at_x(10.4, 3.0)}, diagnostics);
+      join({read_of(10.1, 2.5)}, {pose_at_x(10.0, 1.0), pose_at_x(10.4, 3.0)}, diagnostics);
   const auto& samples = joined.at("t").at("a");
   ASSERT_EQ(samples.size(), 1u);
   EXPECT_NEAR(samples[0].p_WA.x(), 1.5, 1e-12);
@@ -40,7 +40,7 @@ TEST(Join, InterpolatesThePoseAtTheReadsStamp) {
 
 TEST(Join, TakesReadsAndPosesInAnyOrderAndUnixTimes) {
   Diagnostics diagnostics;
-  const auto joined = join({read_at(1.7e9 + 0.3), read_at(1.7e9 + 0.1)},
+  const auto joined = join({read_of(1.7e9 + 0.3), read_of(1.7e9 + 0.1)},
                            {pose_at_x(1.7e9 + 0.4, 4.0), pose_at_x(1.7e9, 0.0)}, diagnostics);
   const auto& samples = joined.at("t").at("a");
   ASSERT_EQ(samples.size(), 2u);
@@ -50,7 +50,7 @@ TEST(Join, TakesReadsAndPosesInAnyOrderAndUnixTimes) {
 
 TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
   Diagnostics diagnostics;
-  const auto joined = join({read_at(0.9), read_at(1.0), read_at(2.0), read_at(3.1)},
+  const auto joined = join({read_of(0.9), read_of(1.0), read_of(2.0), read_of(3.1)},
                            {pose_at_x(1.0, 0.0), pose_at_x(3.0, 1.0)}, diagnostics);
   EXPECT_EQ(joined.at("t").at("a").size(), 1u);  // that at 1.0: 2.0 lies in a gap of 2 s
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
@@ -63,7 +63,7 @@ TEST(Join, LeavesOutReadsWithoutAPoseAndSaysHowMany) {
 TEST(Join, SaysHowFarTwoClocksAreApart) {
   for (const double shift : {1.7e9, -50.0}) {
     Diagnostics diagnostics;
-    join({read_at(shift + 1.0), read_at(shift + 2.0)}, {pose_at_x(1.0, 0.0), pose_at_x(2.0, 1.0)},
+    join({read_of(shift + 1.0), read_of(shift + 2.0)}, {pose_at_x(1.0, 0.0), pose_at_x(2.0, 1.0)},
          diagnostics);
     ASSERT_EQ(diagnostics.warnings().size(), 1u);
     const std::string& warning = diagnostics.warnings()[0];
@@ -78,7 +78,7 @@ TEST(Join, SaysWhichAntennasHavePoses) {
   Diagnostics diagnostics;
   AntennaPose other = pose_at_x(1.0, 0.0);
   other.antenna = "aa";
-  join({read_at(1.0)}, {other}, diagnostics);
+  join({read_of(1.0)}, {other}, diagnostics);
   ASSERT_EQ(diagnostics.warnings().size(), 1u);
   EXPECT_NE(diagnostics.warnings()[0].find("there are no poses of it (did you mean 'aa'?)"),
             std::string::npos)
@@ -88,13 +88,13 @@ TEST(Join, SaysWhichAntennasHavePoses) {
 TEST(Join, AGapIsNoMatterToAnAntennaThatStood) {
   Diagnostics diagnostics;
   const auto joined =
-      join({read_at(2.0)}, {pose_at_x(1.0, 5.0), pose_at_x(3.0, 5.001)}, diagnostics);
+      join({read_of(2.0)}, {pose_at_x(1.0, 5.0), pose_at_x(3.0, 5.001)}, diagnostics);
   EXPECT_EQ(joined.at("t").at("a").size(), 1u);
 }
 
 TEST(Join, AnAntennaOfOnePoseStandsStill) {
   Diagnostics diagnostics;
-  const auto joined = join({read_at(-5.0), read_at(100.0)}, {pose_at_x(1.0, 7.0)}, diagnostics);
+  const auto joined = join({read_of(-5.0), read_of(100.0)}, {pose_at_x(1.0, 7.0)}, diagnostics);
   const auto& samples = joined.at("t").at("a");
   ASSERT_EQ(samples.size(), 2u);
   EXPECT_DOUBLE_EQ(samples[0].p_WA.x(), 7.0);
@@ -104,7 +104,7 @@ TEST(Join, AnAntennaOfOnePoseStandsStill) {
 TEST(Join, TheFirstOfTwoReadsOrPosesAtOneStampCounts) {
   Diagnostics diagnostics;
   const auto joined =
-      join({read_at(1.0, 0.5), read_at(1.0, 0.7)},
+      join({read_of(1.0, 0.5), read_of(1.0, 0.7)},
            {pose_at_x(1.0, 3.0), pose_at_x(1.0, 9.0), pose_at_x(2.0, 4.0)}, diagnostics);
   const auto& samples = joined.at("t").at("a");
   ASSERT_EQ(samples.size(), 1u);
@@ -119,10 +119,10 @@ TEST(Join, TheFirstOfTwoReadsOrPosesAtOneStampCounts) {
 
 TEST(Join, KeepsWhatIsNotFiniteOut) {
   Diagnostics diagnostics;
-  TagRead no_carrier = read_at(1.2);
+  TagRead no_carrier = read_of(1.2);
   no_carrier.frequency_hz = 0.0;
   const auto joined =
-      join({read_at(1.0, kNan), no_carrier, read_at(1.1)},
+      join({read_of(1.0, kNan), no_carrier, read_of(1.1)},
            {pose_at_x(1.0, 0.0), pose_at_x(1.05, kNan), pose_at_x(1.3, 3.0)}, diagnostics);
   ASSERT_EQ(joined.at("t").at("a").size(), 1u);
   EXPECT_NEAR(joined.at("t").at("a")[0].p_WA.x(), 1.0, 1e-9);
@@ -131,8 +131,8 @@ TEST(Join, KeepsWhatIsNotFiniteOut) {
 
 TEST(Join, KeepsTagsAndAntennasApartAndTagsWithoutPoseListed) {
   Diagnostics diagnostics;
-  const auto joined = join({read_at(1.0, 1.0, "a", "t"), read_at(1.0, 2.0, "b", "t"),
-                            read_at(1.0, 3.0, "a", "u"), read_at(1.0, 3.0, "nowhere", "v")},
+  const auto joined = join({read_of(1.0, 1.0, "a", "t"), read_of(1.0, 2.0, "b", "t"),
+                            read_of(1.0, 3.0, "a", "u"), read_of(1.0, 3.0, "nowhere", "v")},
                            {pose_at_x(1.0, 0.0, "a"), pose_at_x(1.0, 1.0, "b")}, diagnostics);
   EXPECT_EQ(joined.at("t").size(), 2u);
   EXPECT_EQ(joined.at("u").size(), 1u);

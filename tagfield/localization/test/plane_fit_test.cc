@@ -62,11 +62,11 @@ TEST(Refine, StaysFiniteWhereThereIsNothingToLearn) {
 
 TEST(Thinned, KeepsEverySegmentWhileThereIsRoom) {
   const TagPhases data = made_data(0.0, 0.5);
-  const TagPhases thin = thinned(data, 150);
+  const TagPhases thin = thinned(data, Eigen::Index{150});
   EXPECT_EQ(thin.spans.size(), data.spans.size());
   EXPECT_LT(thin.value.size(), 350);
   EXPECT_LT(sum_of_squares(thin, kTag.z(), kTag.head<2>()), 1e-10);
-  const TagPhases thinner = thinned(data, 10);
+  const TagPhases thinner = thinned(data, Eigen::Index{10});
   EXPECT_EQ(thinner.spans.size(), 5u);
 }
 

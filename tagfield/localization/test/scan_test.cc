@@ -67,7 +67,7 @@ std::vector<TagEstimate> estimates_of(const LocalizationProblem& problem) {
   return scan_method().locate(problem, 2, diagnostics).estimates;
 }
 
-double error_of(const TagEstimate& estimate, const Eigen::Vector2d& truth) {
+double distance_to(const TagEstimate& estimate, const Eigen::Vector2d& truth) {
   return (estimate.candidates.front().p_WT.head<2>() - truth).norm();
 }
 
@@ -139,7 +139,7 @@ TEST(Scan, LocatesAmidEchoesAndKnowsHowWell) {
     for (std::size_t i = 0; i < tags.size(); ++i) {
       if (estimates[i].verdict != Verdict::kLocated) continue;
       ++located;
-      const double error = error_of(estimates[i], tags[i]);
+      const double error = distance_to(estimates[i], tags[i]);
       errors += error;
       ratios += std::pow(error / estimates[i].candidates.front().expected_error_m, 2);
     }

@@ -16,7 +16,7 @@ Candidate candidate(double x, double y, double expected = 0.01) {
   return of;
 }
 
-TagEstimate mirrored() {
+TagEstimate two_sided() {
   TagEstimate estimate;
   estimate.verdict = Verdict::kAmbiguous;
   estimate.reason = "two";
@@ -50,7 +50,7 @@ TEST(TagArea, WayIsTheLongestExtentFromTheFirstPlaceOn) {
 }
 
 TEST(TagArea, OneOfTwoMirrorImagesIsAPlace) {
-  TagEstimate estimate = mirrored();
+  TagEstimate estimate = two_sided();
   keep_within({TagSide::kLeft, {}}, {}, 0.15, estimate);
   EXPECT_EQ(estimate.verdict, Verdict::kLocated);
   ASSERT_EQ(estimate.candidates.size(), 1U);
@@ -59,7 +59,7 @@ TEST(TagArea, OneOfTwoMirrorImagesIsAPlace) {
 }
 
 TEST(TagArea, NoneWithinIsNoPlace) {
-  TagEstimate estimate = mirrored();
+  TagEstimate estimate = two_sided();
   keep_within({std::nullopt, Eigen::AlignedBox2d(Vector2d(5.0, 5.0), Vector2d(6.0, 6.0))}, {}, 0.15,
               estimate);
   EXPECT_EQ(estimate.verdict, Verdict::kNotLocated);
@@ -67,7 +67,7 @@ TEST(TagArea, NoneWithinIsNoPlace) {
 }
 
 TEST(TagArea, APoorPlaceThatIsLeftIsNone) {
-  TagEstimate estimate = mirrored();
+  TagEstimate estimate = two_sided();
   estimate.candidates[1].expected_error_m = 0.3;
   keep_within({TagSide::kLeft, {}}, {}, 0.15, estimate);
   EXPECT_EQ(estimate.verdict, Verdict::kNotLocated);

@@ -8,7 +8,7 @@
 namespace tagfield {
 namespace {
 
-made::Hall one_tag(double noise, double z, unsigned seed) {
+made::Hall hall_of_one_tag(double noise, double z, unsigned seed) {
   made::Rng rng(seed);
   const made::Path path = made::s_curve(12.0, 0.03);
   made::Noise of;
@@ -22,7 +22,7 @@ TagPhases wrapped(const made::Hall& hall) {
 }
 
 TEST(TagFit, FindsTheExactPlaceFromWrappedPhase) {
-  const made::Hall hall = one_tag(0.0, 0.4, 1);
+  const made::Hall hall = hall_of_one_tag(0.0, 0.4, 1);
   const TagPhases phases = wrapped(hall);
   const HeightModel height = height_model(hall.problem, "t0", phases);
   const Eigen::Vector3d truth = hall.truth.at("t0");
@@ -32,7 +32,7 @@ TEST(TagFit, FindsTheExactPlaceFromWrappedPhase) {
 }
 
 TEST(TagFit, FindsTheHeightOnTheSideThatIsTold) {
-  made::Hall hall = one_tag(0.0, 1.1, 2);
+  made::Hall hall = hall_of_one_tag(0.0, 1.1, 2);
   hall.problem.heights.of_all.reset();
   for (const HeightSide side : {HeightSide::kAbove, HeightSide::kBelow}) {
     hall.problem.heights.estimated = side;
@@ -50,7 +50,7 @@ TEST(TagFit, FindsTheHeightOnTheSideThatIsTold) {
 }
 
 TEST(TagFit, NormalMatrixIsThatOfDifferences) {
-  const made::Hall hall = one_tag(0.1, 0.9, 3);
+  const made::Hall hall = hall_of_one_tag(0.1, 0.9, 3);
   const TagPhases phases = wrapped(hall);
   const HeightModel height = height_model(hall.problem, "t0", phases);
   const PlaceVector at = to_unknowns(height, hall.truth.at("t0"));
@@ -77,7 +77,7 @@ TEST(TagFit, NormalMatrixIsThatOfDifferences) {
 }
 
 TEST(TagFit, StaysFiniteWhereNothingIsTold) {
-  made::Hall hall = one_tag(0.1, 0.4, 4);
+  made::Hall hall = hall_of_one_tag(0.1, 0.4, 4);
   for (PhaseSample& sample : hall.problem.samples["t0"]["a"]) sample.p_WA = {1.0, 1.0, 0.4};
   const TagPhases phases = wrapped(hall);
   const HeightModel height = height_model(hall.problem, "t0", phases);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::string_literals;
 
-std::string refusal(const std::string& bytes) {
+std::string pgm_refusal(const std::string& bytes) {
   return error_of([&bytes] { read_pgm(bytes, "map.pgm"); });
 }
 
@@ -45,50 +45,51 @@ TEST(Pgm, CommentsStandBetweenTheNumbers) {
 
 TEST(Pgm, ANewlineAfterTheLastGreyIsLetPass) {
   EXPECT_EQ(read_pgm("P5 1 1 255\nA\n", "map.pgm").greys, std::vector<std::uint16_t>{'A'});
-  EXPECT_EQ(refusal("P5 1 1 255\nAB"),
+  EXPECT_EQ(pgm_refusal("P5 1 1 255\nAB"),
             "map.pgm: byte 13: 1 × 1 cells need 1 bytes, and 0 are there");
-  EXPECT_TRUE(contains(refusal("P5 1 1 255\nA\n\n"), "need 1 bytes, and 3 are there"));
+  EXPECT_TRUE(contains(pgm_refusal("P5 1 1 255\nA\n\n"), "need 1 bytes, and 3 are there"));
 }
 
 TEST(Pgm, RefusesWhatIsNoImage) {
-  EXPECT_EQ(refusal(""), "map.pgm: byte 0: the file is empty");
+  EXPECT_EQ(pgm_refusal(""), "map.pgm: byte 0: the file is empty");
   const std::string no_pgm = "map.pgm: byte 0: is no grey PGM image (it would begin with P5 or P2)";
   for (const char* bytes : {"P", "P6\n1 1 255\nABC", "\x89PNG\r\n", "#P5", " P5 1 1 255\nA"}) {
-    EXPECT_EQ(refusal(bytes), no_pgm) << bytes;
+    EXPECT_EQ(pgm_refusal(bytes), no_pgm) << bytes;
   }
 }
 
 TEST(Pgm, RefusesBadHeaders) {
-  EXPECT_EQ(refusal("P5"), "map.pgm: byte 2: ends where the width was expected");
-  EXPECT_EQ(refusal("P53 2 255\nABCDEF"), "map.pgm: byte 2: expected the width");
-  EXPECT_EQ(refusal("P5 a 2 255\n"), "map.pgm: byte 3: expected the width");
-  EXPECT_EQ(refusal("P5 -3 2 255\n"), "map.pgm: byte 3: expected the width");
-  EXPECT_EQ(refusal("P5 3 # 2"), "map.pgm: byte 8: ends where the height was expected");
-  EXPECT_EQ(refusal("P5 3 0 255\n"), "map.pgm: byte 5: the height is not 1 to 1000000");
-  EXPECT_EQ(refusal("P5 3 2 0\nABCDEF"), "map.pgm: byte 7: the greatest grey is not 1 to 65535");
-  EXPECT_EQ(refusal("P5 3 2 65536\nABCDEF"),
+  EXPECT_EQ(pgm_refusal("P5"), "map.pgm: byte 2: ends where the width was expected");
+  EXPECT_EQ(pgm_refusal("P53 2 255\nABCDEF"), "map.pgm: byte 2: expected the width");
+  EXPECT_EQ(pgm_refusal("P5 a 2 255\n"), "map.pgm: byte 3: expected the width");
+  EXPECT_EQ(pgm_refusal("P5 -3 2 255\n"), "map.pgm: byte 3: expected the width");
+  EXPECT_EQ(pgm_refusal("P5 3 # 2"), "map.pgm: byte 8: ends where the height was expected");
+  EXPECT_EQ(pgm_refusal("P5 3 0 255\n"), "map.pgm: byte 5: the height is not 1 to 1000000");
+  EXPECT_EQ(pgm_refusal("P5 3 2 0\nABCDEF"),
             "map.pgm: byte 7: the greatest grey is not 1 to 65535");
-  EXPECT_EQ(refusal("P5 3 2 255"), "map.pgm: byte 10: expected a space before the greys");
-  EXPECT_EQ(refusal("P5 3 2 255x"), "map.pgm: byte 10: expected a space before the greys");
+  EXPECT_EQ(pgm_refusal("P5 3 2 65536\nABCDEF"),
+            "map.pgm: byte 7: the greatest grey is not 1 to 65535");
+  EXPECT_EQ(pgm_refusal("P5 3 2 255"), "map.pgm: byte 10: expected a space before the greys");
+  EXPECT_EQ(pgm_refusal("P5 3 2 255x"), "map.pgm: byte 10: expected a space before the greys");
 }
 
 TEST(Pgm, NeverTrustsASize) {
   // None of these takes memory for what the header claims, or overflows on the way.
-  EXPECT_TRUE(contains(refusal("P5 1000000 1000000 255\nA"),
+  EXPECT_TRUE(contains(pgm_refusal("P5 1000000 1000000 255\nA"),
                        "1000000 × 1000000 cells need 1000000000000 bytes, and 1 are there"));
-  EXPECT_TRUE(contains(refusal("P2 1000000 1000000 255\n1"), "need 2000000000000 bytes"));
-  EXPECT_TRUE(contains(refusal("P5 1000001 1 255\nA"), "the width is not"));
-  EXPECT_TRUE(contains(refusal("P5 4294967297 1 255\nA"), "the width is not"));
-  EXPECT_TRUE(contains(refusal("P5 99999999999999999999999999 1 255\nA"), "the width is not"));
-  EXPECT_TRUE(contains(refusal("P5 2 2 65535\nABCD"), "need 8 bytes, and 4 are there"));
+  EXPECT_TRUE(contains(pgm_refusal("P2 1000000 1000000 255\n1"), "need 2000000000000 bytes"));
+  EXPECT_TRUE(contains(pgm_refusal("P5 1000001 1 255\nA"), "the width is not"));
+  EXPECT_TRUE(contains(pgm_refusal("P5 4294967297 1 255\nA"), "the width is not"));
+  EXPECT_TRUE(contains(pgm_refusal("P5 99999999999999999999999999 1 255\nA"), "the width is not"));
+  EXPECT_TRUE(contains(pgm_refusal("P5 2 2 65535\nABCD"), "need 8 bytes, and 4 are there"));
 }
 
 TEST(Pgm, RefusesGreysThatCannotBe) {
-  EXPECT_EQ(refusal("P5 2 1 9\n\x05\x0b"), "map.pgm: byte 11: grey 11 is above 9");
-  EXPECT_EQ(refusal("P2 2 1 9\n5 11"), "map.pgm: byte 11: a grey is not 0 to 9");
-  EXPECT_EQ(refusal("P2 2 1 9\n5 x"), "map.pgm: byte 11: expected a grey");
-  EXPECT_EQ(refusal("P2 2 1 9\n5    "), "map.pgm: byte 14: ends where a grey was expected");
-  EXPECT_EQ(refusal("P2 2 1 9\n5 6 7"), "map.pgm: byte 13: more greys than the size says");
+  EXPECT_EQ(pgm_refusal("P5 2 1 9\n\x05\x0b"), "map.pgm: byte 11: grey 11 is above 9");
+  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 11"), "map.pgm: byte 11: a grey is not 0 to 9");
+  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 x"), "map.pgm: byte 11: expected a grey");
+  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5    "), "map.pgm: byte 14: ends where a grey was expected");
+  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 6 7"), "map.pgm: byte 13: more greys than the size says");
 }
 
 RC_GTEST_PROP(Pgm, BothKindsSayTheSame, ()) {

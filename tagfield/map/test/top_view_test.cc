@@ -42,7 +42,7 @@ double filled_area(const Silhouette& silhouette) {
   return std::abs(sum);
 }
 
-Scene scene_of(const Shape& shape, const RigidTransform& X_WC = {}) {
+Scene seen_scene(const Shape& shape, const RigidTransform& X_WC = {}) {
   Scene scene;
   scene.collisions.push_back({"thing", shape, X_WC});
   return scene;
@@ -56,7 +56,7 @@ Silhouette only(const std::vector<Silhouette>& silhouettes) {
 MeshPtr mesh_of(TriangleMesh mesh) { return std::make_shared<const TriangleMesh>(std::move(mesh)); }
 
 TEST(TopView, BoxIsItsFootprintWithMargin) {
-  const Scene scene = scene_of(Box{{2.0, 1.0, 1.0}}, from_translation({5.0, -3.0, 0.5}));
+  const Scene scene = seen_scene(Box{{2.0, 1.0, 1.0}}, from_translation({5.0, -3.0, 0.5}));
   const Silhouette view = only(top_view(scene, -1.0, 2.0, 0.01));
   EXPECT_EQ(view.name, "thing");
   EXPECT_EQ(view.rings.size(), 1U);
@@ -66,7 +66,7 @@ TEST(TopView, BoxIsItsFootprintWithMargin) {
 }
 
 TEST(TopView, RotatedBoxKeepsItsArea) {
-  const Scene scene = scene_of(Box{{3.0, 1.0, 1.0}}, from_planar(2.0, 1.0, radians(30.0)));
+  const Scene scene = seen_scene(Box{{3.0, 1.0, 1.0}}, from_planar(2.0, 1.0, radians(30.0)));
   const Silhouette view = only(top_view(scene, -1.0, 1.0, 0.0));
   EXPECT_NEAR(filled_area(view), 3.0, 1e-3);
   EXPECT_TRUE(is_filled(view, 2.0 + 1.2 * std::cos(radians(30.0)), 1.0 + 1.2 * 0.5));
@@ -77,12 +77,12 @@ TEST(TopView, OverlappingTrianglesCountOnce) {
   // Two right triangles of area 2 whose common part is the triangle (0,0) (2,0) (1,1), of area 1.
   const TriangleMesh mesh = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 1}, {0, 0, 1}, {2, 0, 1}},
                              {{0, 1, 2}, {3, 4, 5}}};
-  const Silhouette view = only(top_view(scene_of(mesh_of(mesh)), -1.0, 2.0, 0.0));
+  const Silhouette view = only(top_view(seen_scene(mesh_of(mesh)), -1.0, 2.0, 0.0));
   EXPECT_NEAR(filled_area(view), 3.0, 1e-6);
 }
 
 TEST(TopView, WallTallerThanTheBandStillShows) {
-  const Scene scene = scene_of(Box{{4.0, 0.2, 4.0}}, from_translation({0.0, 0.0, 2.0}));
+  const Scene scene = seen_scene(Box{{4.0, 0.2, 4.0}}, from_translation({0.0, 0.0, 2.0}));
   const Silhouette view = only(top_view(scene, 0.1, 1.5, 0.01));
   // Top and bottom are cut off: four sides remain, each 2 cm thick around the footprint.
   EXPECT_NEAR(filled_area(view), 4.02 * 0.22 - 3.98 * 0.18, 1e-5);
@@ -94,7 +94,7 @@ TEST(TopView, WallTallerThanTheBandStillShows) {
 TEST(TopView, BandCutsSlopes) {
   // A ramp that rises by 1 m over 1 m: the band sees the part between its two heights.
   const TriangleMesh mesh = {{{0, 0, 0}, {1, 0, 1}, {1, 2, 1}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  const Silhouette view = only(top_view(scene_of(mesh_of(mesh)), 0.25, 0.75, 0.0));
+  const Silhouette view = only(top_view(seen_scene(mesh_of(mesh)), 0.25, 0.75, 0.0));
   EXPECT_NEAR(filled_area(view), 0.5 * 2.0, 1e-6);
 }
 
@@ -110,7 +110,7 @@ TEST(TopView, HoleIsARing) {
     mesh.triangles.push_back({i, next, 4 + next});
     mesh.triangles.push_back({i, 4 + next, 4 + i});
   }
-  const Silhouette view = only(top_view(scene_of(mesh_of(mesh)), -1.0, 1.0, 0.0));
+  const Silhouette view = only(top_view(seen_scene(mesh_of(mesh)), -1.0, 1.0, 0.0));
   EXPECT_EQ(view.rings.size(), 2U);
   EXPECT_NEAR(filled_area(view), 12.0, 1e-6);
   EXPECT_TRUE(is_filled(view, 1.5, 0.0));
@@ -118,7 +118,7 @@ TEST(TopView, HoleIsARing) {
 }
 
 TEST(TopView, PlanesAndWhatLiesOutsideTheBandAreLeftOut) {
-  Scene scene = scene_of(Plane{});
+  Scene scene = seen_scene(Plane{});
   scene.collisions.push_back({"lamp", Sphere{0.2}, from_translation({0.0, 0.0, 5.0})});
   scene.collisions.push_back({"pit", Sphere{0.2}, from_translation({0.0, 0.0, -5.0})});
   EXPECT_TRUE(top_view(scene, 0.0, 2.0).empty());
@@ -137,13 +137,13 @@ TEST(TopView, HigherThingsComeLater) {
 }
 
 TEST(TopView, SphereIsItsPolygon) {
-  const Silhouette view = only(top_view(scene_of(Sphere{1.0}), -2.0, 2.0, 0.0));
+  const Silhouette view = only(top_view(seen_scene(Sphere{1.0}), -2.0, 2.0, 0.0));
   const double expected = 0.5 * kCircleEdges * std::sin(kTwoPi / kCircleEdges);
   EXPECT_NEAR(filled_area(view), expected, 1e-3);
 }
 
 TEST(TopView, ThingsFarBeyondAnyWorldAreAnError) {
-  const Scene scene = scene_of(Sphere{1.0}, from_translation({1e12, 0.0, 0.0}));
+  const Scene scene = seen_scene(Sphere{1.0}, from_translation({1e12, 0.0, 0.0}));
   EXPECT_THROW(top_view(scene, -2.0, 2.0), Error);
 }
 
@@ -168,7 +168,7 @@ RC_GTEST_PROP(TopView, FillsWhatAnyTriangleCovers, ()) {
     for (const Eigen::Vector2d& p : triangles.back()) mesh.vertices.emplace_back(p.x(), p.y(), 0.1);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const auto views = top_view(scene_of(mesh_of(mesh)), 0.0, 1.0, 0.0);
+  const auto views = top_view(seen_scene(mesh_of(mesh)), 0.0, 1.0, 0.0);
   const Silhouette view = views.empty() ? Silhouette{} : views.front();
   // Probes on a finer grid, a little off all lines between grid points that matter here.
   for (double x = 0.3137; x < 20.0; x += 1.0) {
@@ -181,7 +181,7 @@ RC_GTEST_PROP(TopView, FillsWhatAnyTriangleCovers, ()) {
 }
 
 TEST(TopViewJson, RoundTripKeepsEveryNumber) {
-  Scene scene = scene_of(Sphere{1.0}, from_translation({0.1, 1.0 / 3.0, 0.0}));
+  Scene scene = seen_scene(Sphere{1.0}, from_translation({0.1, 1.0 / 3.0, 0.0}));
   scene.collisions.push_back({"wall \"north\"\n", Box{{4.0, 0.2, 4.0}}, {}});
   const auto views = top_view(scene, -0.5, 1.5);
   const auto again = top_view_from_json(top_view_to_json(views));

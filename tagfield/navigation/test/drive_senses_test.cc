@@ -12,12 +12,11 @@ namespace tagfield {
 namespace {
 
 using testing::BoxWorld;
+using testing::kLaser;
 using testing::paint;
 using testing::walls;
 
-const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
-
-const BoxWorld& hall() {
+const BoxWorld& sensed_hall() {
   static const BoxWorld world(walls({0.0, 0.0}, {10.0, 6.0}), {1.0, 1.0});
   return world;
 }
@@ -25,12 +24,13 @@ const BoxWorld& hall() {
 LaserScan scan_from(const PlanarPose& pose, std::int64_t number, const Obstacles& obstacles = {}) {
   const RigidTransform X_WR = to_transform(pose);
   return simulate_scan(
-      hall().rays, {}, number, [&](Time) { return X_WR; }, [&](Time) { return obstacles; }, 1, 1);
+      sensed_hall().rays, {}, number, [&](Time) { return X_WR; }, [&](Time) { return obstacles; },
+      1, 1);
 }
 
 DriveSenses senses() {
   DriveSenses result(kLaser, 0.36);
-  result.set_map(hall().map);
+  result.set_map(sensed_hall().map);
   return result;
 }
 
@@ -114,7 +114,7 @@ TEST(DriveSenses, AnOlderScanBeginsAnew) {
 
 TEST(DriveSenses, GroundIsKnownByTheMapAndWhereTheRobotWas) {
   DriveSenses result(kLaser, 0.36);
-  OccupancyGrid map = hall().map;
+  OccupancyGrid map = sensed_hall().map;
   paint(map, {0.0, 0.0}, {5.0, 6.0}, -1);
   result.set_map(map);
   for (int i = 0; i <= 20; ++i) result.be_at({2.0 + 0.1 * i, 3.0, 0.0}, {});
@@ -128,14 +128,14 @@ TEST(DriveSenses, GroundIsKnownByTheMapAndWhereTheRobotWas) {
 
 TEST(DriveSenses, RefusesBrokenMaps) {
   DriveSenses result(kLaser, 0.36);
-  OccupancyGrid map = hall().map;
+  OccupancyGrid map = sensed_hall().map;
   EXPECT_THROW(result.set_map({}), Error);
   map.resolution_m = 0.0;
   EXPECT_THROW(result.set_map(map), Error);
-  map = hall().map;
+  map = sensed_hall().map;
   map.origin.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(result.set_map(map), Error);
-  map = hall().map;
+  map = sensed_hall().map;
   map.cells.pop_back();
   EXPECT_THROW(result.set_map(map), Error);
 }

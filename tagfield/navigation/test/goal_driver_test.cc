@@ -14,11 +14,11 @@ namespace {
 
 using testing::BoxWorld;
 using testing::DriveSimulation;
+using testing::kLaser;
 using testing::simulation_in;
 using testing::walls;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
 
 /// A hall of 10 m by 6 m with a block in the middle.
 const BoxWorld& hall() {

@@ -13,7 +13,7 @@ namespace {
 using testing::BoxWorld;
 using testing::walls;
 
-const BoxWorld& hall() {
+const BoxWorld& watched_hall() {
   static const BoxWorld world(walls({-10.0, -10.0}, {10.0, 10.0}), {0.0, 0.0});
   return world;
 }
@@ -31,7 +31,7 @@ struct Watch {
       const PlanarPose pose = robot(static_cast<double>(scans) / 30.0);
       const RigidTransform X_WR = to_transform(pose);
       const LaserScan scan = simulate_scan(
-          hall().rays, laser, scans, [&](Time) { return X_WR; },
+          watched_hall().rays, laser, scans, [&](Time) { return X_WR; },
           [&](Time now) { return obstacles(to_seconds(now)); }, 3, 4);
       const ScanInMap seen = scan_in_map(scan, laser.X_RL, pose, {});
       std::vector<bool> is_candidate;
@@ -188,7 +188,7 @@ RC_GTEST_PROP(ReturnGroupsProperties, ADiscIsFoundWhereItIs, ()) {
   LaserParameters laser;
   laser.sigma_m = 0.0;
   const LaserScan scan = simulate_scan(
-      hall().rays, laser, 0, [](Time) { return RigidTransform{}; },
+      watched_hall().rays, laser, 0, [](Time) { return RigidTransform{}; },
       [&](Time) {
         return Obstacles{{{centre, radius}}, {}};
       },

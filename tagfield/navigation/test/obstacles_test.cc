@@ -11,13 +11,12 @@ namespace {
 
 using testing::BoxWorld;
 using testing::DriveSimulation;
+using testing::kLaser;
 using testing::simulation_in;
 using testing::walls;
 
-const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
-
-/// A hall of 14 m by 14 m, empty.
-const BoxWorld& hall() {
+/// A wide_hall of 14 m by 14 m, empty.
+const BoxWorld& wide_hall() {
   static const BoxWorld world(walls({-2.0, -7.0}, {12.0, 7.0}), {0.0, 0.0});
   return world;
 }
@@ -57,8 +56,8 @@ TEST_P(Crossings, NobodyIsTouched) {
   for (const double phase : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
     // The robot would be at the crossing 2.5 m on after about 8.7 s.
     GoalDriver driver({}, kLaser);
-    driver.set_map(hall().map);
-    DriveSimulation simulation = simulation_in(hall(), {0.0, 0.0, 0.0});
+    driver.set_map(wide_hall().map);
+    DriveSimulation simulation = simulation_in(wide_hall(), {0.0, 0.0, 0.0});
     simulation.obstacles_at =
         walker({2.5, 0.0}, radians(GetParam().heading_deg), GetParam().speed, 8.7 + phase, 0.3);
     driver.set_goal({5.0, 0.0, 0.0}, simulation.pose, simulation.now());
@@ -138,8 +137,8 @@ TEST(Boxes, OneOnTheGoalIsNotPushed) {
   GoalDriverSettings settings;
   settings.patience_s = 10.0;
   GoalDriver driver(settings, kLaser);
-  driver.set_map(hall().map);
-  DriveSimulation simulation = simulation_in(hall(), {0.0, 0.0, 0.0});
+  driver.set_map(wide_hall().map);
+  DriveSimulation simulation = simulation_in(wide_hall(), {0.0, 0.0, 0.0});
   simulation.obstacles_at = [](Time) { return Obstacles{{}, {{{4.0, 0.0}, {0.4, 0.4}, 0.5}}}; };
   driver.set_goal({4.0, 0.0, 0.0}, simulation.pose, simulation.now());
   simulation.run(driver, 120.0);

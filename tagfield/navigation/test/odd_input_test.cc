@@ -16,7 +16,7 @@
 namespace tagfield {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -43,7 +43,7 @@ std::vector<Odd> scans_without_meaning() {
     odd.push_back({name, good});
     change(odd.back().scan);
   };
-  add("all NaN", [](LaserScan& scan) { scan.ranges_m.assign(361, kNan); });
+  add("all NaN", [](LaserScan& scan) { scan.ranges_m.assign(361, kNotANumber); });
   add("no beams", [](LaserScan& scan) { scan.ranges_m.clear(); });
   add("no returns", [](LaserScan& scan) { scan.ranges_m.assign(361, 31.0F); });
   add("infinite",
@@ -59,7 +59,7 @@ std::vector<Odd> scans_without_meaning() {
 /// Some beams NaN, infinite or negative; the rest is as good as ever.
 LaserScan scan_with_holes(const PlanarPose& pose, double seconds) {
   LaserScan scan = scan_from(pose, seconds);
-  for (std::size_t i = 0; i < scan.ranges_m.size(); i += 10) scan.ranges_m[i] = kNan;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); i += 10) scan.ranges_m[i] = kNotANumber;
   for (std::size_t i = 5; i < scan.ranges_m.size(); i += 30) scan.ranges_m[i] = -2.0F;
   return scan;
 }
@@ -102,10 +102,10 @@ TEST(GridMapper, GoesOnAfterOddScans) {
   }
 }
 
-OccupancyGrid map_of_room() { return true_map(room(), 0.31, {0.0, 0.0}, 0.05); }
+OccupancyGrid whole_map() { return true_map(room(), 0.31, {0.0, 0.0}, 0.05); }
 
 MonteCarloLocalizer localizer_at(const PlanarPose& start) {
-  MonteCarloLocalizer localizer(map_of_room(), {}, LaserParameters{}.X_RL, 1);
+  MonteCarloLocalizer localizer(whole_map(), {}, LaserParameters{}.X_RL, 1);
   localizer.start_at({start, Eigen::Vector3d(0.0025, 0.0025, 0.0025).asDiagonal()});
   return localizer;
 }
@@ -156,7 +156,7 @@ BodyVelocity driven(GoalDriver& driver, PlanarPose& pose, double from_s,
 
 GoalDriver driver_to(const PlanarPose& goal, double now_s = 0.0) {
   GoalDriver driver({}, LaserParameters{}.X_RL);
-  driver.set_map(map_of_room());
+  driver.set_map(whole_map());
   driver.set_goal(goal, {}, time_from_seconds(now_s));
   return driver;
 }

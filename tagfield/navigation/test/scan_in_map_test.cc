@@ -7,11 +7,12 @@
 #include <limits>
 
 #include "tagfield/base/units.h"
+#include "tagfield/navigation/test/test_worlds.h"
 
 namespace tagfield {
 namespace {
 
-const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
+using testing::kLaser;
 
 LaserScan scan_of(std::vector<float> ranges, double first = -kPi / 2.0, double last = kPi / 2.0) {
   LaserScan scan;

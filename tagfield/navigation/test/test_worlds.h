@@ -10,6 +10,9 @@
 
 namespace tagfield::testing {
 
+/// Where a P3-AT has its laser, on the robot.
+inline const RigidTransform kLaser = from_translation({0.15, 0.0, 0.31});
+
 /// A map from rows of text, the last row at y = 0: '#' occupied, '?' unknown, all else free.
 inline OccupancyGrid grid_of(const std::vector<std::string>& rows, double resolution_m = 0.05) {
   OccupancyGrid grid;

@@ -8,19 +8,19 @@
 namespace tagfield {
 namespace {
 
-const std::vector<Eigen::Vector2d> kPlaces = {{4.58, -6.4}, {4.58, 3.4}, {-4.58, 0.0}, {1.0, 2.0}};
+const std::vector<Eigen::Vector2d> kCorners = {{4.58, -6.4}, {4.58, 3.4}, {-4.58, 0.0}, {1.0, 2.0}};
 
 TEST(Alignment, FindsAKnownMotion) {
   for (const double yaw : {0.0, 0.02, -1.3, 3.1}) {
     std::vector<Eigen::Vector2d> moved;
-    for (const Eigen::Vector2d& p : kPlaces) {
+    for (const Eigen::Vector2d& p : kCorners) {
       moved.emplace_back(std::cos(yaw) * p.x() - std::sin(yaw) * p.y() + 0.3,
                          std::sin(yaw) * p.x() + std::cos(yaw) * p.y() - 7.0);
     }
-    const PlanarMotion motion = best_motion(kPlaces, moved);
+    const PlanarMotion motion = best_motion(kCorners, moved);
     EXPECT_NEAR(motion.yaw_rad, yaw, 1e-12);
-    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-      EXPECT_NEAR((motion * kPlaces[i] - moved[i]).norm(), 0.0, 1e-12);
+    for (std::size_t i = 0; i < kCorners.size(); ++i) {
+      EXPECT_NEAR((motion * kCorners[i] - moved[i]).norm(), 0.0, 1e-12);
     }
   }
 }
@@ -40,10 +40,10 @@ TEST(Alignment, NoMotionNearItIsBetter) {
   const auto cost = [&](const PlanarMotion& motion) {
     double sum = 0.0;
     for (std::size_t i = 0; i < seen.size(); ++i)
-      sum += (motion * seen[i] - kPlaces[i]).squaredNorm();
+      sum += (motion * seen[i] - kCorners[i]).squaredNorm();
     return sum;
   };
-  const PlanarMotion best = best_motion(seen, kPlaces);
+  const PlanarMotion best = best_motion(seen, kCorners);
   for (const double step : {-1e-3, 1e-3}) {
     EXPECT_LT(cost(best), cost({best.yaw_rad + step, best.shift_m}));
     EXPECT_LT(cost(best), cost({best.yaw_rad, best.shift_m + Eigen::Vector2d(step, 0)}));

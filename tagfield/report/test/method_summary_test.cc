@@ -6,6 +6,7 @@
 
 #include "tagfield/report/internal/tables.h"
 #include "tagfield/report/test/balanced_tags.h"
+#include "tagfield/report/test/text_holds.h"
 
 namespace tagfield {
 namespace {
@@ -34,10 +35,6 @@ auto moved(double yaw, double x, double y) {
     return Eigen::Vector3d(std::cos(yaw) * p.x() - std::sin(yaw) * p.y() + x,
                            std::sin(yaw) * p.x() + std::cos(yaw) * p.y() + y, p.z());
   };
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(AlignedErrors, AreWithoutEachSeedsShiftAndTurn) {

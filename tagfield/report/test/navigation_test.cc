@@ -9,13 +9,10 @@
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/test/balanced_tags.h"
 #include "tagfield/report/test/run_folder.h"
+#include "tagfield/report/test/text_holds.h"
 
 namespace tagfield {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 Summary navigated_summary() {
   Summary summary = summary_of({});

@@ -6,13 +6,10 @@
 
 #include "tagfield/report/style_sheet.h"
 #include "tagfield/report/test/balanced_tags.h"
+#include "tagfield/report/test/text_holds.h"
 
 namespace tagfield {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(Compact, DropsWhatSaysNothing) {
   EXPECT_EQ(compact(12.50), "12.5");

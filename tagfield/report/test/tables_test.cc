@@ -4,13 +4,10 @@
 
 #include "tagfield/report/test/balanced_tags.h"
 #include "tagfield/report/test/run_folder.h"
+#include "tagfield/report/test/text_holds.h"
 
 namespace tagfield {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(TagTable, HoldsEstimateAndError) {
   const std::string html = tag_table(summary_of({}));

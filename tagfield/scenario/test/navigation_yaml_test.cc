@@ -28,8 +28,8 @@ Scenario load(const std::string& robot, const std::string& navigation,
 }
 
 /// "LINE: MESSAGE"
-std::string complaint(const std::string& robot, const std::string& navigation,
-                      const std::string& obstacles = "[]") {
+std::string navigation_complaint(const std::string& robot, const std::string& navigation,
+                                 const std::string& obstacles = "[]") {
   try {
     load(robot, navigation, obstacles);
   } catch (const Error& error) {
@@ -37,7 +37,7 @@ std::string complaint(const std::string& robot, const std::string& navigation,
     const std::size_t name = what.find("s.yaml:");
     return name == std::string::npos ? what : what.substr(name + 7);
   }
-  return "no complaint";
+  return "no navigation_complaint";
 }
 
 bool holds(const std::string& text, const std::string& part) {
@@ -119,7 +119,8 @@ TEST(NavigationYaml, RefusesWhatIsNoUsableNumber) {
   for (const BadNumber& bad : table) {
     for (const std::string& key : bad.keys) {
       for (const std::string& value : bad.values) {
-        const std::string said = complaint("", "{" + bad.room + ": {" + key + ": " + value + "}}");
+        const std::string said =
+            navigation_complaint("", "{" + bad.room + ": {" + key + ": " + value + "}}");
         EXPECT_EQ(said.rfind("6: navigation." + bad.room + "." + key, 0), 0U) << value << said;
       }
     }
@@ -127,18 +128,19 @@ TEST(NavigationYaml, RefusesWhatIsNoUsableNumber) {
 }
 
 TEST(NavigationYaml, RefusesALaserThatCannotBe) {
-  EXPECT_TRUE(holds(complaint("", "{laser: {sweep_s: 0.1}}"), "navigation.laser"));
-  EXPECT_TRUE(holds(complaint("", "{laser: {least_range_m: 40}}"), "navigation.laser"));
-  EXPECT_TRUE(holds(complaint("", "{laser: {first_angle_deg: 95}}"), "navigation.laser"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{laser: {sweep_s: 0.1}}"), "navigation.laser"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{laser: {least_range_m: 40}}"), "navigation.laser"));
+  EXPECT_TRUE(
+      holds(navigation_complaint("", "{laser: {first_angle_deg: 95}}"), "navigation.laser"));
 }
 
 TEST(NavigationYaml, NamesTheNearestOfItsWords) {
-  EXPECT_TRUE(holds(complaint("", "slamm"), "slam"));
-  EXPECT_TRUE(holds(complaint("", "{start: unknwon}"), "unknown"));
-  EXPECT_TRUE(holds(complaint("", "{driving: {radius: 1}}"), "radius_m"));
-  EXPECT_TRUE(holds(complaint("", "{strat: known}"), "start"));
-  EXPECT_TRUE(holds(complaint("", "{keep_out: maybe}"), "keep_out"));
-  EXPECT_TRUE(holds(complaint("", "{laser: 3}"), "navigation.laser"));
+  EXPECT_TRUE(holds(navigation_complaint("", "slamm"), "slam"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{start: unknwon}"), "unknown"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{driving: {radius: 1}}"), "radius_m"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{strat: known}"), "start"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{keep_out: maybe}"), "keep_out"));
+  EXPECT_TRUE(holds(navigation_complaint("", "{laser: 3}"), "navigation.laser"));
 }
 
 TEST(SelfDrivingYaml, TakesGoalsAndCarryings) {
@@ -169,10 +171,12 @@ TEST(SelfDrivingYaml, RefusesWhatMakesNoSense) {
       {", carried: [[1e300]]", "4: robots[0].carried[0]"},
       {", carried: [[5], [5]]", "4: robots[0].carried[1] must be later"}};
   for (const auto& [robot, says] : table) {
-    EXPECT_EQ(complaint(robot, "slam").rfind(says, 0), 0U) << complaint(robot, "slam");
+    EXPECT_EQ(navigation_complaint(robot, "slam").rfind(says, 0), 0U)
+        << navigation_complaint(robot, "slam");
   }
   for (const char* key : {"goals: [[1, 2, 3]]", "random_goals: 1", "carried: [[1]]"}) {
-    EXPECT_TRUE(holds(complaint(std::string(", ") + key, "truth"), "navigation: slam")) << key;
+    EXPECT_TRUE(holds(navigation_complaint(std::string(", ") + key, "truth"), "navigation: slam"))
+        << key;
   }
 }
 
@@ -211,7 +215,7 @@ TEST(ObstacleYaml, RefusesWhatMakesNoSense) {
       {"{radius_m: 1, position: [1, 2], colour: red}", "colour"},
       {"3", "obstacles[0]"}};
   for (const auto& [obstacle, says] : table) {
-    const std::string said = complaint("", "slam", "[" + obstacle + "]");
+    const std::string said = navigation_complaint("", "slam", "[" + obstacle + "]");
     EXPECT_EQ(said.rfind("7: ", 0), 0U) << obstacle << ": " << said;
     EXPECT_TRUE(holds(said, "obstacles[0]")) << obstacle << ": " << said;
     EXPECT_TRUE(holds(said, says)) << obstacle << ": " << said;

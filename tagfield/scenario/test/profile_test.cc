@@ -29,7 +29,7 @@ std::string written(const std::string& text) {
   return path.string();
 }
 
-std::string complaint(const std::string& text) {
+std::string profile_complaint(const std::string& text) {
   const std::string path = written(text);
   try {
     read_profile(path);
@@ -63,15 +63,15 @@ TEST(ShippedProfiles, AreEnoughAndMakeModelsWithoutAWarning) {
 }
 
 TEST(ReadProfile, WantsASourceForEachFigure) {
-  EXPECT_EQ(complaint("name: x\nkind: tag\nfigures:\n  gain_dbi: {value: 2}\n"),
+  EXPECT_EQ(profile_complaint("name: x\nkind: tag\nfigures:\n  gain_dbi: {value: 2}\n"),
             ":4: figures.gain_dbi has no 'source'");
 }
 
 TEST(ReadProfile, NamesAKeyThatIsNone) {
   EXPECT_EQ(
-      complaint("name: x\nkind: tag\nfigures:\n  gain_db: {value: 2, source: s}\n"),
+      profile_complaint("name: x\nkind: tag\nfigures:\n  gain_db: {value: 2, source: s}\n"),
       ":4: figures.gain_db is no setting of a profile of this kind (did you mean 'gain_dbi'?)");
-  EXPECT_NE(complaint("name: x\nkind: boat\nfigures: {}\n"), "");
+  EXPECT_NE(profile_complaint("name: x\nkind: boat\nfigures: {}\n"), "");
 }
 
 }  // namespace

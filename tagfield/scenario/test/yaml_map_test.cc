@@ -11,13 +11,13 @@ YamlMap map_of(const std::string& text) {
   return YamlMap(YamlValue(YAML::Load(text), "f.yaml", ""));
 }
 
-std::string complaint(const std::function<void()>& action) {
+std::string map_complaint(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
     return error.what();
   }
-  return "no complaint";
+  return "no map_complaint";
 }
 
 TEST(YamlMap, TakesWhatIsThereAndDefaultsForTheRest) {
@@ -32,27 +32,28 @@ TEST(YamlMap, TakesWhatIsThereAndDefaultsForTheRest) {
 
 TEST(YamlMap, NamesTheLineOfABadValue) {
   YamlMap map = map_of("a: 1\nb: fast\nc: .nan\nd: -1\ne: 0\nf: [1, x]\n");
-  EXPECT_EQ(complaint([&] { map.number("b", 0.0); }), "f.yaml:2: b is 'fast', expected a number");
-  EXPECT_EQ(complaint([&] { map.number("c", 0.0); }), "f.yaml:3: c must be finite, is nan");
-  EXPECT_EQ(complaint([&] { map.number("d", 0.0, NumberRange::kNotNegative); }),
+  EXPECT_EQ(map_complaint([&] { map.number("b", 0.0); }),
+            "f.yaml:2: b is 'fast', expected a number");
+  EXPECT_EQ(map_complaint([&] { map.number("c", 0.0); }), "f.yaml:3: c must be finite, is nan");
+  EXPECT_EQ(map_complaint([&] { map.number("d", 0.0, NumberRange::kNotNegative); }),
             "f.yaml:4: d must be 0 or more, is -1");
-  EXPECT_EQ(complaint([&] { map.number("e", 0.0, NumberRange::kPositive); }),
+  EXPECT_EQ(map_complaint([&] { map.number("e", 0.0, NumberRange::kPositive); }),
             "f.yaml:5: e must be greater than 0, is 0");
-  EXPECT_EQ(complaint([&] { static_cast<void>(map.at("f").numbers(2, 2)); }),
+  EXPECT_EQ(map_complaint([&] { static_cast<void>(map.at("f").numbers(2, 2)); }),
             "f.yaml:6: f[1] is 'x', expected a number");
-  EXPECT_EQ(complaint([&] { map.at("missing"); }), "f.yaml:1: has no 'missing'");
+  EXPECT_EQ(map_complaint([&] { map.at("missing"); }), "f.yaml:1: has no 'missing'");
 }
 
 TEST(YamlMap, NamesTheNearestKeyToAnUnknownOne) {
   YamlMap map = map_of("frequency_hz: 1\nrnage_m: 2\n");
   map.number("frequency_hz", 0.0);
   map.number("range_m", 0.0);
-  EXPECT_EQ(complaint([&] { map.finish(); }),
+  EXPECT_EQ(map_complaint([&] { map.finish(); }),
             "f.yaml:2: unknown key 'rnage_m' (did you mean 'range_m'?)");
 }
 
 TEST(YamlMap, RefusesAKeyThatStandsTwice) {
-  EXPECT_EQ(complaint([] { map_of("a: 1\nb: 2\na: 3\n"); }), "f.yaml:3: has 'a' twice");
+  EXPECT_EQ(map_complaint([] { map_of("a: 1\nb: 2\na: 3\n"); }), "f.yaml:3: has 'a' twice");
 }
 
 TEST(SetInYaml, ReplacesAndAdds) {
@@ -69,13 +70,13 @@ TEST(SetInYaml, ReplacesAndAdds) {
 
 TEST(SetInYaml, RefusesPathsThatLeadNowhere) {
   YAML::Node root = YAML::Load("a: 1\nlist: [{name: x}]\n");
-  EXPECT_EQ(complaint([&] { set_in_yaml(root, "list.z.v", "1"); }),
+  EXPECT_EQ(map_complaint([&] { set_in_yaml(root, "list.z.v", "1"); }),
             "--set list.z.v: the list has no element 'z'");
-  EXPECT_EQ(complaint([&] { set_in_yaml(root, "a.b.c", "1"); }),
+  EXPECT_EQ(map_complaint([&] { set_in_yaml(root, "a.b.c", "1"); }),
             "--set a.b.c: 'b' is not inside a list or a mapping");
-  EXPECT_EQ(complaint([&] { set_in_yaml(root, "a..c", "1"); }),
+  EXPECT_EQ(map_complaint([&] { set_in_yaml(root, "a..c", "1"); }),
             "--set a..c: expected words between the dots");
-  EXPECT_NE(complaint([&] { set_in_yaml(root, "a", "[1"); }).find("not a YAML value"),
+  EXPECT_NE(map_complaint([&] { set_in_yaml(root, "a", "[1"); }).find("not a YAML value"),
             std::string::npos);
 }
 

@@ -16,7 +16,7 @@ std::shared_ptr<const RadioModel> radio_of(const Parameters& parameters) {
   return sensor_radio(parameters, {}, diagnostics);
 }
 
-std::string complaint_about(const RawParameter& bad) {
+std::string radio_complaint(const RawParameter& bad) {
   return error_of([&] { radio_of({{"model", "multipath", {}}, bad}); });
 }
 
@@ -49,12 +49,12 @@ TEST(SensorRadio, TakesThePublishedCarrierUnlessThereIsAPlan) {
 }
 
 TEST(SensorRadio, SaysWhichElementIsWrong) {
-  EXPECT_EQ(complaint_about({"transmit_power_dbm", "loud", {"hall.world", 7}}),
+  EXPECT_EQ(radio_complaint({"transmit_power_dbm", "loud", {"hall.world", 7}}),
             "hall.world:7: <transmit_power_dbm> is 'loud', expected a finite number");
-  EXPECT_TRUE(contains(complaint_about({"reflection_order", "9", {"hall.world", 7}}),
+  EXPECT_TRUE(contains(radio_complaint({"reflection_order", "9", {"hall.world", 7}}),
                        "hall.world:7: <reflection_order> must be"));
-  EXPECT_TRUE(contains(complaint_about({"without", "noises", {}}), "did you mean 'noise'"));
-  EXPECT_EQ(complaint_about({"model", "magic", {}}),
+  EXPECT_TRUE(contains(radio_complaint({"without", "noises", {}}), "did you mean 'noise'"));
+  EXPECT_EQ(radio_complaint({"model", "magic", {}}),
             "<model> is 'magic', expected paper, link_budget, multipath");
 }
 

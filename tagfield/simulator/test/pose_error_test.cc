@@ -8,13 +8,13 @@
 namespace tagfield {
 namespace {
 
-constexpr double kStep = 0.1;
+constexpr double kRow = 0.1;
 
 std::vector<PoseError> sample_path(const PoseBelief& belief, std::uint64_t seed, int steps) {
   std::vector<PoseError> path = {first_pose_error(belief, seed, 7)};
   for (int i = 0; i < steps; ++i) {
     path.push_back(
-        next_pose_error(belief, path.back(), kStep, seed, 7, static_cast<std::uint64_t>(i)));
+        next_pose_error(belief, path.back(), kRow, seed, 7, static_cast<std::uint64_t>(i)));
   }
   return path;
 }
@@ -50,7 +50,7 @@ TEST(PoseError, ForgetsWithItsTimeConstant) {
   belief.sigma_m = 1.0;
   belief.time_constant_s = 2.0;
   for (const std::size_t lag : {5U, 20U, 40U}) {
-    const double expected = std::exp(-static_cast<double>(lag) * kStep / 2.0);
+    const double expected = std::exp(-static_cast<double>(lag) * kRow / 2.0);
     EXPECT_NEAR(covariance(belief, 3, lag, &PoseError::x), expected, 0.08) << lag;
   }
 }

@@ -12,6 +12,7 @@
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/simulator/simulation.h"
+#include "tagfield/simulator/test/recorded.h"
 #include "tagfield/stream/recording.h"
 
 namespace tagfield {
@@ -21,13 +22,6 @@ std::string temp(const std::string& name) { return folder_of_test().file(name); 
 
 std::string write(const std::string& name, const std::string& text) {
   return folder_of_test().with(name, text);
-}
-
-Recording run(const Scenario& scenario) {
-  Recording recording;
-  Simulation simulation(scenario, scenario.seed, recorded_in(recording));
-  while (!simulation.finished()) simulation.step();
-  return recording;
 }
 
 std::string message_of(const std::function<void()>& action) {
@@ -60,13 +54,6 @@ TEST(ReadRecordedAntenna, SaysWhatIsWrong) {
             path + ": has no poses of antenna 'b'");
   EXPECT_NE(message_of([&] { read_recorded_antenna(path, "a"); }).find(path + ": antenna 'a'"),
             std::string::npos);
-}
-
-TagSpec tag_at(const std::string& id, const Eigen::Vector3d& position) {
-  TagSpec tag;
-  tag.id = id;
-  tag.motion = {{Time{}, from_translation(position)}};
-  return tag;
 }
 
 TEST(ReplayTags, GivesListedAndNewTagsTheirRows) {
@@ -107,7 +94,7 @@ TEST(Replay, AntennaUpdatesAtItsRowsAndNowhereElse) {
         "antennas: [{name: a, recorded: poses.csv, rate_hz: 100}]\n"
         "tags: [{id: t, position: [0, 1, 1]}]\n");
   const Scenario scenario = load_scenario(temp("scenario.yaml"), {});
-  const Recording recording = run(scenario);
+  const Recording recording = recorded_run(scenario);
   EXPECT_EQ(poses_to_csv(recording.truth.antenna_poses), read_text_file(poses));
   ASSERT_EQ(recording.reads.size(), 3U);
   EXPECT_EQ(recording.reads[2].stamp, time_from_seconds(0.9));
@@ -120,7 +107,7 @@ TEST(Replay, TagHoldsItsPlaceUntilItsNextRow) {
   write("scenario.yaml",
         "duration_s: 0.6\nantennas: [{name: a, pose: [0, 0, 0], rate_hz: 10}]\n"
         "tag_recording: tags.csv\n");
-  const Recording recording = run(load_scenario(temp("scenario.yaml"), {}));
+  const Recording recording = recorded_run(load_scenario(temp("scenario.yaml"), {}));
   std::vector<double> distances;
   for (const TrueDistance& distance : recording.truth.distances) {
     distances.push_back(distance.distance_m);
@@ -146,7 +133,7 @@ tags:
 TEST(Replay, OfARunGivesItsReads) {
   write("scenario.yaml", kDriving);
   const Scenario scenario = load_scenario(temp("scenario.yaml"), {});
-  const Recording first = run(scenario);
+  const Recording first = recorded_run(scenario);
   ASSERT_GT(first.reads.size(), 300U);
   write("poses.csv", poses_to_csv(first.truth.antenna_poses));
   StagedFolder folder(temp("run"));
@@ -160,7 +147,7 @@ TEST(Replay, OfARunGivesItsReads) {
   const std::vector<Override> overrides = {
       {"antennas.up.recorded", temp("run/truth/antenna_poses.csv")},
       {"antennas.slow.recorded", temp("run/truth/antenna_poses.csv")}};
-  const Recording second = run(load_scenario(temp("replay.yaml"), overrides));
+  const Recording second = recorded_run(load_scenario(temp("replay.yaml"), overrides));
   EXPECT_EQ(reads_to_csv(second.reads), reads_to_csv(first.reads));
   EXPECT_EQ(poses_to_csv(second.truth.antenna_poses), poses_to_csv(first.truth.antenna_poses));
 }
@@ -176,7 +163,7 @@ TEST(Replay, NeedsNoDurationOnlyIfAnAntennaIsRecorded) {
             std::string::npos);
   const ScenarioWithWorld loaded = load_scenario_with_world(
       temp("scenario.yaml"), {{"antennas.a.recorded", poses}}, diagnostics);
-  EXPECT_EQ(run(loaded.scenario).reads.size(), 1U);
+  EXPECT_EQ(recorded_run(loaded.scenario).reads.size(), 1U);
 }
 
 }  // namespace

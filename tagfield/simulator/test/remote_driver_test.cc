@@ -57,7 +57,7 @@ RemoteDriving driving_by(const std::shared_ptr<RemoteControl>& control) {
   return {"cart", control, {std::make_shared<const RayScene>(Scene{}), {}}};
 }
 
-void run(Simulation& simulation) {
+void run_to_end(Simulation& simulation) {
   while (!simulation.finished()) simulation.step();
 }
 
@@ -65,7 +65,7 @@ TEST(RemoteDriver, DrivesAsFarAsItsLimitsLetIt) {
   const auto control = std::make_shared<Steady>(BodyVelocity{0.8, 0.0}, 5.0);
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(10.0), 1, {}, nullptr, &driving);
-  run(simulation);
+  run_to_end(simulation);
   // Up to 0.8 m/s in 1.6 s, and down in as long: v t, whatever the ramps. The first step of each
   // ramp is one step ahead of the straight line.
   const RigidTransform X_WB = simulation.robots().at(0).true_pose(0.0);
@@ -84,7 +84,7 @@ TEST(RemoteDriver, NeverExceedsTheRobotsSpeed) {
   const auto control = std::make_shared<Steady>(BodyVelocity{50.0, 0.0}, 9.0);
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(9.0), 1, {}, nullptr, &driving);
-  run(simulation);
+  run_to_end(simulation);
   for (const BodyVelocity& velocity : control->velocities) EXPECT_LE(velocity.forward, 1.0 + 1e-12);
 }
 
@@ -92,7 +92,7 @@ TEST(RemoteDriver, OdometryBeginsWhereTheRobotStarts) {
   const auto control = std::make_shared<Steady>(BodyVelocity{0.5, 0.0}, 4.0);
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(4.0), 1, {}, nullptr, &driving);
-  run(simulation);
+  run_to_end(simulation);
   EXPECT_EQ(control->poses.front().x, 0.0);
   EXPECT_EQ(control->poses.front().yaw, 0.0);
   // Without noise the wheels tell the truth: forwards is +x of O, and +y of the world here.
@@ -106,7 +106,7 @@ TEST(RemoteDriver, ScansComeAtTheLasersRate) {
   const auto control = std::make_shared<Steady>(BodyVelocity{}, 0.0);
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(2.0), 1, {}, nullptr, &driving);
-  run(simulation);
+  run_to_end(simulation);
   const LaserParameters laser;
   EXPECT_NEAR(static_cast<double>(control->scans.size()), 2.0 * laser.rate_hz, 1.0);
   EXPECT_EQ(beam_of(control->scans.at(0), control->scans.at(0).ranges_m.at(0)), Beam::kNothing);

@@ -11,7 +11,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kStep = 0.02;
+constexpr double kDriveStep = 0.02;
 
 const NavigationWorld& world() {
   static const NavigationWorld made = [] {
@@ -34,17 +34,18 @@ struct Ride {
       : driver(spec(), 0.4, world(), world().true_map, nullptr, told, goals, 3, 1), truth(start) {}
 
   void step() {
-    const BodyVelocity velocity = driver.step(truth, time_from_seconds(count * kStep), kStep);
-    truth = advance(truth, velocity, kStep);
+    const BodyVelocity velocity =
+        driver.step(truth, time_from_seconds(count * kDriveStep), kDriveStep);
+    truth = advance(truth, velocity, kDriveStep);
     was_lost = was_lost || !driver.knows_place();
     nearest_m = std::min(nearest_m, world().clearance.distance(truth, {}));
     ++count;
   }
   void run(double most_s) {
-    while (!driver.finished() && count * kStep < most_s) step();
+    while (!driver.finished() && count * kDriveStep < most_s) step();
   }
   [[nodiscard]] double error_m() const {
-    return (position_of(driver.believed(kStep).pose_M) - position_of(truth)).norm();
+    return (position_of(driver.believed(kDriveStep).pose_M) - position_of(truth)).norm();
   }
 
   SelfDriver driver;
@@ -80,7 +81,7 @@ TEST(SelfDriver, DrivesToOneGoalAfterAnother) {
   }
   EXPECT_GT(ride.nearest_m, 0.0);
   EXPECT_EQ(ride.driver.progress(), 1.0);
-  EXPECT_EQ(ride.driver.step(ride.truth, time_from_seconds(61.0), kStep).turn, 0.0);
+  EXPECT_EQ(ride.driver.step(ride.truth, time_from_seconds(61.0), kDriveStep).turn, 0.0);
 }
 
 TEST(SelfDriver, GoesOnWhereAGoalIsRefused) {
@@ -109,7 +110,7 @@ TEST(SelfDriver, FindsItselfFirstWhereItWasNotTold) {
 TEST(SelfDriver, FindsItselfAgainWhenCarriedAway) {
   Ride ride({-1.5, -1.0, 0.0}, about({-1.5, -1.0, 0.0}),
             {{1.5, -1.0, 0.0}, {-1.0, 1.0, 0.0}, {1.5, 0.0, 0.0}});
-  while (ride.count * kStep < 4.0) ride.step();
+  while (ride.count * kDriveStep < 4.0) ride.step();
   ride.truth = {1.5, 0.8, -2.0};
   ride.run(120.0);
   ASSERT_TRUE(ride.driver.finished());

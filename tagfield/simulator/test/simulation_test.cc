@@ -7,17 +7,11 @@
 #include <set>
 
 #include "tagfield/base/units.h"
+#include "tagfield/simulator/test/recorded.h"
 #include "tagfield/stream/recording.h"
 
 namespace tagfield {
 namespace {
-
-TagSpec tag_at(const std::string& id, const Eigen::Vector3d& position) {
-  TagSpec tag;
-  tag.id = id;
-  tag.motion = {{Time{}, from_translation(position)}};
-  return tag;
-}
 
 AntennaSpec antenna_at(const std::string& name, const Eigen::Vector3d& position) {
   AntennaSpec antenna;
@@ -37,13 +31,6 @@ Scenario fixed_antenna_and_tag() {
   return scenario;
 }
 
-Recording run(const Scenario& scenario, std::uint64_t seed = 1) {
-  Recording recording;
-  Simulation simulation(scenario, seed, recorded_in(recording));
-  while (!simulation.finished()) simulation.step();
-  return recording;
-}
-
 std::set<std::string> tags_read_between(const Recording& recording, double from, double to) {
   std::set<std::string> tags;
   for (const TagRead& read : recording.reads) {
@@ -60,7 +47,7 @@ double expected_phase(double distance) {
 TEST(Simulation, StampsReadsAtTheAntennasRateAndNotAtItsOwnSteps) {
   Scenario scenario = fixed_antenna_and_tag();
   scenario.time_step_s = 0.01;  // no divisor of 1/15 s
-  const Recording recording = run(scenario);
+  const Recording recording = recorded_run(scenario);
   ASSERT_EQ(recording.reads.size(), 30U);
   for (std::size_t k = 0; k < recording.reads.size(); ++k) {
     EXPECT_NEAR(to_seconds(recording.reads[k].stamp), static_cast<double>(k) / 15.0, 1e-9);
@@ -71,9 +58,9 @@ TEST(Simulation, StepLengthDoesNotChangeWhatIsRead) {
   Scenario scenario = fixed_antenna_and_tag();
   paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
   scenario.tags[0].motion.push_back({time_from_seconds(2.0), from_translation({4.0, 1.0, 1.0})});
-  const Recording fine = run(scenario);
+  const Recording fine = recorded_run(scenario);
   scenario.time_step_s = 0.25;
-  const Recording coarse = run(scenario);
+  const Recording coarse = recorded_run(scenario);
   ASSERT_EQ(fine.reads.size(), coarse.reads.size());
   for (std::size_t i = 0; i < fine.reads.size(); ++i) {
     EXPECT_EQ(fine.reads[i].stamp, coarse.reads[i].stamp);
@@ -85,7 +72,7 @@ TEST(Simulation, PhaseFollowsATagAlongItsTrajectory) {
   Scenario scenario = fixed_antenna_and_tag();
   scenario.tags[0].motion = {{time_from_seconds(0.5), from_translation({2.0, 0.0, 1.0})},
                              {time_from_seconds(1.5), from_translation({4.0, 0.0, 1.0})}};
-  for (const TagRead& read : run(scenario).reads) {
+  for (const TagRead& read : recorded_run(scenario).reads) {
     const double x = 2.0 + 2.0 * std::clamp(to_seconds(read.stamp) - 0.5, 0.0, 1.0);
     EXPECT_NEAR(std::abs(wrap_to_pi(read.phase_rad - expected_phase(x))), 0.0, 1e-6);
   }
@@ -103,7 +90,7 @@ TEST(Simulation, ARobotCarriesAntennaAndTag) {
   scenario.antennas[0].X_PA = from_translation({0.5, 0.0, 1.5});
   scenario.tags.push_back(tag_at("load", {0.0, 0.0, 1.0}));
   scenario.tags.back().on = "robot";
-  const Recording recording = run(scenario);
+  const Recording recording = recorded_run(scenario);
   // Facing +y, the antenna is half a metre ahead in y; it drives at 0.3 m/s.
   for (const AntennaPose& pose : recording.truth.antenna_poses) {
     const double driven = 0.3 * to_seconds(pose.stamp);
@@ -123,7 +110,7 @@ TEST(Simulation, ARobotCarriesAntennaAndTag) {
 TEST(Simulation, ALiftMovesTheAntenna) {
   Scenario scenario = fixed_antenna_and_tag();
   scenario.antennas[0].lift = {1.0, 0.5};
-  const Recording recording = run(scenario);
+  const Recording recording = recorded_run(scenario);
   ASSERT_EQ(recording.truth.antenna_poses.size(), 30U);
   for (const AntennaPose& pose : recording.truth.antenna_poses) {
     EXPECT_NEAR(pose.X_WA.translation.z(), 1.0 + 0.5 * to_seconds(pose.stamp), 1e-9);
@@ -134,14 +121,14 @@ TEST(Simulation, ReadsOnlyWithinTheRange) {
   Scenario scenario = fixed_antenna_and_tag();
   scenario.tags = {tag_at("near", {6.99, 0.0, 1.0}), tag_at("far", {7.01, 0.0, 1.0}),
                    tag_at("above", {0.0, 0.0, 8.5})};
-  EXPECT_EQ(tags_read_between(run(scenario), 0.0, 2.0), (std::set<std::string>{"near"}));
+  EXPECT_EQ(tags_read_between(recorded_run(scenario), 0.0, 2.0), (std::set<std::string>{"near"}));
 }
 
 TEST(Simulation, TagsAppearAndDisappearByTheScenario) {
   Scenario scenario = fixed_antenna_and_tag();
   scenario.tags[0].appears = time_from_seconds(0.5);
   scenario.tags[0].disappears = time_from_seconds(1.2);
-  const Recording recording = run(scenario);
+  const Recording recording = recorded_run(scenario);
   EXPECT_TRUE(tags_read_between(recording, 0.0, 0.5).empty());
   EXPECT_TRUE(tags_read_between(recording, 1.2, 2.0).empty());
   // Updates at 8/15 … 17/15 s, and none else.
@@ -180,11 +167,11 @@ TEST(Simulation, AntennasCanBeAddedAndRemovedAtAnyTime) {
 TEST(Simulation, OtherTagsAndAntennasDoNotChangeARead) {
   Scenario scenario = fixed_antenna_and_tag();
   paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
-  const Recording alone = run(scenario);
+  const Recording alone = recorded_run(scenario);
   scenario.tags.insert(scenario.tags.begin(), tag_at("other", {1.0, 1.0, 1.0}));
   scenario.antennas.insert(scenario.antennas.begin(), antenna_at("second", {1.0, 0.0, 0.0}));
   std::vector<double> phases;
-  for (const TagRead& read : run(scenario).reads) {
+  for (const TagRead& read : recorded_run(scenario).reads) {
     if (read.tag == "tag" && read.antenna == "antenna") phases.push_back(read.phase_rad);
   }
   ASSERT_EQ(phases.size(), alone.reads.size());
@@ -194,8 +181,10 @@ TEST(Simulation, OtherTagsAndAntennasDoNotChangeARead) {
 TEST(Simulation, SeedsDiffer) {
   Scenario scenario = fixed_antenna_and_tag();
   paper(scenario.antennas[0].parameters).model.phase_noise_rad = 0.1;
-  EXPECT_EQ(run(scenario, 5).reads[3].phase_rad, run(scenario, 5).reads[3].phase_rad);
-  EXPECT_NE(run(scenario, 5).reads[3].phase_rad, run(scenario, 6).reads[3].phase_rad);
+  EXPECT_EQ(recorded_run(scenario, 5).reads[3].phase_rad,
+            recorded_run(scenario, 5).reads[3].phase_rad);
+  EXPECT_NE(recorded_run(scenario, 5).reads[3].phase_rad,
+            recorded_run(scenario, 6).reads[3].phase_rad);
 }
 
 TEST(Simulation, RefusesWhatCannotBeSimulated) {

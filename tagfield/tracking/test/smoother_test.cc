@@ -10,7 +10,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kBeltHeight = 0.8;
+constexpr double kBelt = 0.8;
 constexpr const char* kTag = "parcel";
 
 struct MadePass {
@@ -22,7 +22,7 @@ struct MadePass {
 MadePass made_pass(unsigned seed, const made::Gate& gate = {}) {
   made::Rng rng(seed);
   MadePass result;
-  result.truth = made::straight({0.1, 0.03, kBeltHeight}, {1.0, 0.02, 0.0});
+  result.truth = made::straight({0.1, 0.03, kBelt}, {1.0, 0.02, 0.0});
   std::vector<TagRead> reads;
   made::read_motion(gate, kTag, result.truth, -10.0, 10.0, rng, reads);
   Lane lane;
@@ -32,7 +32,7 @@ MadePass made_pass(unsigned seed, const made::Gate& gate = {}) {
   result.options.acceleration_noise = 0.0;
   result.options.height_sigma_m = 1e-5;
   result.options.vertical_speed_sigma_m_s = 1e-6;
-  result.pass = make_pass(made::problem_of(gate, reads, kBeltHeight), kTag, result.options);
+  result.pass = make_pass(made::problem_of(gate, reads, kBelt), kTag, result.options);
   return result;
 }
 
@@ -50,7 +50,7 @@ struct Batch {
 double predict(const PassRead& read, const Eigen::Matrix<double, 6, 1>& theta) {
   const double x = theta(0) + theta(2) * read.t_s - read.p_WA.x();
   const double y = theta(1) + theta(3) * read.t_s - read.p_WA.y();
-  const double z = kBeltHeight - read.p_WA.z();
+  const double z = kBelt - read.p_WA.z();
   return read.k * std::sqrt(x * x + y * y + z * z) +
          theta(4 + static_cast<Eigen::Index>(read.antenna));
 }
@@ -152,13 +152,13 @@ TEST(Smoother, FollowsATagThatChangesItsSpeed) {
   MadePass made = made_pass(3, gate);
   made.truth = [](double t) -> Eigen::Vector3d {
     const double s = std::clamp(t + 0.5, 0.0, 1.0);
-    return {0.8 * t + 0.2 * s * s + 0.4 * std::max(0.0, t - 0.5), 0.0, kBeltHeight};
+    return {0.8 * t + 0.2 * s * s + 0.4 * std::max(0.0, t - 0.5), 0.0, kBelt};
   };
   made::Rng rng(9);
   std::vector<TagRead> reads;
   made::read_motion(gate, kTag, made.truth, -10.0, 10.0, rng, reads);
   made.options.acceleration_noise = 0.3;
-  made.pass = make_pass(made::problem_of(gate, reads, kBeltHeight), kTag, made.options);
+  made.pass = make_pass(made::problem_of(gate, reads, kBelt), kTag, made.options);
   const Track track = smooth(made.pass, made.options, Linearization::kTaylor,
                              start_from(made.pass, made.options, best_line(made)));
   // So unsteady a motion leaves more unknown; the covariance has to say so.

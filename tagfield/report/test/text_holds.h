@@ -1,0 +1,13 @@
+/// @file
+/// What tests of texts ask of them.
+#pragma once
+
+#include <string>
+
+namespace tagfield {
+
+inline bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace tagfield
