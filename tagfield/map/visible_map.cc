@@ -47,35 +47,48 @@ std::vector<bool> reachable_cells(const OccupancyGrid& truth, const Eigen::Vecto
   return reached;
 }
 
+/// As std::floor(), of what is not below −1.
+int cell_at(double place) { return place < 0.0 ? -1 : static_cast<int>(place); }
+
 /// Marks the free cells along a ray, up to the first that is not free.
-void look(const OccupancyGrid& truth, int x, int y, double angle, std::vector<bool>& seen) {
-  const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-  // Half a cell a step misses no more than a corner.
+void look(const OccupancyGrid& truth, int x, int y, const Eigen::Vector2d& direction,
+          std::vector<char>& seen) {
+  // Half a cell a step misses no more than a corner, and leaves the map by less than a cell.
   for (double way = 0.0;; way += 0.5) {
-    const int u = static_cast<int>(std::floor(x + 0.5 + way * direction.x()));
-    const int v = static_cast<int>(std::floor(y + 0.5 + way * direction.y()));
+    const int u = cell_at(x + 0.5 + way * direction.x());
+    const int v = cell_at(y + 0.5 + way * direction.y());
     if (!is_free(truth.at(u, v))) return;
-    seen[truth.index(u, v)] = true;
+    seen[truth.index(u, v)] = 1;
   }
 }
 
-std::vector<bool> seen_cells(const OccupancyGrid& truth, const std::vector<bool>& reached) {
-  std::vector<bool> seen(truth.cells.size(), false);
+std::vector<Eigen::Vector2d> directions() {
+  std::vector<Eigen::Vector2d> all;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = i * kTwoPi / kDirections;
+    all.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return all;
+}
+
+std::vector<char> seen_cells(const OccupancyGrid& truth, const std::vector<bool>& reached) {
+  std::vector<char> seen(truth.cells.size(), 0);
+  const std::vector<Eigen::Vector2d> around = directions();
   const int step =
       std::max(1, static_cast<int>(std::lround(kLookoutSpacing_m / truth.resolution_m)));
   for (int y = 0; y < truth.height; y += step) {
     for (int x = 0; x < truth.width; x += step) {
       if (!reached[truth.index(x, y)]) continue;
-      for (int i = 0; i < kDirections; ++i) look(truth, x, y, i * kTwoPi / kDirections, seen);
+      for (const Eigen::Vector2d& direction : around) look(truth, x, y, direction, seen);
     }
   }
   return seen;
 }
 
-bool borders_on(const OccupancyGrid& truth, const std::vector<bool>& seen, int x, int y) {
+bool borders_on(const OccupancyGrid& truth, const std::vector<char>& seen, int x, int y) {
   for (int v = y - 1; v <= y + 1; ++v) {
     for (int u = x - 1; u <= x + 1; ++u) {
-      if (truth.contains(u, v) && seen[truth.index(u, v)]) return true;
+      if (truth.contains(u, v) && seen[truth.index(u, v)] != 0) return true;
     }
   }
   return false;
@@ -85,13 +98,14 @@ bool borders_on(const OccupancyGrid& truth, const std::vector<bool>& seen, int x
 
 OccupancyGrid visible_map(const OccupancyGrid& truth, const Eigen::Vector2d& start,
                           double radius_m) {
-  const std::vector<bool> seen =
+  const std::vector<char> seen =
       seen_cells(truth, reachable_cells(truth, truth.cell_of(start), radius_m));
   OccupancyGrid visible = truth;
   for (int y = 0; y < truth.height; ++y) {
     for (int x = 0; x < truth.width; ++x) {
       const std::size_t at = truth.index(x, y);
-      const bool kept = is_occupied(truth.cells[at]) ? borders_on(truth, seen, x, y) : seen[at];
+      const bool kept =
+          is_occupied(truth.cells[at]) ? borders_on(truth, seen, x, y) : seen[at] != 0;
       if (!kept) visible.cells[at] = -1;
     }
   }

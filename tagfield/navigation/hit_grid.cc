@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tagfield/motion/planar_pose.h"
+#include "tagfield/navigation/internal/cell_marks.h"
 
 namespace tagfield {
 namespace {
@@ -19,29 +20,6 @@ std::size_t place_in_patch(int x, int y) {
 std::size_t place_of(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
          static_cast<std::size_t>(x);
-}
-
-/// How a ray walks over the cells along one axis (Amanatides and Woo, 1987).
-struct Walk {
-  int cell = 0;
-  int step = 0;
-  double next = 0.0;   ///< Share of the ray at which it enters the next cell.
-  double share = 0.0;  ///< Of the ray for a whole cell.
-};
-
-Walk walk_along(double from, double to) {
-  Walk walk;
-  walk.cell = static_cast<int>(std::floor(from));
-  const double way = to - from;
-  walk.step = way > 0.0 ? 1 : -1;
-  if (way == 0.0) {
-    walk.next = walk.share = std::numeric_limits<double>::infinity();
-    return walk;
-  }
-  walk.share = 1.0 / std::abs(way);
-  const double border = way > 0.0 ? walk.cell + 1.0 : static_cast<double>(walk.cell);
-  walk.next = (border - from) / way;
-  return walk;
 }
 
 }  // namespace
@@ -92,38 +70,22 @@ HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
   return *patch;
 }
 
-/// Counts a pass in all cells of the ray but those within `stop_short_m` of its end, and those that
-/// this scan counts already.
-void HitGrid::pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m) {
-  const double length = (to - from).norm();
-  if (!(length > stop_short_m)) return;
-  const double last = 1.0 - stop_short_m / length;
-  Walk x = walk_along(from.x() / resolution_m_, to.x() / resolution_m_);
-  Walk y = walk_along(from.y() / resolution_m_, to.y() / resolution_m_);
+/// Counts a pass in the cells of a patch that are marked, but those that this scan counts already.
+void HitGrid::count_passed(const CellMarks& marks, int patch_x, int patch_y) {
   Patch* patch = nullptr;
-  int patch_x = 0;
-  int patch_y = 0;
-  for (double entered = 0.0; entered < last;) {
-    const int px = x.cell >> kPatchBits;
-    const int py = y.cell >> kPatchBits;
-    if (patch == nullptr || px != patch_x || py != patch_y) {
-      patch = &patch_to_change(px, py);
-      patch_x = px;
-      patch_y = py;
-    }
-    HitCell& cell = (*patch)[place_in_patch<kPatchBits>(x.cell, y.cell)];
-    if (cell.last != scans_) {
+  const int x0 = std::max(patch_x * kPatchCells, marks.x0);
+  const int x1 = std::min((patch_x + 1) * kPatchCells, marks.x0 + marks.width);
+  const int y0 = std::max(patch_y * kPatchCells, marks.y0);
+  const int y1 = std::min((patch_y + 1) * kPatchCells, marks.y0 + marks.height);
+  for (int y = y0; y < y1; ++y) {
+    const char* marked = marks.row(y) + (x0 - marks.x0);
+    for (int x = x0; x < x1; ++x, ++marked) {
+      if (*marked == 0) continue;
+      if (patch == nullptr) patch = &patch_to_change(patch_x, patch_y);
+      HitCell& cell = (*patch)[place_in_patch<kPatchBits>(x, y)];
+      if (cell.last == scans_) continue;
       cell.last = scans_;
       ++cell.passed;
-    }
-    if (x.next < y.next) {
-      entered = x.next;
-      x.cell += x.step;
-      x.next += x.share;
-    } else {
-      entered = y.next;
-      y.cell += y.step;
-      y.next += y.share;
     }
   }
 }
@@ -156,9 +118,32 @@ void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {
   for (const Eigen::Vector2d& end_R : scan.ends_R) ends.push_back(transformed(pose_M, end_R));
   // The ends first, since a cell is counted once for each scan.
   add_ends(ends);
-  for (const Eigen::Vector2d& end : ends) pass(from, end, stop_short_m);
+  std::vector<Ray> rays;
+  rays.reserve(ends.size() + scan.clear_R.size());
+  for (const Eigen::Vector2d& end : ends) rays.push_back({end, stop_short_m});
   for (const Eigen::Vector2d& clear_R : scan.clear_R) {
-    pass(from, transformed(pose_M, clear_R), 0.0);
+    rays.push_back({transformed(pose_M, clear_R), 0.0});
+  }
+  pass(from, rays);
+}
+
+/// Most cells near the sensor are passed by many beams, so they are marked first and counted once.
+void HitGrid::pass(const Eigen::Vector2d& from, const std::vector<Ray>& rays) {
+  Eigen::Vector2i low = cell_of(from);
+  Eigen::Vector2i high = low;
+  for (const Ray& ray : rays) {
+    low = low.cwiseMin(cell_of(ray.to));
+    high = high.cwiseMax(cell_of(ray.to));
+  }
+  // Rounding may lead a ray one cell beyond its end.
+  CellMarks marks(low - Eigen::Vector2i::Ones(), high + Eigen::Vector2i::Ones());
+  for (const Ray& ray : rays) {
+    const double length = (ray.to - from).norm();
+    if (!(length > ray.stop_short_m)) continue;
+    marks.mark_ray(from / resolution_m_, ray.to / resolution_m_, 1.0 - ray.stop_short_m / length);
+  }
+  for (int y = low.y() >> kPatchBits; y <= high.y() >> kPatchBits; ++y) {
+    for (int x = low.x() >> kPatchBits; x <= high.x() >> kPatchBits; ++x) count_passed(marks, x, y);
   }
 }
 

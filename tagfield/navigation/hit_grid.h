@@ -15,6 +15,8 @@
 
 namespace tagfield {
 
+struct CellMarks;
+
 /// The mean of the beams' ends in a cell tells where in the cell the surface is, which a scan can
 /// be matched to far finer than to the cell itself.
 struct HitCell {
@@ -66,11 +68,17 @@ class HitGrid {
   static constexpr int kPatchBits = 5;
   static constexpr int kPatchCells = 1 << kPatchBits;
   using Patch = std::array<HitCell, std::size_t{kPatchCells} * kPatchCells>;
+  /// A beam from the sensor; cells nearer to its end than `stop_short_m` are not passed.
+  struct Ray {
+    Eigen::Vector2d to;
+    double stop_short_m = 0.0;
+  };
 
   Patch& patch_to_change(int patch_x, int patch_y);
   void make_room(int patch_x, int patch_y);
   void add_end(const Eigen::Vector2d& end_M);
-  void pass(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double stop_short_m);
+  void pass(const Eigen::Vector2d& from, const std::vector<Ray>& rays);
+  void count_passed(const CellMarks& marks, int patch_x, int patch_y);
 
   double resolution_m_;
   std::uint32_t scans_ = 0;  ///< That were entered.

@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 
 #include "tagfield/motion/planar_pose.h"
 
@@ -77,6 +79,26 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_
   return surface;
 }
 
+/// The surfaces of one map, each computed once: most points of a scan and all iterations meet the
+/// same.
+class Surfaces {
+ public:
+  Surfaces(const HitGrid& map, double most_ends) : map_(map), most_ends_(most_ends) {}
+
+  const Surface& at(const Eigen::Vector2i& cell) {
+    const auto key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x())) << 32U) |
+                     static_cast<std::uint32_t>(cell.y());
+    const auto [entry, is_new] = known_.try_emplace(key);
+    if (is_new) entry->second = surface_at(map_, cell, most_ends_);
+    return entry->second;
+  }
+
+ private:
+  const HitGrid& map_;
+  double most_ends_;
+  std::unordered_map<std::uint64_t, Surface> known_;
+};
+
 /// The normal equations of one iteration.
 struct Sums {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -100,7 +122,7 @@ struct Sums {
 };
 
 Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
-             const PlanarPose& pose, int reach, const MatchOptions& options) {
+             const PlanarPose& pose, int reach, const MatchOptions& options, Surfaces& surfaces) {
   Sums sums;
   const double c = std::cos(pose.yaw);
   const double s = std::sin(pose.yaw);
@@ -117,7 +139,7 @@ Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
       continue;
     }
     ++sums.matched;
-    const Surface surface = surface_at(map, *cell, options.most_ends);
+    const Surface& surface = surfaces.at(*cell);
     const Eigen::Vector2d arm(-turned.y(), turned.x());
     const Eigen::Vector2d off = p - surface.mean;
     if (surface.normal.isZero()) {
@@ -141,10 +163,11 @@ ScanMatch match_scan(const HitGrid& map, const std::vector<Eigen::Vector2d>& poi
                      const Eigen::Matrix3d& prior_information, const MatchOptions& options) {
   ScanMatch match;
   match.pose_M = guess_M;
+  Surfaces surfaces(map, options.most_ends);
   for (int i = 0; i < options.iterations; ++i) {
     // Wide first, then only the surface at hand.
     const int reach = i < 3 ? options.search_cells : 2;
-    const Sums sums = sums_at(map, points_R, match.pose_M, reach, options);
+    const Sums sums = sums_at(map, points_R, match.pose_M, reach, options, surfaces);
     const Eigen::Vector3d off = difference(match.pose_M, prior_M);
     match.information = sums.information + prior_information;
     const Eigen::Vector3d gradient = sums.gradient + prior_information * off;

@@ -1,0 +1,32 @@
+/// @file
+/// Marks of the cells that the beams of one scan pass.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace tagfield {
+
+/// Cells (x0, y0) to (x0 + width − 1, y0 + height − 1), row by row; 0 where no ray was.
+struct CellMarks {
+  CellMarks(const Eigen::Vector2i& low, const Eigen::Vector2i& high);
+
+  int x0, y0, width, height;
+  std::vector<char> marked;
+
+  /// Marks the cells that the ray from `from` to `to` enters before the share `last` ≤ 1 of its
+  /// length, where a cell is 1 wide (Amanatides and Woo, 1987). `from` and `to` lie in cells that
+  /// have all their neighbours among these, since rounding may lead one cell too far.
+  void mark_ray(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double last);
+
+  /// Row y, beginning with cell (x0, y).
+  [[nodiscard]] const char* row(int y) const { return marked.data() + place(x0, y); }
+
+ private:
+  [[nodiscard]] std::size_t place(int x, int y) const {
+    return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x - x0);
+  }
+};
+
+}  // namespace tagfield
