@@ -1,6 +1,7 @@
 #include "tagfield/localization/holograms/grid_search.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 
@@ -59,9 +60,11 @@ bool is_brighter(const SearchCell& a, const SearchCell& b) {
 
 /// The bright ones of the cells, each split.
 Cells split(Cells cells) {
-  std::sort(cells.begin(), cells.end(), is_brighter);
+  const std::size_t most = std::min(cells.size(), kMostKept);
+  std::partial_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(most), cells.end(),
+                    is_brighter);
   Cells finer;
-  for (std::size_t k = 0; k < std::min(cells.size(), kMostKept); ++k) {
+  for (std::size_t k = 0; k < most; ++k) {
     const SearchCell& cell = cells[k];
     if (k >= kFewestKept && cell.brightness < kBrightEnough * cells.front().brightness) break;
     for (std::int64_t a = -1; a <= 1; ++a) {

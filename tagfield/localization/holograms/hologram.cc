@@ -7,15 +7,15 @@
 #include "tagfield/base/units.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/grid_search.h"
+#include "tagfield/localization/holograms/reach.h"
 
 namespace tagfield {
 namespace {
 
-constexpr double kFirstAperture = 1.5;    ///< [λ]
-constexpr double kFinestCell = 0.1;       ///< [λ]
-constexpr double kThoroughCell = 0.16;    ///< Half of a lobe's width [λ].
-constexpr double kMostCells = 1000.0;     ///< From the middle to the edge of a grid.
-constexpr Eigen::Index kReachReads = 60;  ///< Antenna places by which the range is checked.
+constexpr double kFirstAperture = 1.5;  ///< [λ]
+constexpr double kFinestCell = 0.1;     ///< [λ]
+constexpr double kThoroughCell = 0.16;  ///< Half of a lobe's width [λ].
+constexpr double kMostCells = 1000.0;   ///< From the middle to the edge of a grid.
 
 /// The place near `start` where growing apertures lead the fit.
 PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, PlaceVector place) {
@@ -24,6 +24,22 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
     place = climb(phases, apertures(phases, length), height, place);
   }
   return place;
+}
+
+/// With the waves of some reads in `waves(first, count)`.
+template <typename Waves>
+Tile added_up(const SearchReads& reads, const Waves& waves) {
+  Tile light = Tile::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    const WaveSums sums = waves(&reads.reads[static_cast<std::size_t>(aperture.begin)],
+                                static_cast<std::size_t>(aperture.count));
+    if (aperture.offset_known) {
+      light += sums.in_phase;
+    } else {
+      light += (sums.in_phase.square() + sums.quadrature.square()).sqrt();
+    }
+  }
+  return light;
 }
 
 }  // namespace
@@ -37,17 +53,6 @@ void check_cells(const SearchOptions& options) {
 Eigen::Vector2d middle_of(const TagPhases& phases) {
   return {0.5 * (phases.x.minCoeff() + phases.x.maxCoeff()),
           0.5 * (phases.y.minCoeff() + phases.y.maxCoeff())};
-}
-
-bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range) {
-  const Eigen::Index step = std::max<Eigen::Index>(1, phases.size() / kReachReads);
-  Eigen::Index within = 0;
-  Eigen::Index beyond = 0;
-  for (Eigen::Index i = 0; i < phases.size(); i += step) {
-    const Eigen::Vector3d p_WA(phases.x[i], phases.y[i], phases.z[i]);
-    ++((p - p_WA).squaredNorm() > max_range * max_range ? beyond : within);
-  }
-  return within >= beyond;
 }
 
 TagPhases thinned(const TagPhases& phases, std::size_t count) {
@@ -88,7 +93,15 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
 }
 
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y) {
-  return coherent_sum(reads, [&](const SearchRead& read) { return residual_turns(read, x, y); });
+  return added_up(reads, [&](const SearchRead* first, std::size_t count) {
+    return wave_sums(first, count, x, y);
+  });
+}
+
+Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
+  return added_up(reads, [&](const SearchRead* first, std::size_t count) {
+    return wave_sums(first, count, x, y, z);
+  });
 }
 
 std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,
@@ -110,9 +123,8 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
   double finest = size;
   for (; finest > kFinestCell * lambda; finest /= kGridSplit, length *= 3.0) add(coarse, length);
   add(phases, kWholeAperture);
-  const auto within = [&](const Eigen::Vector2d& p) {
-    return in_reach(phases, {p.x(), p.y(), height}, options.max_range_m);
-  };
+  PlaneInReach in_reach(phases, height, options.max_range_m);
+  const auto within = [&](const Eigen::Vector2d& p) { return in_reach.holds(p); };
   std::vector<Eigen::Vector2d> places;
   const Grid grid{middle, size, options.max_range_m};
   for (const GridMaximum& maximum : search_grid(grid, within, levels, options.maxima)) {

@@ -14,18 +14,10 @@
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/holograms/grid_search.h"
+#include "tagfield/localization/holograms/wave_sums.h"
 #include "tagfield/localization/method.h"
 
 namespace tagfield {
-
-/// A read in single precision, relative to `SearchReads::middle`.
-struct SearchRead {
-  float x = 0.0f, y = 0.0f;      ///< Antenna [m].
-  float z = 0.0f;                ///< Antenna above the plane that is searched [m].
-  float height_squared = 0.0f;   ///< z² [m²].
-  float turns = 0.0f;            ///< Phase, in turns, within [−½, ½].
-  float turns_per_metre = 0.0f;  ///< 2/λ.
-};
 
 /// The reads that one level of the search looks at.
 struct SearchReads {
@@ -61,33 +53,10 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
   sine = 2.0f * s * c;
 }
 
-/// Σ |Σ e^{jφ}| over the apertures, the real part where the offset is known, with the phase of each
-/// read in `turns_of(read)`.
-template <typename TurnsOf>
-Tile coherent_sum(const SearchReads& reads, const TurnsOf& turns_of) {
-  Tile light = Tile::Zero();
-  Tile cosine;
-  Tile sine;
-  for (const Aperture& aperture : reads.apertures) {
-    Tile in_phase = Tile::Zero();
-    Tile quadrature = Tile::Zero();
-    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
-      const Tile turns = turns_of(reads.reads[static_cast<std::size_t>(i)]);
-      wave_of(wrapped_turns(turns), cosine, sine);
-      in_phase += cosine;
-      quadrature += sine;
-    }
-    if (aperture.offset_known) {
-      light += in_phase;
-    } else {
-      light += (in_phase.square() + quadrature.square()).sqrt();
-    }
-  }
-  return light;
-}
-
-/// That of the residuals φ − k r.
+/// Σ |Σ e^{j(φ − k r)}| over the apertures, the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
+/// The same, each place with a height of its own above the plane.
+Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z);
 
 /// How the area is searched.
 struct SearchOptions {
@@ -136,10 +105,6 @@ std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightMode
 
 /// Middle of the box around the antennas, seen from above [m]; phases must not be empty.
 Eigen::Vector2d middle_of(const TagPhases& phases);
-
-/// Whether a tag at `p` would be within `max_range` [m] of the antennas at half of the reads, of
-/// which about sixty are looked at. Strong readers and reflections carry some reads further.
-bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range);
 
 /// Every n-th read, so that about `count` are left at most.
 TagPhases thinned(const TagPhases& phases, std::size_t count);

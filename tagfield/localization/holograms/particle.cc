@@ -7,6 +7,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
+#include "tagfield/localization/holograms/reach.h"
 #include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
@@ -41,19 +42,10 @@ struct Search {
   std::vector<Level> levels;
 };
 
-/// Like coherent_brightness(), each place with a height of its own.
-Tile coherence_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
-  return coherent_sum(reads, [&](const SearchRead& read) -> Tile {
-    return read.turns -
-           read.turns_per_metre *
-               ((x - read.x).square() + (y - read.y).square() + (z - read.z).square()).sqrt();
-  });
-}
-
 std::vector<double> coherence_of(const SearchReads& reads,
                                  const std::vector<Eigen::Vector3f>& places) {
   return by_tiles(places, [&](const Tile& x, const Tile& y, const Tile& z) {
-    return coherence_in_space(reads, x, y, z);
+    return brightness_in_space(reads, x, y, z);
   });
 }
 

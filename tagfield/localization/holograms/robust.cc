@@ -5,6 +5,7 @@
 
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/likelihood_spread.h"
+#include "tagfield/localization/holograms/reach.h"
 #include "tagfield/localization/holograms/stretches.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/tag_fit.h"
@@ -46,9 +47,8 @@ std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases&
     };
   };
   const Grid grid{search.middle, kFirstCell * longest_cycle(search.phases), search.max_range_m};
-  const auto within = [&](const Eigen::Vector2d& p) {
-    return in_reach(search.phases, {p.x(), p.y(), z}, search.max_range_m);
-  };
+  PlaneInReach in_reach(search.phases, z, search.max_range_m);
+  const auto within = [&](const Eigen::Vector2d& p) { return in_reach.holds(p); };
   std::vector<Vector3d> places;
   for (const GridMaximum& maximum :
        search_grid(grid, within,

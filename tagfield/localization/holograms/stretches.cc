@@ -138,35 +138,12 @@ std::vector<CoherentStretch> stretches_of(const std::vector<Piece>& pieces,
   return stretches;
 }
 
-struct Waves {
-  Tile in_phase = Tile::Zero();
-  Tile quadrature = Tile::Zero();
-};
-
-Waves waves_of(const StretchedReads& all, const Aperture& piece, const Tile& x, const Tile& y,
-               const Tile& z) {
-  Waves sum;
-  Tile cosine;
-  Tile sine;
-  for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
-    const SearchRead& read = all.reads.reads[static_cast<std::size_t>(i)];
-    const Tile turns =
-        read.turns -
-        read.turns_per_metre *
-            ((x - read.x).square() + (y - read.y).square() + (z - read.z).square()).sqrt();
-    wave_of(wrapped_turns(turns), cosine, sine);
-    sum.in_phase += cosine;
-    sum.quadrature += sine;
-  }
-  return sum;
-}
-
 /// −f ln(1 − the share of the power that adds up).
 Tile likelihood_of(const StretchedReads& all, const CoherentStretch& stretch,
-                   const std::vector<Waves>& of_pieces) {
+                   const std::vector<WaveSums>& of_pieces) {
   Tile power = Tile::Zero();
   for (const auto& channel : stretch.channels) {
-    Waves sum;
+    WaveSums sum;
     float reads = 0.0f;
     for (const std::size_t piece : channel) {
       sum.in_phase += of_pieces[piece].in_phase;
@@ -216,10 +193,11 @@ StretchedReads stretched_reads(const TagPhases& phases, double wavelength, doubl
 
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
                         const Tile& y, const Tile& z) {
-  std::vector<Waves> of_pieces;
+  std::vector<WaveSums> of_pieces;
   of_pieces.reserve(reads.reads.apertures.size());
   for (const Aperture& piece : reads.reads.apertures) {
-    of_pieces.push_back(waves_of(reads, piece, x, y, z));
+    of_pieces.push_back(wave_sums(&reads.reads.reads[static_cast<std::size_t>(piece.begin)],
+                                  static_cast<std::size_t>(piece.count), x, y, z));
   }
   Tile sum = Tile::Zero();
   for (int k = choice.first; k <= choice.last; ++k) {

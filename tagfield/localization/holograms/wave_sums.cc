@@ -1,0 +1,83 @@
+#include "tagfield/localization/holograms/wave_sums.h"
+
+#include <cmath>
+
+// Compiled several times over, for the widest vectors that the machine has, which the loader
+// chooses. Each operation is rounded by itself (-ffp-contract=off), so all give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define TAGFIELD_FOR_EACH_MACHINE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TAGFIELD_FOR_EACH_MACHINE
+#endif
+
+namespace tagfield {
+namespace {
+
+constexpr int kLanes = 16;  ///< Places whose sums stay in registers.
+static_assert(kTile % kLanes == 0);
+
+/// `z` is null for places of the plane.
+__attribute__((always_inline)) inline void add_waves(const SearchRead* reads, std::size_t count,
+                                                     const float* x, const float* y, const float* z,
+                                                     float* in_phase, float* quadrature) {
+  // Added to a number of this size, fractions are rounded off.
+  constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
+  float cosines[kLanes] = {};
+  float sines[kLanes] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const SearchRead& read = reads[i];
+    for (int k = 0; k < kLanes; ++k) {
+      const float dx = x[k] - read.x;
+      const float dy = y[k] - read.y;
+      const float dz = z != nullptr ? z[k] - read.z : 0.0f;
+      const float rest = z != nullptr ? dz * dz : read.height_squared;
+      const float turns = read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + rest);
+      const float t = turns - ((turns + kRounds) - kRounds);
+      // Cosine and sine of πt by polynomials that meet them at Chebyshev's points, then the double
+      // angle.
+      const float u = t * t;
+      const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
+      const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
+      cosines[k] += 1.0f - 2.0f * (s * s);
+      sines[k] += 2.0f * s * c;
+    }
+  }
+  for (int k = 0; k < kLanes; ++k) {
+    in_phase[k] = cosines[k];
+    quadrature[k] = sines[k];
+  }
+}
+
+TAGFIELD_FOR_EACH_MACHINE
+void add_on_plane(const SearchRead* reads, std::size_t count, const float* x, const float* y,
+                  float* in_phase, float* quadrature) {
+  for (int k = 0; k < kTile; k += kLanes) {
+    add_waves(reads, count, x + k, y + k, nullptr, in_phase + k, quadrature + k);
+  }
+}
+
+TAGFIELD_FOR_EACH_MACHINE
+void add_in_space(const SearchRead* reads, std::size_t count, const float* x, const float* y,
+                  const float* z, float* in_phase, float* quadrature) {
+  for (int k = 0; k < kTile; k += kLanes) {
+    add_waves(reads, count, x + k, y + k, z + k, in_phase + k, quadrature + k);
+  }
+}
+
+}  // namespace
+
+WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y) {
+  WaveSums sums;
+  add_on_plane(reads, count, x.data(), y.data(), sums.in_phase.data(), sums.quadrature.data());
+  return sums;
+}
+
+WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
+                   const Tile& z) {
+  WaveSums sums;
+  add_in_space(reads, count, x.data(), y.data(), z.data(), sums.in_phase.data(),
+               sums.quadrature.data());
+  return sums;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,41 @@
+#include "tagfield/localization/holograms/reach.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "made_reads.h"
+
+namespace tagfield {
+namespace {
+
+TEST(InReach, IsNearerThanTheRangeAtHalfOfTheReads) {
+  TagPhases phases;
+  phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(4);
+  phases.x << 0.0, 0.0, 10.0, 10.0;
+  EXPECT_TRUE(in_reach(phases, {1.0, 0.0, 0.0}, 2.0));
+  EXPECT_FALSE(in_reach(phases, {5.0, 0.0, 0.0}, 2.0));
+  phases.x << 0.0, 10.0, 10.0, 10.0;
+  EXPECT_FALSE(in_reach(phases, {1.0, 0.0, 0.0}, 2.0));
+}
+
+RC_GTEST_PROP(PlaneInReach, AgreesWithEachPlaceByItself, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  TagPhases phases;
+  const auto count = static_cast<Eigen::Index>(1 + rng() % 90);
+  phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    phases.x[i] = made::uniform(rng, -4.0, 4.0);
+    phases.y[i] = made::uniform(rng, -4.0, 4.0);
+    phases.z[i] = made::uniform(rng, 0.0, 3.0);
+  }
+  const double range = made::uniform(rng, 0.5, 6.0);
+  PlaneInReach plane(phases, 1.0, range);
+  for (double x = -11.0; x < 11.0; x += 0.37) {
+    for (double y = -11.0; y < 11.0; y += 0.37) {
+      RC_ASSERT(plane.holds({x, y}) == in_reach(phases, {x, y, 1.0}, range));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tagfield
