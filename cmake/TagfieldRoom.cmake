@@ -44,10 +44,13 @@ function(tagfield_public_headers room)
   endforeach()
 endfunction()
 
-# tagfield_plain_arithmetic(TARGET): no errno from mathematical functions, and complex numbers are
-# multiplied and divided without a look for infinities, which never come in. Results stay the same.
+# tagfield_plain_arithmetic(TARGET): no errno and no exceptions' flags from mathematical functions, no
+# product and sum in one instruction, and complex numbers are multiplied and divided without a look for
+# infinities, which never come in. So compilers find vector instructions for loops, and results are the
+# same bits in all of them (tagfield/base/lanes.h).
 function(tagfield_plain_arithmetic target)
-  target_compile_options(${target} PRIVATE -fno-math-errno -fcx-limited-range)
+  target_compile_options(${target} PRIVATE
+    -fno-math-errno -fno-trapping-math -ffp-contract=off -fcx-limited-range)
   # Headers read once for all were read without these.
   set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 endfunction()

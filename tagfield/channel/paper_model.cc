@@ -8,6 +8,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/paper_signals.h"
 
 namespace tagfield {
 
@@ -31,11 +32,11 @@ double paper_phase(const PaperModel& model, double distance_m, double noise_rad)
 }
 
 double paper_rssi_dbm(const PaperModel& model, double distance_m, double noise) {
-  constexpr double kLeast = std::numeric_limits<double>::min();
-  constexpr double kMost = std::numeric_limits<double>::max();
   const double amplitude =
       model.communication_gain * (wavelength(model.frequency_hz) / (4.0 * kPi * distance_m));
   // Each bounded before they are added: two infinities could cancel to a NaN.
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  constexpr double kMost = std::numeric_limits<double>::max();
   const double sum = std::min(amplitude, kMost) + std::clamp(noise, -kMost, kMost);
   const double decibels = 40.0 * std::log10(std::clamp(std::abs(sum), kLeast, kMost));
   return std::round(decibels) + 0.0;  // Not -0.
@@ -43,12 +44,13 @@ double paper_rssi_dbm(const PaperModel& model, double distance_m, double noise) 
 
 Signal paper_signal(const PaperModel& model, const LinkGeometry& link, RandomStream& noise,
                     RandomStream& optional_noise) {
-  const auto [n_phase, n_rssi] = standard_normal_pair(noise);
-  // Wrapped apart, so that a huge optional draw does not swallow the other noise.
-  const double phase_noise =
-      model.phase_noise_rad * n_phase + wrap_to_two_pi(draw(model.optional, optional_noise));
-  return {paper_phase(model, link.distance_m, phase_noise),
-          paper_rssi_dbm(model, link.distance_m, model.rssi_noise * n_rssi)};
+  const std::uint64_t first = noise();
+  const std::uint64_t second = noise();
+  const double optional = draw(model.optional, optional_noise);
+  Signal signal;
+  paper_signals(model, {{&link.distance_m, 1}, {&first, 1}, {&second, 1}, {&optional, 1}},
+                {&signal.phase_rad, 1}, {&signal.rssi_dbm, 1});
+  return signal;
 }
 
 }  // namespace tagfield

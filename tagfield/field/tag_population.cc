@@ -3,11 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "tagfield/base/error.h"
 
 namespace tagfield {
+namespace {
+
+constexpr std::size_t kAtOnce = 256;
+
+/// Up to kAtOnce tags.
+void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
+               const Eigen::Vector3d& p_WA, Time stamp, std::uint64_t seed,
+               const TagPopulation& tags, std::span<const std::uint32_t> slots,
+               std::vector<TagReply>& replies) {
+  std::array<std::uint64_t, kAtOnce> keys;
+  std::array<double, kAtOnce> distances_m;
+  std::array<double, kAtOnce> phases_rad;
+  std::array<double, kAtOnce> rssis_dbm;
+  const std::size_t count = slots.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    keys[i] = tags.key(slots[i]);
+    distances_m[i] = link_between(p_WA, tags.position(slots[i])).distance_m;
+  }
+  read_signals(antenna, antenna_key, {keys.data(), count}, {distances_m.data(), count}, stamp, seed,
+               {phases_rad.data(), count}, {rssis_dbm.data(), count});
+  const double frequency_hz = paper(antenna).model.frequency_hz;
+  for (std::size_t i = 0; i < count; ++i) {
+    replies.push_back(
+        {slots[i], stamp, frequency_hz, phases_rad[i], rssis_dbm[i], distances_m[i], std::nullopt});
+  }
+}
+
+}  // namespace
 
 void TagPopulation::add(std::uint32_t slot, const std::string& id, const Eigen::Vector3d& p_WT) {
   if (has(slot)) throw Error(fmt::format("there is a tag of number {} already", slot));
@@ -15,8 +45,12 @@ void TagPopulation::add(std::uint32_t slot, const std::string& id, const Eigen::
     throw Error(fmt::format("there is a tag with the ID '{}' already", id));
   }
   index_.place(slot, p_WT);
-  if (slot >= tags_.size()) tags_.resize(slot + std::size_t{1});
-  tags_[slot] = {id, stream_key(id), true, Eigen::Quaterniond::Identity(), models_.front().get()};
+  if (slot >= tags_.size()) {
+    tags_.resize(slot + std::size_t{1});
+    keys_.resize(slot + std::size_t{1});
+  }
+  keys_[slot] = stream_key(id);
+  tags_[slot] = {id, true, Eigen::Quaterniond::Identity(), models_.front().get()};
   ids_.insert(id);
 }
 
@@ -40,12 +74,10 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
   std::vector<std::uint32_t> slots;
   tags.index().within(p_WA, perturbed_range(antenna, stamp, seed), slots);
   replies.reserve(slots.size());
-  const double frequency_hz = paper(antenna).model.frequency_hz;
-  for (const std::uint32_t slot : slots) {
-    const LinkGeometry link = link_between(p_WA, tags.position(slot));
-    const Signal signal = read_signal(antenna, antenna_key, tags.key(slot), link, stamp, seed);
-    replies.push_back({slot, stamp, frequency_hz, signal.phase_rad, signal.rssi_dbm,
-                       link.distance_m, std::nullopt});
+  for (std::size_t begin = 0; begin < slots.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, slots.size() - begin);
+    read_some(antenna, antenna_key, p_WA, stamp, seed, tags, {slots.data() + begin, count},
+              replies);
   }
 }
 

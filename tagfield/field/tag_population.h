@@ -52,7 +52,7 @@ class TagPopulation {
     return models_;
   }
   /// stream_key() of the ID.
-  [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return tags_[slot].key; }
+  [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return keys_[slot]; }
   [[nodiscard]] const TagIndex& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
   /// Calls `visit(slot)` for each tag, in rising order of slots.
@@ -66,7 +66,6 @@ class TagPopulation {
  private:
   struct Tag {
     std::string id;
-    std::uint64_t key = 0;
     bool present = false;
     Eigen::Quaterniond R_WT = Eigen::Quaterniond::Identity();
     const TagModel* model = nullptr;  ///< One of `models_`.
@@ -75,6 +74,7 @@ class TagPopulation {
   TagIndex index_;
   std::vector<std::shared_ptr<const TagModel>> models_;
   std::vector<Tag> tags_;
+  std::vector<std::uint64_t> keys_;  ///< By slot, close together: each read needs one.
   std::unordered_set<std::string> ids_;
 };
 

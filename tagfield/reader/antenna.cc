@@ -1,10 +1,13 @@
 #include "tagfield/reader/antenna.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/channel/paper_signals.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
@@ -50,9 +53,37 @@ double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64
 Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
                    std::uint64_t tag_key, const LinkGeometry& link, Time stamp,
                    std::uint64_t seed) {
-  RandomStream noise(seed, Purpose::kReadNoise, antenna_key, tag_key, stamp_key(stamp));
-  RandomStream optional(seed, Purpose::kOptionalNoise, antenna_key, tag_key, stamp_key(stamp));
-  return paper_signal(paper(antenna).model, link, noise, optional);
+  Signal signal;
+  read_signals(antenna, antenna_key, {&tag_key, 1}, {&link.distance_m, 1}, stamp, seed,
+               {&signal.phase_rad, 1}, {&signal.rssi_dbm, 1});
+  return signal;
+}
+
+void read_signals(const AntennaParameters& antenna, std::uint64_t antenna_key,
+                  std::span<const std::uint64_t> tag_keys, std::span<const double> distances_m,
+                  Time stamp, std::uint64_t seed, std::span<double> phase_rad,
+                  std::span<double> rssi_dbm) {
+  constexpr std::size_t kAtOnce = 256;
+  std::array<std::uint64_t, kAtOnce> first;
+  std::array<std::uint64_t, kAtOnce> second;
+  std::array<double, kAtOnce> drawn;
+  const PaperModel& model = paper(antenna).model;
+  const bool is_optional = model.optional.kind != DistributionKind::kNone;
+  for (std::size_t begin = 0; begin < tag_keys.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, tag_keys.size() - begin);
+    const std::span<const std::uint64_t> keys = tag_keys.subspan(begin, count);
+    first_words(seed, Purpose::kReadNoise, antenna_key, keys, stamp_key(stamp), first, second);
+    for (std::size_t i = 0; is_optional && i < count; ++i) {
+      RandomStream stream(seed, Purpose::kOptionalNoise, antenna_key, keys[i], stamp_key(stamp));
+      drawn[i] = draw(model.optional, stream);
+    }
+    paper_signals(model,
+                  {distances_m.subspan(begin, count),
+                   {first.data(), count},
+                   {second.data(), count},
+                   {drawn.data(), is_optional ? count : 0}},
+                  phase_rad.subspan(begin, count), rssi_dbm.subspan(begin, count));
+  }
 }
 
 TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -73,6 +74,13 @@ double perturbed_range(const AntennaParameters& antenna, Time stamp, std::uint64
 /// `link`. The noise is a function of seed, antenna, tag and stamp alone.
 Signal read_signal(const AntennaParameters& antenna, std::uint64_t antenna_key,
                    std::uint64_t tag_key, const LinkGeometry& link, Time stamp, std::uint64_t seed);
+
+/// read_signal() of many tags with the keys `tag_keys`, `distances_m` away, into arrays of the same
+/// length.
+void read_signals(const AntennaParameters& antenna, std::uint64_t antenna_key,
+                  std::span<const std::uint64_t> tag_keys, std::span<const double> distances_m,
+                  Time stamp, std::uint64_t seed, std::span<double> phase_rad,
+                  std::span<double> rssi_dbm);
 
 /// The read of the tag `tag` at the other end of `link`, with the noise of read_signal().
 TagRead read_tag(const AntennaParameters& antenna, const std::string& tag, const LinkGeometry& link,

@@ -162,6 +162,18 @@ TEST(StandardNormal, IsTheFirstOfThePair) {
   EXPECT_EQ(standard_normal(one), standard_normal_pair(two)[0]);
 }
 
+TEST(FirstWords, AreThoseOfEachStream) {
+  const std::vector<std::uint64_t> keys = {0, 1, 7, ~std::uint64_t{0}};
+  std::vector<std::uint64_t> first(keys.size());
+  std::vector<std::uint64_t> second(keys.size());
+  first_words(5, Purpose::kReadNoise, 11, keys, 13, first, second);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    RandomStream stream(5, Purpose::kReadNoise, 11, keys[i], 13);
+    EXPECT_EQ(first[i], stream());
+    EXPECT_EQ(second[i], stream());
+  }
+}
+
 TEST(StreamKey, IsFnv1a) {
   // Test vectors of FNV-1a, 64 bits (Fowler, Noll, Vo; appendix C of the IETF draft).
   EXPECT_EQ(stream_key(""), 0xcbf29ce484222325U);

@@ -11,6 +11,7 @@
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/statistics.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/test/any_paper_model.h"
 
 namespace tagfield {
 namespace {
@@ -46,25 +47,6 @@ std::vector<double> phase_residuals(const PaperModel& model, double distance_m) 
     residuals.push_back(std::remainder(signal.phase_rad - expected, kTwoPi));
   }
   return residuals;
-}
-
-double power_of_ten(int low_tenths, int high_tenths) {
-  return std::pow(10.0, 0.1 * (*rc::gen::inRange(low_tenths, high_tenths + 1)));
-}
-
-OptionalDistribution any_distribution() {
-  static const std::vector<OptionalDistribution> all = {
-      {},
-      make_distribution("uniform_real_distribution", {-1e6, 1e6}),
-      make_distribution("exponential_distribution", {1e-9}),
-      make_distribution("gamma_distribution", {0.01, 1e300}),
-      make_distribution("weibull_distribution", {0.01, 3.0}),
-      make_distribution("normal_distribution", {1e300, 1e308}),
-      make_distribution("lognormal_distribution", {0.0, 1000.0}),
-      make_distribution("chi_squared_distribution", {4.0}),
-      make_distribution("cauchy_distribution", {0.0, 1e308}),
-  };
-  return *rc::gen::elementOf(all);
 }
 
 TEST(PaperPhase, GrowsByTwoPiEachHalfWavelength) {

@@ -37,7 +37,7 @@ TEST(ReceivedFrom, IsFriisBetweenTheAntennas) {
   const RadioModel model = facing_model();
   const RadioView view = view_from(model, world, {}, kChannel, 1, 1);
   const RigidTransform towards = from_xyz_rpy({6.0, 0.0, 0.0}, {0.0, 0.0, kPi});
-  const RigidTransform away = from_xyz_rpy({6.0, 0.0, 0.0}, {});
+  const RigidTransform away = from_translation({6.0, 0.0, 0.0});
   std::vector<RadioPath> paths;
   const double free_db = 20.0 * std::log10(wavelength(kChannel) / (4.0 * kPi * 6.0));
   const auto received = [&](const RigidTransform& X_WA, double offset_hz, double time_share) {

@@ -1,0 +1,201 @@
+/// @file
+/// Mathematical functions for loops over arrays (lanes.h): without branches or calls, of additions,
+/// multiplications, divisions, roots and integers alone. Every machine and every width of its
+/// registers gives the same bits, as long as no product and sum become one instruction
+/// (-ffp-contract=off). Errors are bounds that tests check against `long double`.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+
+inline std::uint64_t bits_of(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+inline double double_of_bits(std::uint64_t bits) {
+  double x = 0.0;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/// `yes` where `condition`, else `no`, both of which are computed.
+inline double choose(bool condition, double yes, double no) {
+  const std::uint64_t mask = std::uint64_t{0} - static_cast<std::uint64_t>(condition);
+  return double_of_bits((bits_of(yes) & mask) | (bits_of(no) & ~mask));
+}
+
+namespace lane_internal {
+
+/// Both halves of a 64-bit number are exact as the last digits of 2⁸⁴ and of 2⁵²; `offset` is taken
+/// from their sum, which is rounded once.
+inline double from_halves(std::uint64_t word, double offset) {
+  const double high = double_of_bits((word >> 32U) | 0x4530000000000000U) - (offset + 0x1p52);
+  return high + double_of_bits((word & 0xffffffffU) | 0x4330000000000000U);
+}
+
+/// x = m·2^k with m in [√½, √2).
+struct Scaled {
+  double m;
+  double k;
+};
+inline Scaled scaled(double x) {
+  constexpr std::uint64_t kOne = 0x3ff0000000000000U;
+  constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcdU;
+  const std::uint64_t biased = (bits_of(x) + (kOne - kRootOfHalf)) >> 52U;  // k + 1023
+  return {double_of_bits(bits_of(x) - (biased << 52U) + kOne),
+          double_of_bits(biased | 0x4330000000000000U) - (0x1p52 + 1023.0)};
+}
+
+/// ln(1 + f) = f − s·(f − r) with s = f/(2 + f) and r = 2·(s²/3 + s⁴/5 + …), as ln(1 + f) is
+/// 2·artanh s: f and what is to be taken from it. |s| < 0.172; what is left out is below 2⁻⁶⁰.
+inline double less_in_log(double f) {
+  const double s = f / (2.0 + f);
+  const double z = s * s;
+  double r = 1.0 / 23.0;
+  r = r * z + 1.0 / 21.0;
+  r = r * z + 1.0 / 19.0;
+  r = r * z + 1.0 / 17.0;
+  r = r * z + 1.0 / 15.0;
+  r = r * z + 1.0 / 13.0;
+  r = r * z + 1.0 / 11.0;
+  r = r * z + 1.0 / 9.0;
+  r = r * z + 1.0 / 7.0;
+  r = r * z + 1.0 / 5.0;
+  r = r * z + 1.0 / 3.0;
+  return s * (f - 2.0 * z * r);
+}
+
+/// (sin r − r)/r³ and (cos r − 1 + r²/2)/r⁴ for |r| ≤ π/4, with z = r²: Taylor's series, of which
+/// what is left out of sine and cosine is below 2⁻⁶⁰ and 2⁻⁵⁸.
+inline double sine_series(double z) {
+  double s = 1.0 / 355687428096000.0;
+  s = s * z - 1.0 / 1307674368000.0;
+  s = s * z + 1.0 / 6227020800.0;
+  s = s * z - 1.0 / 39916800.0;
+  s = s * z + 1.0 / 362880.0;
+  s = s * z - 1.0 / 5040.0;
+  s = s * z + 1.0 / 120.0;
+  return s * z - 1.0 / 6.0;
+}
+inline double cosine_series(double z) {
+  double c = 1.0 / 20922789888000.0;
+  c = c * z - 1.0 / 87178291200.0;
+  c = c * z + 1.0 / 479001600.0;
+  c = c * z - 1.0 / 3628800.0;
+  c = c * z + 1.0 / 40320.0;
+  c = c * z - 1.0 / 720.0;
+  return c * z + 1.0 / 24.0;
+}
+
+}  // namespace lane_internal
+
+/// The double next to a whole number of 64 bits, as a conversion gives it.
+inline double lane_double(std::uint64_t word) { return lane_internal::from_halves(word, 0x1p84); }
+/// Likewise of the bits of a signed one.
+inline double lane_double_signed(std::uint64_t word) {
+  return lane_internal::from_halves(word ^ (std::uint64_t{1} << 63U), 0x1p84 + 0x1p63);
+}
+
+/// ln x of a normal x > 0, within 1 unit in the last place.
+inline double lane_log(double x) {
+  constexpr double kLn2High = 0x1.62e42feep-1;  // ln 2 to 32 bits, and the rest.
+  constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
+  const auto [m, k] = lane_internal::scaled(x);
+  const double f = m - 1.0;
+  return k * kLn2High + (f - (lane_internal::less_in_log(f) - k * kLn2Low));
+}
+
+/// log10 x of a normal x > 0, within 3 units in the last place.
+inline double lane_log10(double x) {
+  constexpr double kLog2High = 0x1.34413508p-2;  // log10 2 to 32 bits, and the rest.
+  constexpr double kLog2Low = 0x1.f79fef311f12bp-34;
+  const auto [m, k] = lane_internal::scaled(x);
+  const double f = m - 1.0;
+  const double of_m = std::numbers::log10e * (f - lane_internal::less_in_log(f));
+  return k * kLog2High + (of_m + k * kLog2Low);
+}
+
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+
+/// Of |x| ≤ 10⁵ [rad], within 1 unit in the last place of each.
+inline SineCosine lane_sine_cosine(double x) {
+  // π/2 in three parts, so that whole multiples of the first two are exact.
+  constexpr double kFirst = 0x1.921fb544p+0;
+  constexpr double kSecond = 0x1.0b4611a6p-34;
+  constexpr double kThird = 0x1.3198a2e037073p-69;
+  constexpr double kToWhole = 0x1.8p52;
+  const double shifted = x * (2.0 / kPi) + kToWhole;
+  const double quarters = shifted - kToWhole;
+  const double a = x - quarters * kFirst;
+  const double b = quarters * kSecond;
+  const double c = a - b;
+  const double lost = quarters * kThird - ((a - c) - b);
+  // The angle within its quarter is r + rest.
+  const double r = c - lost;
+  const double rest = (c - r) - lost;
+  const double z = r * r;
+  const double half = 0.5 * z;
+  const double sine = r + (r * z * lane_internal::sine_series(z) + rest * (1.0 - half));
+  const double whole = 1.0 - half;
+  const double cosine =
+      whole + (((1.0 - whole) - half) + (z * z * lane_internal::cosine_series(z) - r * rest));
+  const std::uint64_t quarter = bits_of(shifted);
+  const std::uint64_t is_odd = std::uint64_t{0} - (quarter & 1U);
+  const std::uint64_t swap = (bits_of(sine) ^ bits_of(cosine)) & is_odd;
+  return {double_of_bits((bits_of(sine) ^ swap) ^ ((quarter & 2U) << 62U)),
+          double_of_bits((bits_of(cosine) ^ swap) ^ (((quarter + 1U) & 2U) << 62U))};
+}
+
+/// Two draws of N(0, 1) from two words of a stream, as standard_normal_pair() makes them.
+struct NormalPair {
+  double first;
+  double second;
+};
+inline NormalPair lane_normal_pair(std::uint64_t first, std::uint64_t second) {
+  // Evenly over (−1, 1) and over (0, 1].
+  const double around = lane_double_signed(first) * 0x1p-63 + 0x1p-64;
+  const double even = lane_double(second) * 0x1p-64 + 0x1p-65;
+  const auto [sine, cosine] = lane_sine_cosine(kPi * around);
+  const double radius = std::sqrt(-2.0 * lane_log(even));
+  return {sine * radius, cosine * radius};
+}
+
+/// std::round() of |x| < 2⁵¹: halves away from zero. 0 is +0.
+inline double lane_round(double x) {
+  constexpr double kToWhole = 0x1.8p52;
+  const double even = (x + kToWhole) - kToWhole;
+  const double over = x - even;
+  const double away = choose(x > 0.0 && over == 0.5, even + 1.0, even);
+  return choose(x < 0.0 && over == -0.5, even - 1.0, away) + 0.0;
+}
+
+/// std::fmod(x, y) where 0 ≤ x < 2²⁰·y, exactly; both normal, y not below 2⁻⁹⁰⁰.
+inline double lane_remainder(double x, double y) {
+  constexpr double kToWhole = 0x1.8p52;
+  const double whole = (x / y + kToWhole) - kToWhole;
+  // y in two parts, of which whole multiples are exact; so are both differences.
+  const double high = double_of_bits(bits_of(y) & 0xfffffffff8000000U);
+  const double nearest = (x - whole * high) - whole * (y - high);
+  return choose(nearest < 0.0, nearest + y, nearest);
+}
+
+/// wrap_to_two_pi() of angles above −2π and below 6π, where it is the same to the last bit.
+inline double lane_wrap_to_two_pi(double angle) {
+  // Differences of numbers no more than a factor 2 apart are exact.
+  const double twice = choose(angle >= 2.0 * kTwoPi, angle - 2.0 * kTwoPi, angle);
+  const double below = choose(twice >= kTwoPi, twice - kTwoPi, twice);
+  const double wrapped = choose(below < 0.0, below + kTwoPi, below);
+  return choose(wrapped < kTwoPi, wrapped + 0.0, 0.0);
+}
+
+}  // namespace tagfield
