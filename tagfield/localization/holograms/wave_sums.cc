@@ -2,13 +2,7 @@
 
 #include <cmath>
 
-// Compiled several times over, for the widest vectors that the machine has, which the loader
-// chooses. Each operation is rounded by itself (-ffp-contract=off), so all give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define TAGFIELD_FOR_EACH_MACHINE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define TAGFIELD_FOR_EACH_MACHINE
-#endif
+#include "tagfield/base/lanes.h"
 
 namespace tagfield {
 namespace {
@@ -17,9 +11,8 @@ constexpr int kLanes = 16;  ///< Places whose sums stay in registers.
 static_assert(kTile % kLanes == 0);
 
 /// `z` is null for places of the plane.
-__attribute__((always_inline)) inline void add_waves(const SearchRead* reads, std::size_t count,
-                                                     const float* x, const float* y, const float* z,
-                                                     float* in_phase, float* quadrature) {
+inline void add_waves(const SearchRead* reads, std::size_t count, const float* x, const float* y,
+                      const float* z, float* in_phase, float* quadrature) {
   // Added to a number of this size, fractions are rounded off.
   constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
   float cosines[kLanes] = {};
@@ -48,35 +41,29 @@ __attribute__((always_inline)) inline void add_waves(const SearchRead* reads, st
   }
 }
 
-TAGFIELD_FOR_EACH_MACHINE
-void add_on_plane(const SearchRead* reads, std::size_t count, const float* x, const float* y,
-                  float* in_phase, float* quadrature) {
-  for (int k = 0; k < kTile; k += kLanes) {
-    add_waves(reads, count, x + k, y + k, nullptr, in_phase + k, quadrature + k);
-  }
-}
-
-TAGFIELD_FOR_EACH_MACHINE
-void add_in_space(const SearchRead* reads, std::size_t count, const float* x, const float* y,
-                  const float* z, float* in_phase, float* quadrature) {
-  for (int k = 0; k < kTile; k += kLanes) {
-    add_waves(reads, count, x + k, y + k, z + k, in_phase + k, quadrature + k);
-  }
-}
-
 }  // namespace
 
-WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y) {
+WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
+                   InstructionSet set) {
   WaveSums sums;
-  add_on_plane(reads, count, x.data(), y.data(), sums.in_phase.data(), sums.quadrature.data());
+  in_lanes(set, [&] {
+    for (int k = 0; k < kTile; k += kLanes) {
+      add_waves(reads, count, x.data() + k, y.data() + k, nullptr, sums.in_phase.data() + k,
+                sums.quadrature.data() + k);
+    }
+  });
   return sums;
 }
 
 WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
-                   const Tile& z) {
+                   const Tile& z, InstructionSet set) {
   WaveSums sums;
-  add_in_space(reads, count, x.data(), y.data(), z.data(), sums.in_phase.data(),
-               sums.quadrature.data());
+  in_lanes(set, [&] {
+    for (int k = 0; k < kTile; k += kLanes) {
+      add_waves(reads, count, x.data() + k, y.data() + k, z.data() + k, sums.in_phase.data() + k,
+                sums.quadrature.data() + k);
+    }
+  });
   return sums;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "tagfield/base/lanes.h"
 #include "tagfield/localization/holograms/grid_search.h"
 
 namespace tagfield {
@@ -24,11 +25,12 @@ struct WaveSums {
 };
 
 /// Of `count` reads, at the places (x, y) of the plane that is searched [m]. The same to the last
-/// bit whatever instructions the machine has; each wave to 2·10⁻⁵, |φ − 2r/λ| < 2²² turns.
-WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y);
+/// bit for each set of instructions; each wave to 2·10⁻⁵, |φ − 2r/λ| < 2²² turns.
+WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
+                   InstructionSet set = instruction_sets().back());
 
 /// The same, at places (x, y, z) with z relative to that plane.
 WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
-                   const Tile& z);
+                   const Tile& z, InstructionSet set = instruction_sets().back());
 
 }  // namespace tagfield

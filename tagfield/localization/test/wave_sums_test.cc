@@ -48,7 +48,8 @@ RC_GTEST_PROP(WaveSums, AreTheSameBitsAsOneWaveAfterTheOther, ()) {
   const std::vector<SearchRead> reads = some_reads(rng);
   const Tile x = some_places(rng, 12.0);
   const Tile y = some_places(rng, 12.0);
-  const WaveSums sums = wave_sums(reads.data(), reads.size(), x, y);
+  const InstructionSet set = *rc::gen::elementOf(instruction_sets());
+  const WaveSums sums = wave_sums(reads.data(), reads.size(), x, y, set);
   for (int k = 0; k < kTile; ++k) {
     float in_phase = 0.0f;
     float quadrature = 0.0f;
