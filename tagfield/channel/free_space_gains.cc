@@ -43,29 +43,48 @@ struct Links {
   EndLanes tag;
 };
 
-void set_axes(const Eigen::Matrix3d& axes, std::size_t i, EndLanes& end) {
-  const auto set = [&](int column, Vectors& axis) {
-    axis.x[i] = axes(0, column);
-    axis.y[i] = axes(1, column);
-    axis.z[i] = axes(2, column);
-  };
-  set(0, end.boresight);
-  set(1, end.left);
-  set(2, end.up);
+/// Rotations as unit quaternions.
+struct Rotations {
+  Lane w;
+  Vectors v;
+};
+
+/// The rotations' columns.
+void set_axes(const Rotations& R, std::size_t count, EndLanes& end) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double w = R.w[i];
+    const double x = R.v.x[i];
+    const double y = R.v.y[i];
+    const double z = R.v.z[i];
+    end.boresight.x[i] = 1.0 - 2.0 * (y * y + z * z);
+    end.boresight.y[i] = 2.0 * (x * y + w * z);
+    end.boresight.z[i] = 2.0 * (x * z - w * y);
+    end.left.x[i] = 2.0 * (x * y - w * z);
+    end.left.y[i] = 1.0 - 2.0 * (x * x + z * z);
+    end.left.z[i] = 2.0 * (y * z + w * x);
+    end.up.x[i] = 2.0 * (x * z + w * y);
+    end.up.y[i] = 2.0 * (y * z - w * x);
+    end.up.z[i] = 1.0 - 2.0 * (x * x + y * y);
+  }
 }
 
-void set_ways(const Vector3d& p_WA, std::span<const RigidTransform> X_WT, Links& links) {
-  for (std::size_t i = 0; i < X_WT.size(); ++i) {
-    const Vector3d way = X_WT[i].translation - p_WA;
-    const double length = std::sqrt(way.x() * way.x() + way.y() * way.y() + way.z() * way.z());
+void set_ways(const Vector3d& p_WA, const Vectors& p_WT, std::size_t count, Links& links) {
+  const double from_x = p_WA.x();
+  const double from_y = p_WA.y();
+  const double from_z = p_WA.z();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = p_WT.x[i] - from_x;
+    const double y = p_WT.y[i] - from_y;
+    const double z = p_WT.z[i] - from_z;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    const double inverse = 1.0 / length;
     links.length[i] = length;
-    const auto set = [&](double component, Lane& there, Lane& back) {
-      there[i] = component / length;
-      back[i] = -there[i];
-    };
-    set(way.x(), links.antenna.way.x, links.tag.way.x);
-    set(way.y(), links.antenna.way.y, links.tag.way.y);
-    set(way.z(), links.antenna.way.z, links.tag.way.z);
+    links.antenna.way.x[i] = x * inverse;
+    links.antenna.way.y[i] = y * inverse;
+    links.antenna.way.z[i] = z * inverse;
+    links.tag.way.x[i] = -(x * inverse);
+    links.tag.way.y[i] = -(y * inverse);
+    links.tag.way.z[i] = -(z * inverse);
   }
 }
 
@@ -151,9 +170,10 @@ void add_linear_fields(double of_left, double of_up, std::size_t count, EndLanes
     const double z = across(end.left.z, end.up.z, end.way.z);
     const double length = std::sqrt(x * x + y * y + z * z);
     end.across[i] = length;
-    end.re.x[i] = x / length;
-    end.re.y[i] = y / length;
-    end.re.z[i] = z / length;
+    const double inverse = 1.0 / length;
+    end.re.x[i] = x * inverse;
+    end.re.y[i] = y * inverse;
+    end.re.z[i] = z * inverse;
     end.im.x[i] = 0.0;
     end.im.y[i] = 0.0;
     end.im.z[i] = 0.0;
@@ -168,12 +188,13 @@ void add_circular_fields(double hand, std::size_t count, EndLanes& end) {
     // Each wire's part across the way has the square 1 − u², of both 2 − u_y² − u_z² ≥ 1.
     const double length = std::sqrt(2.0 - u_y * u_y - u_z * u_z);
     end.across[i] = length;
-    end.re.x[i] = (end.up.x[i] - u_z * end.way.x[i]) / length;
-    end.re.y[i] = (end.up.y[i] - u_z * end.way.y[i]) / length;
-    end.re.z[i] = (end.up.z[i] - u_z * end.way.z[i]) / length;
-    end.im.x[i] = hand * (end.left.x[i] - u_y * end.way.x[i]) / length;
-    end.im.y[i] = hand * (end.left.y[i] - u_y * end.way.y[i]) / length;
-    end.im.z[i] = hand * (end.left.z[i] - u_y * end.way.z[i]) / length;
+    const double inverse = 1.0 / length;
+    end.re.x[i] = (end.up.x[i] - u_z * end.way.x[i]) * inverse;
+    end.re.y[i] = (end.up.y[i] - u_z * end.way.y[i]) * inverse;
+    end.re.z[i] = (end.up.z[i] - u_z * end.way.z[i]) * inverse;
+    end.im.x[i] = hand * (end.left.x[i] - u_y * end.way.x[i]) * inverse;
+    end.im.y[i] = hand * (end.left.y[i] - u_y * end.way.y[i]) * inverse;
+    end.im.z[i] = hand * (end.left.z[i] - u_y * end.way.z[i]) * inverse;
   }
 }
 
@@ -219,18 +240,31 @@ bool holds(const Links& links, const Carrier& carrier, bool polarization, std::s
 }
 
 void add_some(const RadioEnd& antenna, const AntennaPattern& tag,
-              std::span<const RigidTransform> X_WT, const Carrier& carrier,
+              std::span<const RigidTransform* const> X_WT, const Carrier& carrier,
               const ChannelEffects& effects, std::span<std::complex<double>> gains,
               InstructionSet set) {
   const std::size_t count = X_WT.size();
   Links links;
-  const Eigen::Matrix3d axes = antenna.X_WA.rotation.toRotationMatrix();
+  Vectors p_WT;
+  Rotations R_WT;
+  Rotations R_WA;
+  const auto fill = [](const Eigen::Quaterniond& q, std::size_t i, Rotations& R) {
+    R.w[i] = q.w();
+    R.v.x[i] = q.x();
+    R.v.y[i] = q.y();
+    R.v.z[i] = q.z();
+  };
   for (std::size_t i = 0; i < count; ++i) {
-    set_axes(axes, i, links.antenna);
-    set_axes(X_WT[i].rotation.toRotationMatrix(), i, links.tag);
+    fill(antenna.X_WA.rotation, i, R_WA);
+    fill(X_WT[i]->rotation, i, R_WT);
+    p_WT.x[i] = X_WT[i]->translation.x();
+    p_WT.y[i] = X_WT[i]->translation.y();
+    p_WT.z[i] = X_WT[i]->translation.z();
   }
   in_lanes(set, [&] {
-    set_ways(antenna.X_WA.translation, X_WT, links);
+    set_axes(R_WA, count, links.antenna);
+    set_axes(R_WT, count, links.tag);
+    set_ways(antenna.X_WA.translation, p_WT, count, links);
     turn_ways(count, links.antenna);
     turn_ways(count, links.tag);
   });
@@ -246,14 +280,14 @@ void add_some(const RadioEnd& antenna, const AntennaPattern& tag,
   for (std::size_t i = 0; i < count; ++i) {
     gains[i] = holds(links, carrier, effects.polarization, i)
                    ? std::complex<double>(links.re[i], links.im[i])
-                   : free_space_gain(antenna, {tag, X_WT[i]}, carrier, effects);
+                   : free_space_gain(antenna, {tag, *X_WT[i]}, carrier, effects);
   }
 }
 
 }  // namespace
 
 void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
-                      std::span<const RigidTransform> X_WT, const Carrier& carrier,
+                      std::span<const RigidTransform* const> X_WT, const Carrier& carrier,
                       const ChannelEffects& effects, std::span<std::complex<double>> gains,
                       InstructionSet set) {
   for (std::size_t begin = 0; begin < X_WT.size(); begin += kLinks) {

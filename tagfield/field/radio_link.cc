@@ -196,11 +196,57 @@ void add_powers_db(const Gains& gains, std::size_t count, Lane& power_db) {
   });
 }
 
-/// ∂ arg h / ∂p_WA, where the way is straight.
-Vector3d straight_slope(const RadioView& view, const Vector3d& p_WA, const Vector3d& p_WT,
-                        Complex gain) {
-  if (!(std::norm(gain) > 0.0)) return Vector3d::Zero();
-  return (p_WT - p_WA) * (view.carrier.wave_number / (p_WT - p_WA).norm());
+/// −∂ arg h / ∂p_WA of straight ways: the wave number towards the antenna.
+struct Slopes {
+  Lane x;
+  Lane y;
+  Lane z;
+};
+
+void add_slopes(double wave_number, const Vector3d& p_WA, std::span<const TagEnd> tags,
+                Slopes& slopes) {
+  const std::size_t count = tags.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    slopes.x[i] = p_WA.x() - tags[i].X_WT.translation.x();
+    slopes.y[i] = p_WA.y() - tags[i].X_WT.translation.y();
+    slopes.z[i] = p_WA.z() - tags[i].X_WT.translation.z();
+  }
+  in_lanes(instruction_sets().back(), [&] {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = slopes.x[i];
+      const double y = slopes.y[i];
+      const double z = slopes.z[i];
+      const double length = std::sqrt(x * x + y * y + z * z);
+      const double scale = choose(length > 0.0, wave_number / length, 0.0);
+      slopes.x[i] = x * scale;
+      slopes.y[i] = y * scale;
+      slopes.z[i] = z * scale;
+    }
+  });
+}
+
+/// One of the two ways of up to kTagsAtOnce links.
+struct OneWay {
+  Gains gains;
+  Lane power_db;
+  Slopes slopes;
+};
+
+void add_one_way(const RadioView& view, const RigidTransform& X_WA, std::span<const TagEnd> tags,
+                 OneWay& way) {
+  const std::size_t count = tags.size();
+  const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
+  std::array<const RigidTransform*, kTagsAtOnce> X_WT;
+  for (std::size_t i = 0; i < count; ++i) X_WT[i] = &tags[i].X_WT;
+  free_space_gains({view.model.antenna, X_WA}, tags.front().model.antenna, {X_WT.data(), count},
+                   view.carrier, effects, {way.gains.data(), count});
+  add_powers_db(way.gains, count, way.power_db);
+  add_slopes(view.carrier.wave_number, X_WA.translation, tags, way.slopes);
+}
+
+Vector3d slope_at(const OneWay& way, std::size_t i) {
+  if (!(way.power_db[i] > kNothing_db)) return Vector3d::Zero();
+  return {way.slopes.x[i], way.slopes.y[i], way.slopes.z[i]};
 }
 
 /// traced_link() of up to kTagsAtOnce tags of one kind in empty space.
@@ -208,37 +254,20 @@ void add_straight_links(const RadioView& view, std::span<const TagEnd> tags,
                         std::span<RadioLink> links) {
   const RadioModel& model = view.model;
   const TagModel& kind = tags.front().model;
-  const ChannelEffects effects{model.effects.patterns, model.effects.polarization};
-  std::array<RigidTransform, kTagsAtOnce> X_WT;
-  const std::size_t count = tags.size();
-  for (std::size_t i = 0; i < count; ++i) X_WT[i] = tags[i].X_WT;
-  const auto gains_from = [&](const RigidTransform& X_WA, Gains& gains, Lane& power_db) {
-    free_space_gains({model.antenna, X_WA}, kind.antenna, {X_WT.data(), count}, view.carrier,
-                     effects, {gains.data(), count});
-    add_powers_db(gains, count, power_db);
-  };
-  Gains forward;
-  Gains received;
-  Lane forward_db;
-  Lane received_db;
-  gains_from(view.X_WA, forward, forward_db);
-  const bool is_apart = model.X_AR.has_value();
-  if (is_apart) gains_from(view.X_WR, received, received_db);
-  const Gains& backward = is_apart ? received : forward;
-  const Lane& backward_db = is_apart ? received_db : forward_db;
-  for (std::size_t i = 0; i < count; ++i) {
+  OneWay forward;
+  OneWay received;
+  add_one_way(view, view.X_WA, tags, forward);
+  if (model.X_AR) add_one_way(view, view.X_WR, tags, received);
+  const OneWay& backward = model.X_AR ? received : forward;
+  const double radiated_dbm = model.transmit_power_dbm - model.cable_loss_db;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
     RadioLink& link = links[i];
-    link.forward = forward[i];
-    link.backward = backward[i];
-    link.tag_dbm =
-        model.transmit_power_dbm - model.cable_loss_db + forward_db[i] - kind.detuning_db;
-    link.reply_dbm =
-        link.tag_dbm + kind.modulation_db - kind.detuning_db + backward_db[i] - model.cable_loss_db;
-    const Vector3d& p_WT = X_WT[i].translation;
-    const Vector3d slope = straight_slope(view, view.X_WA.translation, p_WT, forward[i]);
-    link.phase_slope_W =
-        -(slope +
-          (is_apart ? straight_slope(view, view.X_WR.translation, p_WT, backward[i]) : slope));
+    link.forward = forward.gains[i];
+    link.backward = backward.gains[i];
+    link.tag_dbm = radiated_dbm + forward.power_db[i] - kind.detuning_db;
+    link.reply_dbm = link.tag_dbm + kind.modulation_db - kind.detuning_db + backward.power_db[i] -
+                     model.cable_loss_db;
+    link.phase_slope_W = slope_at(forward, i) + slope_at(backward, i);
   }
 }
 

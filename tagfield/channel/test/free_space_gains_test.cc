@@ -57,8 +57,9 @@ struct Links {
   [[nodiscard]] std::vector<std::complex<double>> some(std::size_t begin, std::size_t count,
                                                        InstructionSet set) const {
     std::vector<std::complex<double>> gains(count);
-    free_space_gains({antenna, X_WA}, tag, {X_WT.data() + begin, count}, carrier, effects, gains,
-                     set);
+    std::vector<const RigidTransform*> poses;
+    for (std::size_t i = 0; i < count; ++i) poses.push_back(&X_WT[begin + i]);
+    free_space_gains({antenna, X_WA}, tag, poses, carrier, effects, gains, set);
     return gains;
   }
   AntennaPattern antenna;
