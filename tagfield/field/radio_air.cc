@@ -419,6 +419,25 @@ Disturbance RadioAir::disturbance_of(const AirAntenna& antenna,
   return disturbance;
 }
 
+/// Calls `visit(slot, tag, link)` for each tag in slots_.
+template <class Visit>
+void RadioAir::for_each_link(AirAntenna& antenna, const TagPopulation& tags, RadioView& view,
+                             const Visit& visit) {
+  // What surrounds a tag, and images of its own, hold until the next one's are asked for.
+  if (couples_tags(antenna.model()) || tags.size() <= kFewTags) {
+    for (const std::uint32_t slot : slots_) {
+      const TagEnd tag = tag_end(antenna, slot, tags, view);
+      visit(slot, tag, link_of(view, tag, paths_));
+    }
+    return;
+  }
+  ends_.clear();
+  for (const std::uint32_t slot : slots_) ends_.push_back(tag_end(antenna, slot, tags, view));
+  links_.resize(slots_.size());
+  links_of(view, ends_, paths_, links_);
+  for (std::size_t i = 0; i < slots_.size(); ++i) visit(slots_[i], ends_[i], links_[i]);
+}
+
 void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                         const TagPopulation& tags, std::vector<TagReply>& replies) {
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
@@ -428,17 +447,16 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
   const std::vector<OtherSender> others = others_of(antenna, now);
   look_at_others(antenna, view, others);
   tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
-  for (const std::uint32_t slot : slots_) {
-    const TagEnd tag = tag_end(antenna, slot, tags, view);
-    const RadioLink link = link_of(view, tag, paths_);
-    if (!is_heard(link, tag.model, antenna.model())) continue;
+  const auto read = [&](std::uint32_t slot, const TagEnd& tag, const RadioLink& link) {
+    if (!is_heard(link, tag.model, antenna.model())) return;
     const Disturbance disturbance = disturbance_of(antenna, others, tag);
-    if (!is_read(antenna.model(), link, tag, disturbance)) continue;
+    if (!is_read(antenna.model(), link, tag, disturbance)) return;
     replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
                              velocity - tag_velocity(slot), now, disturbance.in_replies_mw));
     replies.back().slot = slot;
     replies.back().distance_m = (tag.X_WT.translation - X_WA.translation).norm();
-  }
+  };
+  for_each_link(antenna, tags, view, read);
 }
 
 /// Who has power until the next update.
@@ -452,15 +470,14 @@ void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Ti
     const std::vector<OtherSender> others = others_of(antenna, now);
     look_at_others(antenna, view, others);
     tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
-    for (const std::uint32_t slot : slots_) {
-      const TagEnd tag = tag_end(antenna, slot, tags, view);
-      const RadioLink link = link_of(view, tag, paths_);
+    const auto power = [&](std::uint32_t slot, const TagEnd& tag, const RadioLink& link) {
       std::optional<TagOnAir> powered =
           on_air(antenna.model(), link, tag, disturbance_of(antenna, others, tag));
-      if (!powered) continue;
+      if (!powered) return;
       powered->tag = slot;
       field_.push_back(*powered);
-    }
+    };
+    for_each_link(antenna, tags, view, power);
   }
   antenna.inventory->set_field(now, field_);
 }

@@ -87,6 +87,9 @@ class RadioAir {
                              const TagEnd& tag);
   TagEnd tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopulation& tags,
                  RadioView& view);
+  template <class Visit>
+  void for_each_link(AirAntenna& antenna, const TagPopulation& tags, RadioView& view,
+                     const Visit& visit);
   void refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                      const TagPopulation& tags);
 
@@ -109,6 +112,8 @@ class RadioAir {
   TagSurroundings around_;        ///< Of the link in work.
   std::vector<RadioPath> paths_;  ///< Workspace, like these.
   std::vector<std::uint32_t> slots_;
+  std::vector<TagEnd> ends_;
+  std::vector<RadioLink> links_;
   std::vector<TagOnAir> field_;
   std::vector<Singulation> read_;
 };

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "tagfield/base/time.h"
@@ -97,6 +98,11 @@ std::complex<double> gain_to_antenna(const RadioView& view, const AntennaPattern
 
 /// Powers and gains; `paths` is workspace.
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths);
+
+/// link_of() of each of the tags, into `links` of the same length: many at a time where waves go
+/// straight through empty space. The same bits whatever else is in the batch.
+void links_of(const RadioView& view, std::span<const TagEnd> tags, std::vector<RadioPath>& paths,
+              std::span<RadioLink> links);
 
 /// Margins [dB]: what there is beyond what it takes.
 inline double tag_margin_db(const RadioLink& link, const TagModel& tag) {

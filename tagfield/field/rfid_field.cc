@@ -209,8 +209,14 @@ void RfidField::Impl::update(const AntennaDue& due, Time stamp) {
     read_tags(parameters, due.X_WA.translation, stamp, due.antenna->seed, tags_, replies_);
   }
   reads_ += static_cast<std::int64_t>(replies_.size());
-  for (const TagReply& reply : replies_) {
-    telling_.add(to_read(parameters, tags_.id(reply.slot), reply), reply.distance_m);
+  const bool all_now = std::all_of(replies_.begin(), replies_.end(),
+                                   [&](const TagReply& reply) { return reply.stamp == stamp; });
+  if (all_now) {
+    telling_.add(due.antenna, stamp, tags_, replies_);
+  } else {
+    for (const TagReply& reply : replies_) {
+      telling_.add(to_read(parameters, tags_.id(reply.slot), reply), reply.distance_m);
+    }
   }
   telling_.add(antenna, stamp, due.X_WA, due.X_PA);
 }

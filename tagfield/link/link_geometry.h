@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace tagfield {
 
@@ -13,6 +14,9 @@ struct LinkGeometry {
 
 /// Link between an antenna at `p_WA` and a tag at `p_WT` [m]. Ends that coincide count as 1 µm
 /// apart, so that no model divides by zero.
-LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT);
+inline LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+  constexpr double kLeastDistance = 1e-6;
+  return {std::max((p_WT - p_WA).norm(), kLeastDistance)};
+}
 
 }  // namespace tagfield

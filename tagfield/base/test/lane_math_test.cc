@@ -48,6 +48,19 @@ TEST(LaneLog, IsTheLogarithmWithinOneUnit) {
   EXPECT_EQ(lane_log10(1.0), 0.0);
 }
 
+TEST(LaneExp, IsTheExponentialWithinTwoUnits) {
+  RandomStream stream(4, Purpose::kReadNoise);
+  double worst = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    for (const double x : {any_in(stream, -700.0, 700.0), any_in(stream, -1.0, 1.0)}) {
+      worst = std::max(worst, units_off(lane_exp(x), std::exp(static_cast<long double>(x))));
+    }
+  }
+  EXPECT_LT(worst, 2.0);
+  EXPECT_EQ(lane_exp(0.0), 1.0);
+  EXPECT_EQ(lane_exp(-1e9), lane_exp(-700.0));
+}
+
 TEST(LaneSineCosine, AreThoseWithinOneUnit) {
   RandomStream stream(2, Purpose::kReadNoise);
   double worst = 0.0;

@@ -14,6 +14,18 @@ void Telling::add(const TagRead& read, double distance_m) {
   push(read.stamp, Read{read, distance_m});
 }
 
+void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+                  const TagPopulation& tags, std::vector<TagReply>& replies) {
+  if (replies.empty()) return;
+  Reads reads{antenna, &tags, {}};
+  if (!spare_.empty()) {
+    reads.replies = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  reads.replies.swap(replies);
+  push(stamp, std::move(reads));
+}
+
 void Telling::add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
                   const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA) {
   push(stamp, Update{antenna, X_WA, X_PA});
@@ -27,12 +39,32 @@ void Telling::add_removed(Time stamp, const std::string& tag) { push(stamp, Remo
 void Telling::add_placed(Time stamp) { push(stamp, Placed{}); }
 void Telling::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
 
+void Telling::tell(const TagRead& read, const TrueDistance& distance) const {
+  for (const auto& listener : outlets_.truth) listener->on_distance(distance);
+  for (const auto& listener : outlets_.reads) listener->on_read(read);
+}
+
 void Telling::tell(Time /*stamp*/, const Read& read) const {
   const TagRead& told = read.read;
-  for (const auto& listener : outlets_.truth) {
-    listener->on_distance({told.stamp, told.antenna, told.tag, read.distance_m});
+  tell(told, {told.stamp, told.antenna, told.tag, read.distance_m});
+}
+
+void Telling::tell(Time stamp, const Reads& reads) const {
+  const AntennaParameters& antenna = reads.antenna->parameters;
+  // What all have in common is copied once.
+  TagRead told = to_read(antenna, "", {});
+  told.stamp = stamp;
+  TrueDistance distance{stamp, antenna.name, "", 0.0};
+  for (const TagReply& reply : reads.replies) {
+    told.tag = reads.tags->id(reply.slot);
+    told.frequency_hz = reply.frequency_hz;
+    told.phase_rad = reply.phase_rad;
+    told.rssi_dbm = reply.rssi_dbm;
+    told.doppler_hz = reply.doppler_hz;
+    distance.tag = told.tag;
+    distance.distance_m = reply.distance_m;
+    tell(told, distance);
   }
-  for (const auto& listener : outlets_.reads) listener->on_read(told);
 }
 
 void Telling::tell(Time stamp, const Update& update) const {
@@ -70,6 +102,25 @@ void Telling::tell(Time /*stamp*/, const AntennaPose& robot) const {
   for (const auto& listener : outlets_.truth) listener->on_robot_pose(robot);
 }
 
+bool Telling::is_kept(const Event& event, Time until) {
+  const bool is_read =
+      std::holds_alternative<Read>(event.what) || std::holds_alternative<Reads>(event.what);
+  return is_read && event.stamp > until;
+}
+
+/// With the tags' IDs, which may be others' by then.
+void Telling::keep(Event& event, std::vector<Event>& kept) {
+  const auto* const reads = std::get_if<Reads>(&event.what);
+  if (reads == nullptr) {
+    kept.push_back(std::move(event));
+    return;
+  }
+  for (const TagReply& reply : reads->replies) {
+    const TagRead read = to_read(reads->antenna->parameters, reads->tags->id(reply.slot), reply);
+    kept.push_back({event.stamp, Read{read, reply.distance_m}});
+  }
+}
+
 void Telling::tell(Time until) {
   const auto earlier = [](const Event& a, const Event& b) { return a.stamp < b.stamp; };
   // Stable: what belongs to one stamp is told in the order in which it was added.
@@ -78,13 +129,20 @@ void Telling::tell(Time until) {
   std::vector<Event> due;
   std::vector<Event> kept;
   for (Event& event : events_) {
-    const bool is_kept = std::holds_alternative<Read>(event.what) && event.stamp > until;
-    (is_kept ? kept : due).push_back(std::move(event));
+    if (is_kept(event, until)) {
+      keep(event, kept);
+    } else {
+      due.push_back(std::move(event));
+    }
   }
   // Taken out before they are told: a listener that throws must not be told twice.
   events_ = std::move(kept);
-  for (const Event& event : due) {
+  for (Event& event : due) {
     std::visit([&](const auto& what) { tell(event.stamp, what); }, event.what);
+    auto* const reads = std::get_if<Reads>(&event.what);
+    if (reads == nullptr) continue;
+    reads->replies.clear();
+    spare_.push_back(std::move(reads->replies));
   }
 }
 

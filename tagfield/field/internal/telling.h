@@ -11,6 +11,7 @@
 
 #include "tagfield/base/time.h"
 #include "tagfield/field/field_step.h"
+#include "tagfield/field/tag_population.h"
 #include "tagfield/stream/listeners.h"
 
 namespace tagfield {
@@ -25,6 +26,10 @@ class Telling {
   [[nodiscard]] const Outlets& outlets() const { return outlets_; }
 
   void add(const TagRead& read, double distance_m);
+  /// All of one update at `stamp`, in order: `replies` become empty. `tags` must stay as they are
+  /// until the next tell().
+  void add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+           const TagPopulation& tags, std::vector<TagReply>& replies);
   /// `antenna`'s update at `stamp`, after its reads were added.
   void add(const std::shared_ptr<const AntennaInfo>& antenna, Time stamp,
            const RigidTransform& X_WA, const std::optional<RigidTransform>& X_PA);
@@ -42,6 +47,12 @@ class Telling {
     TagRead read;
     double distance_m;
   };
+  /// Many reads as they were made: what listeners are told is put together one by one.
+  struct Reads {
+    std::shared_ptr<const FieldAntenna> antenna;
+    const TagPopulation* tags;
+    std::vector<TagReply> replies;
+  };
   struct Update {
     std::shared_ptr<const AntennaInfo> antenna;
     RigidTransform X_WA;
@@ -55,13 +66,17 @@ class Telling {
     std::string tag;
   };
   struct Placed {};
-  using What = std::variant<Read, Update, Place, Removed, Placed, AntennaPose>;
+  using What = std::variant<Read, Reads, Update, Place, Removed, Placed, AntennaPose>;
   struct Event {
     Time stamp;
     What what;
   };
   void push(Time stamp, What what);
   void tell(Time stamp, const Read& read) const;
+  void tell(Time stamp, const Reads& reads) const;
+  void tell(const TagRead& read, const TrueDistance& distance) const;
+  [[nodiscard]] static bool is_kept(const Event& event, Time until);
+  static void keep(Event& event, std::vector<Event>& kept);
   void tell(Time stamp, const Update& update) const;
   void tell(Time stamp, const Place& place) const;
   void tell(Time stamp, const Removed& removed) const;
@@ -71,6 +86,7 @@ class Telling {
   Outlets outlets_;
   std::vector<Event> events_;
   bool is_sorted_ = true;
+  std::vector<std::vector<TagReply>> spare_;  ///< Emptied, to be filled anew.
 };
 
 }  // namespace tagfield

@@ -239,5 +239,57 @@ TEST(MostRange, IsTheFreeSpaceRange) {
   EXPECT_NEAR(most_range_m(antenna(35.15, 865.7e6), tag(2.0, -20.0)), 14.05 * std::sqrt(2.0), 0.05);
 }
 
+/// Two kinds of tags on a spiral, turned every way, a stretch of each kind.
+std::vector<TagEnd> tags_on_a_spiral(const TagModel& first, const TagModel& second) {
+  std::vector<TagEnd> tags;
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.1 * i;
+    const RigidTransform X_WT = from_xyz_rpy(
+        {(0.5 + t) * std::cos(t), (0.5 + t) * std::sin(t), 0.1 * t}, {t, 0.3 * t, -0.7 * t});
+    tags.push_back({i % 150 < 100 ? first : second, X_WT, 7});
+  }
+  return tags;
+}
+
+// The same antenna where it looks for what stands in between, in a world where nothing does: its
+// links are traced one by one.
+TEST(LinksOf, AreThoseThatAreTracedOneByOneInEmptySpace) {
+  const RadioWorld world = empty_world();
+  TagModel dipole = tag(2.15, -18.0);
+  dipole.antenna.shape = PatternShape::kDipole;
+  const TagModel even = tag(1.0, -15.0);
+  const std::vector<TagEnd> tags = tags_on_a_spiral(dipole, even);
+  for (const bool has_receiver : {false, true}) {
+    RadioModel model = antenna(33.0, 865.7e6);
+    model.effects.patterns = true;
+    model.antenna.shape = PatternShape::kPatch;
+    model.antenna.beam_width_rad = radians(70.0);
+    model.antenna.vertical_beam_width_rad = radians(65.0);
+    if (has_receiver) model.X_AR = from_translation({0.0, 0.4, 0.1});
+    RadioModel looking = model;
+    looking.effects.occlusion = true;
+    const RigidTransform X_WA = from_xyz_rpy({0.2, 0.1, 1.5}, {0.1, 0.2, 0.3});
+    const RadioView view = view_from(model, world, X_WA, 865.7e6, 0, 1);
+    const RadioView traced = view_from(looking, world, X_WA, 865.7e6, 0, 1);
+    std::vector<RadioPath> paths;
+    std::vector<RadioLink> links(tags.size());
+    links_of(view, tags, paths, links);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      const RadioLink other = link_of(traced, tags[i], paths);
+      EXPECT_NEAR(links[i].tag_dbm, other.tag_dbm, 1e-9) << i;
+      EXPECT_NEAR(links[i].reply_dbm, other.reply_dbm, 1e-9) << i;
+      EXPECT_NEAR(wrap_to_pi(std::arg(links[i].forward) - std::arg(other.forward)), 0.0, 1e-9);
+      EXPECT_NEAR(wrap_to_pi(std::arg(links[i].backward) - std::arg(other.backward)), 0.0, 1e-9);
+      EXPECT_LT((links[i].phase_slope_W - other.phase_slope_W).norm(), 1e-9);
+      const RadioLink alone = link_of(view, tags[i], paths);
+      EXPECT_EQ(alone.forward, links[i].forward);
+      EXPECT_EQ(alone.backward, links[i].backward);
+      EXPECT_EQ(alone.tag_dbm, links[i].tag_dbm);
+      EXPECT_EQ(alone.reply_dbm, links[i].reply_dbm);
+      EXPECT_EQ(alone.phase_slope_W, links[i].phase_slope_W);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace tagfield {
@@ -16,9 +17,11 @@ Time at_nanos(std::int64_t nanos) { return Time(Duration(nanos)); }
 struct Heard final : ReadListener, PoseListener, TruthListener {
   std::vector<std::string> words;
   std::vector<Time> stamps;
+  std::vector<TagRead> reads;
   void on_read(const TagRead& read) override {
     words.push_back("read " + read.tag);
     stamps.push_back(read.stamp);
+    reads.push_back(read);
   }
   void on_update(const AntennaInfo& antenna, Time) override {
     words.push_back("update " + antenna.name);
@@ -114,6 +117,72 @@ RC_GTEST_PROP(Telling, IsAStableSort, ()) {
     words.push_back("read " + read.tag);
   }
   RC_ASSERT(told.heard->words == words);
+}
+
+/// An antenna and the tags A, B and C in slots 0, 1 and 2.
+struct ThreeTags {
+  ThreeTags() {
+    FieldAntenna made;
+    made.parameters.name = "gate";
+    made.parameters.reader = "reader_1";
+    antenna = std::make_shared<const FieldAntenna>(made);
+    for (const std::string id : {"A", "B", "C"}) {
+      tags.add(static_cast<std::uint32_t>(tags.size()), id, Eigen::Vector3d::Zero());
+    }
+  }
+  [[nodiscard]] static std::vector<TagReply> replies_at(std::int64_t nanos) {
+    std::vector<TagReply> replies;
+    for (const std::uint32_t slot : {2U, 0U, 1U}) {
+      replies.push_back(
+          {slot, at_nanos(nanos), 865.7e6, 0.5 * slot, -60.0 - slot, 1.0 + slot, 2.0});
+    }
+    return replies;
+  }
+  std::shared_ptr<const FieldAntenna> antenna;
+  TagPopulation tags{3.5};
+};
+
+TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
+  const ThreeTags field;
+  Told together;
+  Told apart;
+  for (const std::int64_t nanos : {5, 9}) {
+    std::vector<TagReply> replies = ThreeTags::replies_at(nanos);
+    for (const TagReply& reply : replies) {
+      apart.telling.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
+                        reply.distance_m);
+    }
+    together.telling.add(field.antenna, at_nanos(nanos), field.tags, replies);
+    EXPECT_TRUE(replies.empty());
+    for (Told* const told : {&together, &apart}) {
+      told->telling.add(antenna("gate"), at_nanos(nanos), {}, std::nullopt);
+      told->telling.tell(at_nanos(nanos));
+    }
+  }
+  EXPECT_EQ(together.heard->words, apart.heard->words);
+  ASSERT_EQ(together.heard->reads.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const TagRead& one = together.heard->reads[i];
+    const TagRead& other = apart.heard->reads[i];
+    EXPECT_EQ(std::tie(one.stamp, one.reader, one.antenna, one.tag, one.frequency_hz, one.phase_rad,
+                       one.rssi_dbm, one.doppler_hz),
+              std::tie(other.stamp, other.reader, other.antenna, other.tag, other.frequency_hz,
+                       other.phase_rad, other.rssi_dbm, other.doppler_hz));
+  }
+}
+
+TEST(Telling, KeepsTheNameOfATagThatWentBeforeItsReadIsTold) {
+  ThreeTags field;
+  Told told;
+  std::vector<TagReply> replies = ThreeTags::replies_at(5);
+  told.telling.add(field.antenna, at_nanos(5), field.tags, replies);
+  told.telling.tell(at_nanos(4));
+  EXPECT_TRUE(told.heard->words.empty());
+  field.tags.remove(2);
+  field.tags.add(2, "D", Eigen::Vector3d::Zero());
+  told.telling.tell(at_nanos(5));
+  EXPECT_EQ(told.heard->words, (std::vector<std::string>{"distance C", "read C", "distance A",
+                                                         "read A", "distance B", "read B"}));
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include "tagfield/channel/free_space_gains.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+double between(RandomStream& stream, double low, double high) {
+  return low + (high - low) * uniform(stream);
+}
+
+RigidTransform any_pose(RandomStream& stream) {
+  const Eigen::Vector3d p(between(stream, -9.0, 9.0), between(stream, -9.0, 9.0),
+                          between(stream, 0.0, 3.0));
+  const Eigen::Vector3d rpy(between(stream, -kPi, kPi), between(stream, -1.5, 1.5),
+                            between(stream, -kPi, kPi));
+  return from_xyz_rpy(p, rpy);
+}
+
+AntennaPattern any_pattern(RandomStream& stream) {
+  AntennaPattern pattern;
+  const std::array shapes = {PatternShape::kIsotropic, PatternShape::kPatch, PatternShape::kDipole,
+                             PatternShape::kTable};
+  const std::array kinds = {PolarizationKind::kLinear, PolarizationKind::kRightCircular,
+                            PolarizationKind::kLeftCircular};
+  pattern.shape = shapes[stream() % shapes.size()];
+  pattern.polarization = kinds[stream() % kinds.size()];
+  pattern.gain_dbi = between(stream, -3.0, 12.0);
+  pattern.beam_width_rad = radians(between(stream, 10.0, 120.0));
+  pattern.vertical_beam_width_rad =
+      stream() % 2 == 0 ? pattern.beam_width_rad : radians(between(stream, 10.0, 120.0));
+  pattern.tilt_rad = between(stream, -kPi, kPi);
+  pattern.table = {{0.0, 8.0, 8.0}, {0.5, 5.0, 3.0}, {kPi, -12.0, -9.0}};
+  return pattern;
+}
+
+struct Links {
+  explicit Links(RandomStream& stream, std::size_t count)
+      : antenna(any_pattern(stream)), tag(any_pattern(stream)), X_WA(any_pose(stream)) {
+    for (std::size_t i = 0; i < count; ++i) X_WT.push_back(any_pose(stream));
+    // Straight along both wires, in one place, and far beyond the loops' reach.
+    X_WT[0] = {X_WA.rotation,
+               X_WA * Eigen::Vector3d(0.0, std::sin(antenna.tilt_rad), std::cos(antenna.tilt_rad))};
+    X_WT[1] = X_WA;
+    X_WT[2].translation = {1e6, 2e6, 0.0};
+    effects = {stream() % 4 != 0, stream() % 4 != 0};
+    const double lambda_m = wavelength(865.7e6);
+    carrier = {lambda_m, kTwoPi / lambda_m, {}};
+  }
+  [[nodiscard]] std::vector<std::complex<double>> some(std::size_t begin, std::size_t count,
+                                                       InstructionSet set) const {
+    std::vector<std::complex<double>> gains(count);
+    std::vector<const RigidTransform*> poses;
+    for (std::size_t i = 0; i < count; ++i) poses.push_back(&X_WT[begin + i]);
+    free_space_gains({antenna, X_WA}, tag, poses, carrier, effects, gains, set);
+    return gains;
+  }
+  AntennaPattern antenna;
+  AntennaPattern tag;
+  RigidTransform X_WA;
+  std::vector<RigidTransform> X_WT;
+  ChannelEffects effects;
+  Carrier carrier;
+};
+
+// Against one link after the other by complex vectors and the standard library's functions.
+RC_GTEST_PROP(FreeSpaceGains, AreThoseOfEachLink, ()) {
+  RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), Purpose::kPlaces);
+  const Links links(stream, 30);
+  const auto gains = links.some(0, 30, instruction_sets().back());
+  for (std::size_t i = 0; i < 30; ++i) {
+    const RadioEnd antenna{links.antenna, links.X_WA};
+    const RadioEnd tag{links.tag, links.X_WT[i]};
+    const auto alone = free_space_gain(antenna, tag, links.carrier, links.effects);
+    // The greatest that such a link can have, where the polarizations fit.
+    const double d = (tag.X_WA.translation - links.X_WA.translation).norm();
+    const double most = d > 0.0 ? 10.0 * links.carrier.lambda_m / (4.0 * kPi * d) : 0.0;
+    RC_ASSERT(std::abs(gains[i] - alone) <= 1e-12 * std::abs(alone) + 1e-14 * most);
+  }
+}
+
+RC_GTEST_PROP(FreeSpaceGains, AreTheSameBitsInEveryBatchAndInstructionSet, ()) {
+  RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), Purpose::kPlaces);
+  const std::size_t count = 150;
+  const Links links(stream, count);
+  const auto all = links.some(0, count, InstructionSet::kBaseline);
+  const std::size_t batch = *rc::gen::inRange<std::size_t>(1, count + 1);
+  for (const InstructionSet set : instruction_sets()) {
+    for (std::size_t begin = 0; begin < count; begin += batch) {
+      const auto some = links.some(begin, std::min(batch, count - begin), set);
+      for (std::size_t i = 0; i < some.size(); ++i) RC_ASSERT(some[i] == all[begin + i]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tagfield
