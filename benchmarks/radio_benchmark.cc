@@ -12,6 +12,7 @@
 
 #include "tagfield/base/lane_math.h"
 #include "tagfield/base/lanes.h"
+#include "tagfield/base/stream_words.h"
 #include "tagfield/base/units.h"
 #include "tagfield/field/radio_air.h"
 #include "tagfield/sdf/load_world.h"

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 namespace tagfield {
@@ -57,12 +56,6 @@ class RandomStream {
   std::array<std::uint64_t, 4> block_{};
   std::size_t used_ = 4;
 };
-
-/// The first two words of each stream (seed, purpose, a, b[i], c), into `first` and `second`, which
-/// are as long as `b`.
-void first_words(std::uint64_t seed, Purpose purpose, std::uint64_t a,
-                 std::span<const std::uint64_t> b, std::uint64_t c, std::span<std::uint64_t> first,
-                 std::span<std::uint64_t> second);
 
 /// A draw of [0, 1), a multiple of 2⁻⁵³.
 inline double uniform(RandomStream& stream) {

@@ -26,6 +26,7 @@ HeightModel height_model(const LocalizationProblem& problem, const std::string& 
 std::vector<double> heights_to_search(const HeightModel& height) {
   if (height.kind == HeightModel::Kind::kKnown) return {height.z};
   std::vector<double> heights;
+  heights.reserve(kPlanes);
   for (int plane = 0; plane < kPlanes; ++plane) {
     heights.push_back(height.z + height.side * kPlanesApart * plane);
   }

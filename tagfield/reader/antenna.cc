@@ -7,6 +7,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/base/stream_words.h"
 #include "tagfield/channel/paper_signals.h"
 #include "tagfield/reader/radio_model.h"
 

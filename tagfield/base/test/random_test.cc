@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "tagfield/base/stream_words.h"
 #include "tagfield/base/test/statistics.h"
 #include "tagfield/base/units.h"
 
