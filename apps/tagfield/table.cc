@@ -13,7 +13,7 @@ constexpr std::size_t kMostRows = 60;
 
 double millimetres(double metres) { return 1e3 * metres; }
 
-std::string place(const Eigen::Vector3d& p) {
+std::string place_columns(const Eigen::Vector3d& p) {
   return fmt::format("{:8.3f} {:8.3f} {:7.3f}", p.x(), p.y(), p.z());
 }
 
@@ -32,7 +32,7 @@ std::string row_of(const TagOutcome& tag, std::size_t width) {
     std::string text = fmt::format("{:<{}}  ambiguous ({} reads): {}\n", estimate.tag, width,
                                    tag.reads, estimate.reason);
     for (const Candidate& candidate : estimate.candidates) {
-      text += fmt::format("{:<{}}  {}  candidate\n", "", width, place(candidate.p_WT));
+      text += fmt::format("{:<{}}  {}  candidate\n", "", width, place_columns(candidate.p_WT));
     }
     return text;
   }
@@ -40,9 +40,9 @@ std::string row_of(const TagOutcome& tag, std::size_t width) {
   const auto error = error_of(tag);
   const std::string error_text =
       error ? fmt::format("{:9.1f}", millimetres(*error)) : fmt::format("{:>9}", "-");
-  return fmt::format("{:<{}}  {} {} {:8.1f} {:11.1f} {:7}\n", estimate.tag, width, place(best.p_WT),
-                     error_text, millimetres(best.rms_m), millimetres(best.expected_error_m),
-                     tag.reads);
+  return fmt::format("{:<{}}  {} {} {:8.1f} {:11.1f} {:7}\n", estimate.tag, width,
+                     place_columns(best.p_WT), error_text, millimetres(best.rms_m),
+                     millimetres(best.expected_error_m), tag.reads);
 }
 
 std::string rows_of_one_seed(const Summary& summary) {
