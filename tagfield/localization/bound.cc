@@ -91,10 +91,21 @@ void to_places(const JointSystem& system, Eigen::MatrixXd& covariance) {
   }
 }
 
+/// Of all tags' unknowns; 0 between tags where nothing is told of that.
+Eigen::MatrixXd whole(const JointCovariance& covariance) {
+  if (covariance.of_all.size() > 0) return covariance.of_all;
+  const auto tags = static_cast<Eigen::Index>(covariance.of_tag.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * tags, 3 * tags);
+  for (Eigen::Index i = 0; i < tags; ++i) {
+    all.block<3, 3>(3 * i, 3 * i) = covariance.of_tag[static_cast<std::size_t>(i)];
+  }
+  return all;
+}
+
 Bounds bounds_of(const JointSystem& system) {
   Bounds bounds;
   for (const JointTag& tag : system.tags) bounds.tags.push_back(tag.id);
-  bounds.covariance = covariance_of(system, 1).of_all;
+  bounds.covariance = whole(covariance_of(system, 1));
   to_places(system, bounds.covariance);
   return bounds;
 }

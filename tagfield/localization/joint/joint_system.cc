@@ -19,11 +19,23 @@ Eigen::Vector3d padded(const Eigen::VectorXd& u, Index knot, int size) {
   return all;
 }
 
-/// A system under way.
+/// Where a system stands.
 struct SystemPoint {
-  JointSystem system;
+  Eigen::VectorXd u;
+  std::vector<TagFit> of_tag;
   double cost = 0.0;
 };
+
+SystemPoint point_of(JointSystem& system) {
+  SystemPoint point{system.u, {}, cost_of(system)};
+  for (const JointTag& tag : system.tags) point.of_tag.push_back(tag.fit);
+  return point;
+}
+
+void stand_at(const SystemPoint& point, JointSystem& system) {
+  system.u = point.u;
+  for (std::size_t j = 0; j < system.tags.size(); ++j) system.tags[j].fit = point.of_tag[j];
+}
 
 void apply(const Move& move, JointSystem& system) {
   system.u += move.u;
@@ -54,6 +66,22 @@ double length_of(const JointSystem& system, const Move& move) {
   return most;
 }
 
+/// `knots` and `own_knot` by `knot`.
+void number_own_knots(JointTag& tag) {
+  tag.knots.clear();
+  for (const int knot : std::vector<int>(tag.knot.data(), tag.knot.data() + tag.knot.size())) {
+    if (knot >= 0) tag.knots.insert(tag.knots.end(), {knot, knot + 1});
+  }
+  std::sort(tag.knots.begin(), tag.knots.end());
+  tag.knots.erase(std::unique(tag.knots.begin(), tag.knots.end()), tag.knots.end());
+  tag.own_knot = Eigen::ArrayXi::Constant(tag.knot.size(), -1);
+  for (Index i = 0; i < tag.knot.size(); ++i) {
+    if (tag.knot[i] < 0) continue;
+    const auto found = std::lower_bound(tag.knots.begin(), tag.knots.end(), Index{tag.knot[i]});
+    tag.own_knot[i] = static_cast<int>(found - tag.knots.begin());
+  }
+}
+
 }  // namespace
 
 void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag) {
@@ -62,8 +90,6 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
   tag.knot_weight = Eigen::ArrayXd::Zero(reads);
   tag.lever_x = Eigen::ArrayXd::Zero(reads);
   tag.lever_y = Eigen::ArrayXd::Zero(reads);
-  int first = 0;
-  int last = -1;
   for (const TagPhases::Span& span : tag.phases.spans) {
     const auto found = knots.chain_of.find(span.antenna);
     if (found == knots.chain_of.end()) continue;
@@ -73,16 +99,13 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
       const KnotPlace place = place_in(knots, chain, tag.phases.time_s[i]);
       tag.knot[i] = static_cast<int>(place.at);
       tag.knot_weight[i] = place.after;
-      first = last < 0 ? tag.knot[i] : std::min(first, tag.knot[i]);
-      last = std::max(last, tag.knot[i] + 1);
       if (span.antenna == chain.reference) continue;
       const RigidTransform X_WR = held_pose_at(reference, time_from_seconds(tag.phases.time_s[i]));
       tag.lever_x[i] = tag.phases.x[i] - X_WR.translation.x();
       tag.lever_y[i] = tag.phases.y[i] - X_WR.translation.y();
     }
   }
-  tag.first_knot = first;
-  tag.knot_count = last < 0 ? 0 : last - first + 1;
+  number_own_knots(tag);
 }
 
 Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, Index i) {
@@ -122,21 +145,24 @@ double minimize(JointSystem& system, int rounds, int threads) {
   double length = std::numeric_limits<double>::infinity();  // Of the last step.
   const auto step = [&](const SystemPoint& here, double damping) -> std::optional<SystemPoint> {
     if (length < kTolerance) return std::nullopt;
-    const Move move = damped_move(here.system, damping, threads);
-    if (!is_finite(move)) return SystemPoint{{}, std::numeric_limits<double>::quiet_NaN()};
-    length = length_of(here.system, move);
-    SystemPoint there{here.system, 0.0};
-    apply(move, there.system);
-    there.cost = cost_of(there.system);
-    return there;
+    stand_at(here, system);
+    const Move move = damped_move(system, damping, threads);
+    if (!is_finite(move)) return SystemPoint{{}, {}, std::numeric_limits<double>::quiet_NaN()};
+    length = length_of(system, move);
+    apply(move, system);
+    return point_of(system);
   };
-  const double cost = cost_of(system);
-  system = descend(SystemPoint{std::move(system), cost}, how, step).system;
-  return cost_of(system);
+  const SystemPoint best = descend(point_of(system), how, step);
+  stand_at(best, system);
+  return best.cost;
 }
 
 JointCovariance covariance_of(const JointSystem& system, int threads) {
   return inverse_of_normal(system, threads);
+}
+
+double log_determinant_of(const JointSystem& system, int threads) {
+  return log_determinant_of_normal(system, threads);
 }
 
 double evidence(const JointSystem& system, double cost, double log_determinant) {
@@ -154,16 +180,10 @@ double evidence(const JointSystem& system, double cost, double log_determinant) 
   return cost + log_determinant - prior;
 }
 
-bool eliminates_knots_first(Index knot_unknowns, const std::vector<Index>& unknowns) {
-  double all = 0.0;
-  double by_tags = 0.0;
+bool eliminates_knots_first(Index knot_unknowns, Index tag_unknowns, double work_by_tags) {
   const auto knots = static_cast<double>(knot_unknowns);
-  for (const Index m : unknowns) {
-    const auto count = static_cast<double>(m);
-    all += count;
-    by_tags += knots * knots * count;
-  }
-  return knots * all * all + all * all * all / 3.0 < by_tags + knots * knots * knots / 3.0;
+  const auto tags = static_cast<double>(tag_unknowns);
+  return knots * tags * tags + tags * tags * tags / 3.0 < work_by_tags;
 }
 
 }  // namespace tagfield

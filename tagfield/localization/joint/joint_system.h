@@ -33,10 +33,10 @@ struct JointTag {
   // By read: the knot before it (−1 for an antenna without error), how far towards the next, and
   // the antenna's place from its body's reference [m].
   Eigen::ArrayXi knot;
+  Eigen::ArrayXi own_knot;  ///< Which of `knots` that is; the next one is there, too.
   Eigen::ArrayXd knot_weight, lever_x, lever_y;
   std::optional<BendSlopes> slopes;
-  int first_knot = 0;
-  int knot_count = 0;  ///< Knots that its reads touch lie in [first_knot, first_knot + knot_count).
+  std::vector<Eigen::Index> knots;  ///< That its reads touch, in order.
 };
 
 struct JointSystem {
@@ -64,19 +64,22 @@ double minimize(JointSystem& system, int rounds, int threads);
 struct JointCovariance {
   /// By tag, of its unknowns; rows of known heights and of fixed tags are 0.
   std::vector<Eigen::Matrix3d> of_tag;
-  /// Of all tags' unknowns, 3 rows a tag. Where the tags were eliminated first, only the blocks of
-  /// `of_tag`.
+  /// Of all tags' unknowns, 3 rows a tag. Empty where the tags were eliminated first.
   Eigen::MatrixXd of_all;
   double log_determinant = 0.0;  ///< Of the normal equations' matrix.
 };
 JointCovariance covariance_of(const JointSystem& system, int threads);
 
+/// ln |H| of the normal equations' matrix H alone, where the system stands.
+double log_determinant_of(const JointSystem& system, int threads);
+
 /// −2 ln of the data's density given the pose error's model, up to a constant: by this models are
 /// compared. `cost` is cost_of() at the minimum.
 double evidence(const JointSystem& system, double cost, double log_determinant);
 
-/// Whether the chain of knots would be eliminated first for so many tags with so many unknowns
-/// each.
-bool eliminates_knots_first(Eigen::Index knot_unknowns, const std::vector<Eigen::Index>& unknowns);
+/// Whether to eliminate the chain of knots first, and then to factorize the tags' own matrix, is
+/// less work than the other way round, which takes `work_by_tags` multiplications and additions.
+bool eliminates_knots_first(Eigen::Index knot_unknowns, Eigen::Index tag_unknowns,
+                            double work_by_tags);
 
 }  // namespace tagfield

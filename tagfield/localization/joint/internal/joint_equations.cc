@@ -32,7 +32,7 @@ Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& t
 template <int D>
 void add_to_knots(const JointSystem& system, const JointTag& tag, Index i, int column,
                   const ReadNow& now, double weight, TagPart<D>& part) {
-  const Index before = (tag.knot[i] - tag.first_knot) * Index{D};
+  const Index before = tag.own_knot[i] * Index{D};
   const Index after = before + D;
   const double w = tag.knot_weight[i];
   using Vector = Eigen::Matrix<double, D, 1>;
@@ -86,8 +86,9 @@ TagPart<D> part_of(const JointSystem& system, const JointTag& tag) {
   const Index m = part.layout.size;
   part.normal = Eigen::MatrixXd::Zero(m, m);
   part.gradient = Eigen::VectorXd::Zero(m);
-  part.coupling = Eigen::MatrixXd::Zero(tag.knot_count * Index{D}, m);
-  part.chain = empty_chain<D>(tag.knot_count);
+  const auto knots = static_cast<Index>(tag.knots.size());
+  part.coupling = Eigen::MatrixXd::Zero(knots * Index{D}, m);
+  part.chain = empty_chain<D>(knots);
   for (std::size_t s = 0; s < tag.phases.spans.size(); ++s) {
     const TagPhases::Span& span = tag.phases.spans[s];
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
@@ -186,12 +187,15 @@ Linear<D> linearize(const JointSystem& system, int threads) {
                [&](std::size_t j) { linear.tags[j] = part_of<D>(system, system.tags[j]); });
   linear.chain = empty_chain<D>(system.knots.count());
   for (std::size_t j = 0; j < system.tags.size(); ++j) {
-    const Index begin = system.tags[j].first_knot * Index{D};
-    const Index count = system.tags[j].knot_count * Index{D};
     const ChainPart<D>& part = linear.tags[j].chain;
-    linear.chain.diagonal.middleCols(begin, count) += part.diagonal;
-    linear.chain.next.middleCols(begin, count) += part.next;
-    linear.chain.gradient.segment(begin, count) += part.gradient;
+    Index own = 0;
+    for (const Index knot : system.tags[j].knots) {
+      const Index at = knot * D;
+      linear.chain.diagonal.template middleCols<D>(at) += part.diagonal.template middleCols<D>(own);
+      linear.chain.next.template middleCols<D>(at) += part.next.template middleCols<D>(own);
+      linear.chain.gradient.template segment<D>(at) += part.gradient.template segment<D>(own);
+      own += D;
+    }
   }
   add_prior(system, linear.chain);
   return linear;

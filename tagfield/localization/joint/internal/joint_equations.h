@@ -32,13 +32,13 @@ struct ChainPart {
   Eigen::VectorXd gradient;
 };
 
-/// One tag's part. `chain` covers only the tag's own knots.
+/// One tag's part. `chain` covers only JointTag::knots, as if all followed one another.
 template <int D>
 struct TagPart {
   Layout layout;
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
-  Eigen::MatrixXd coupling;  ///< Rows: unknowns of the tag's knots. Columns: the tag's unknowns.
+  Eigen::MatrixXd coupling;  ///< Rows: unknowns of JointTag::knots. Columns: the tag's unknowns.
   ChainPart<D> chain;
 };
 
@@ -47,6 +47,16 @@ struct Linear {
   std::vector<TagPart<D>> tags;
   ChainPart<D> chain;
 };
+
+/// The unknowns of knots, D each.
+template <int D>
+std::vector<Eigen::Index> unknowns_of(const std::vector<Eigen::Index>& knots) {
+  std::vector<Eigen::Index> unknowns;
+  for (const Eigen::Index knot : knots) {
+    for (int d = 0; d < D; ++d) unknowns.push_back(knot * D + d);
+  }
+  return unknowns;
+}
 
 /// With D = `system.knots.size`, 2 or 3. Threads share the tags.
 template <int D>

@@ -38,8 +38,7 @@ Trial tried(const JointSystem& from, const PoseKnots& knots, double factor, doub
   changed.time_constant_s = time_constant_s;
   rescale(trial.system, changed);
   const double cost = minimize(trial.system, 6, threads);
-  trial.evidence =
-      evidence(trial.system, cost, covariance_of(trial.system, threads).log_determinant);
+  trial.evidence = evidence(trial.system, cost, log_determinant_of(trial.system, threads));
   return trial;
 }
 

@@ -22,4 +22,7 @@ Move damped_move(const JointSystem& system, double damping, int threads);
 /// The inverse of the normal equations' matrix where the system stands, of the tags' places.
 JointCovariance inverse_of_normal(const JointSystem& system, int threads);
 
+/// ln of that matrix' determinant.
+double log_determinant_of_normal(const JointSystem& system, int threads);
+
 }  // namespace tagfield

@@ -6,6 +6,7 @@
 #include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
+#include "tagfield/fit/envelope_matrix.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/joint/internal/joint_equations.h"
@@ -22,9 +23,8 @@ using Index = Eigen::Index;
 
 /// Knots a time constant: straight lines between them miss 2 % of the variance.
 constexpr double kStateKnots = 40.0;
-/// With many tags, where the knots' own system is solved whole.
-constexpr double kCoarseKnots = 20.0;
-constexpr double kMostUnknowns = 3000.0;  ///< Of the knots in that case.
+constexpr double kMostWork = 3e10;  ///< Multiplications a solution: about a second.
+constexpr double kKnotsToLook = 1000.0;
 
 PoseErrorModel model_of(const LocalizationProblem& problem) {
   return problem.pose_error.value_or(kUsualPoseError);
@@ -44,17 +44,49 @@ std::vector<Period> reading_periods(const LocalizationProblem& problem, double l
   return periods_of(std::move(times_s), longest_pause_s);
 }
 
-/// Time between knots, finer where few tags make that cheap.
-double knot_spacing(const LocalizationProblem& problem, std::size_t tags, double time_constant_s) {
+/// Multiplications that factorizing the knots' matrix takes, the tags eliminated: each tag couples
+/// all knots by its reads, from the first of them on.
+double work_of(const LocalizationProblem& problem, const PoseKnots& knots) {
+  std::vector<Index> firsts(static_cast<std::size_t>(knots.count()));
+  for (std::size_t k = 1; k < firsts.size(); ++k) firsts[k] = static_cast<Index>(k) - 1;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    std::vector<Index> own;
+    for (const auto& [antenna, series] : of_tag) {
+      const auto chain = knots.chain_of.find(antenna);
+      if (chain == knots.chain_of.end()) continue;
+      for (const PhaseSample& sample : series) {
+        const double time_s = to_seconds(sample.stamp);
+        own.push_back(place_in(knots, knots.chains[chain->second], time_s).at);
+      }
+    }
+    if (own.empty()) continue;
+    const Index first = *std::min_element(own.begin(), own.end());
+    for (const Index knot : own) {
+      for (const auto k : {static_cast<std::size_t>(knot), static_cast<std::size_t>(knot) + 1}) {
+        firsts[k] = std::min(firsts[k], first);
+      }
+    }
+  }
+  return work_of_factors(firsts) * std::pow(knots.size, 3.0);
+}
+
+/// Time between knots, finer where few tags make that cheap, and wider where many reads of the same
+/// tags long after each other make the knots' own system large.
+double knot_spacing(const LocalizationProblem& problem, std::size_t tags,
+                    const PoseErrorModel& model) {
   constexpr Index kUnknownsOfTag = 4;
-  const double fine = time_constant_s / kStateKnots;
-  const std::vector<Period> periods = reading_periods(problem, time_constant_s);
+  const double fine = model.time_constant_s / kStateKnots;
+  const std::vector<Period> periods = reading_periods(problem, model.time_constant_s);
   double duration = 0.0;
   for (const Period& period : periods) duration += period.end_s - period.begin_s;
   const auto unknowns =
       static_cast<Index>(2.0 * duration / fine) + 2 * static_cast<Index>(periods.size());
-  if (eliminates_knots_first(unknowns, std::vector<Index>(tags, kUnknownsOfTag))) return fine;
-  return std::max(time_constant_s / kCoarseKnots, 2.0 * duration / kMostUnknowns);
+  const auto of_tags = static_cast<Index>(tags) * kUnknownsOfTag;
+  if (eliminates_knots_first(unknowns, of_tags, 2.0 * kMostWork)) return fine;
+  // The envelope's work goes with the cube of the number of knots, so a look at wide ones will do.
+  const double wide = std::max(fine, duration / kKnotsToLook);
+  const double work = work_of(problem, make_knots(problem, &model, wide));
+  return std::max(fine, wide * std::cbrt(work / kMostWork));
 }
 
 /// Covariances that come with the poses count only where no model was given.
@@ -80,10 +112,10 @@ double first_noise(const LocalizationProblem& problem) {
 }
 
 JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
-                   const UnwrappedFit& unwrapped) {
+                   UnwrappedFit unwrapped) {
   JointTag joint;
   joint.id = tag;
-  joint.phases = unwrapped.phases;
+  joint.phases = std::move(unwrapped.phases);
   joint.height = unwrapped.height;
   joint.fit = unwrapped.fits.front();
   const auto known = problem.reference_tags.find(tag);
@@ -181,7 +213,7 @@ JointState without_tags(const LocalizationProblem& problem, std::size_t tags) {
   state.problem = &problem;
   state.system.noise_rad = first_noise(problem);
   const PoseErrorModel model = model_of(problem);
-  state.system.knots = knots_of(problem, model, knot_spacing(problem, tags, model.time_constant_s));
+  state.system.knots = knots_of(problem, model, knot_spacing(problem, tags, model));
   state.system.u = Eigen::VectorXd::Zero(state.system.knots.count() * state.system.knots.size);
   return state;
 }
@@ -202,7 +234,7 @@ JointState begin_jointly(const LocalizationProblem& problem, int threads) {
       state.not_located[tag] = not_located(begun(tag, samples), fits[i].why_not);
       continue;
     }
-    JointTag joint = joint_tag(problem, tag, fits[i]);
+    JointTag joint = joint_tag(problem, tag, std::move(fits[i]));
     attach(problem, state.system.knots, joint);
     state.system.tags.push_back(std::move(joint));
     state.samples.push_back(&samples);
@@ -282,11 +314,10 @@ void find_better_places(JointState& state, int threads) {
 void fit_wrapped_jointly(JointState& state, int threads) {
   JointSystem& system = state.system;
   cost_of(system);
-  std::vector<JointTag> wrapped(system.tags.size());
-  parallel_for(wrapped.size(), threads, [&](std::size_t i) { wrapped[i] = wrapped_tag(state, i); });
-  for (std::size_t i = 0; i < wrapped.size(); ++i) {
-    if (fits_as_well(wrapped[i], system.tags[i])) system.tags[i] = std::move(wrapped[i]);
-  }
+  parallel_for(system.tags.size(), threads, [&](std::size_t i) {
+    JointTag wrapped = wrapped_tag(state, i);
+    if (fits_as_well(wrapped, system.tags[i])) system.tags[i] = std::move(wrapped);
+  });
   minimize(system, kMostRoundsOfJointFit, threads);
   system.noise_rad = noise_of_neighbours(system);
   weigh(system);
