@@ -1,5 +1,6 @@
 #include "tagfield/base/time.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -68,7 +69,7 @@ std::string format_stamp(Time time) {
   const std::int64_t count = time.time_since_epoch().count();
   const std::uint64_t size = count < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(count)
                                        : static_cast<std::uint64_t>(count);
-  return fmt::format("{}{}.{:09}", count < 0 ? "-" : "", size / kNanosPerSecond,
+  return fmt::format(FMT_COMPILE("{}{}.{:09}"), count < 0 ? "-" : "", size / kNanosPerSecond,
                      size % kNanosPerSecond);
 }
 

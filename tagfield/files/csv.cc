@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 
 #include "tagfield/base/number.h"
@@ -16,69 +17,109 @@ namespace {
 
 /// What libcsv's callbacks fill.
 struct Filling {
-  CsvTable* table = nullptr;
-  bool header = true;  ///< Whether the table has one.
-  int line = 1;
-  std::vector<std::string> fields;
+  CsvTable table;  ///< Without rows.
+  const std::function<void(const CsvTable&)>& begin;
+  const std::function<void(const CsvRow&)>& take;
+  bool header = true;     ///< Whether the table has one.
+  int lines_seen = 0;     ///< Of which the last may go on in the next block.
+  bool in_line = false;   ///< Whether it does.
+  CsvRow row;             ///< Its fields are used again and again.
+  std::size_t count = 0;  ///< Of them that are filled.
   std::string problem;
+  std::exception_ptr thrown;  ///< By `begin` or `take`: not through libcsv, which is C.
 };
 
-void finish_header(Filling& filling) { filling.table->header = std::move(filling.fields); }
-
-void number_columns(Filling& filling) {
-  for (std::size_t i = 1; i <= filling.fields.size(); ++i) {
-    filling.table->header.push_back(std::to_string(i));
+void take_header(Filling& filling) {
+  CsvTable& table = filling.table;
+  for (std::size_t i = 0; i < filling.count; ++i) {
+    table.header.push_back(filling.header ? filling.row.fields[i] : std::to_string(i + 1));
   }
+  filling.begin(table);
 }
 
-void finish_row(Filling& filling) {
-  CsvTable& table = *filling.table;
-  if (filling.fields.size() != table.header.size()) {
-    filling.problem = fmt::format("{} fields where the {} has {}", filling.fields.size(),
-                                  filling.header ? "header" : "first line", table.header.size());
+void take_row(Filling& filling) {
+  const std::size_t columns = filling.table.header.size();
+  if (filling.count != columns) {
+    filling.problem = fmt::format("{} fields where the {} has {}", filling.count,
+                                  filling.header ? "header" : "first line", columns);
     return;
   }
-  table.rows.push_back({filling.line, std::move(filling.fields)});
+  filling.row.line = filling.lines_seen;
+  filling.row.fields.resize(columns);
+  filling.take(filling.row);
 }
 
 void on_field(void* bytes, std::size_t size, void* user) {
   auto& filling = *static_cast<Filling*>(user);
-  filling.fields.emplace_back(size == 0 ? "" : static_cast<const char*>(bytes), size);
+  std::vector<std::string>& fields = filling.row.fields;
+  if (filling.count == fields.size()) fields.emplace_back();
+  fields[filling.count++].assign(size == 0 ? "" : static_cast<const char*>(bytes), size);
 }
 
 void on_row(int /*terminator*/, void* user) {
   auto& filling = *static_cast<Filling*>(user);
-  if (!filling.problem.empty()) return;
-  if (!filling.fields.empty()) {
-    const bool first = filling.table->header.empty();
-    if (first && filling.header) {
-      finish_header(filling);
-    } else {
-      if (first) number_columns(filling);
-      finish_row(filling);
-    }
+  if (!filling.problem.empty() || filling.thrown) return;
+  try {
+    const bool first = filling.table.header.empty();
+    if (filling.count > 0 && first) take_header(filling);
+    if (filling.count > 0 && (!first || !filling.header)) take_row(filling);
+  } catch (...) {
+    filling.thrown = std::current_exception();
   }
-  filling.fields.clear();
+  filling.count = 0;
+}
+
+void require_no_problem(const Filling& filling) {
+  if (filling.thrown) std::rethrow_exception(filling.thrown);
+  if (!filling.problem.empty()) {
+    fail({filling.table.file, filling.lines_seen}, filling.problem);
+  }
 }
 
 /// Parses line by line, so that a complaint knows its line.
-void parse_lines(const std::string& text, csv_parser& parser, Filling& filling) {
-  std::size_t begin = 0;
-  int lines_seen = 0;
-  while (begin < text.size() && filling.problem.empty()) {
-    const std::size_t newline = text.find('\n', begin);
-    const std::size_t end = newline == std::string::npos ? text.size() : newline + 1;
-    filling.line = ++lines_seen;
-    if (csv_parse(&parser, text.data() + begin, end - begin, on_field, on_row, &filling) !=
-        end - begin) {
+void parse(std::string_view text, csv_parser& parser, Filling& filling) {
+  if (text.find('\0') != std::string_view::npos) {
+    fail({filling.table.file, 0}, "is not a text file");
+  }
+  while (!text.empty()) {
+    const std::size_t newline = text.find('\n');
+    const std::string_view line =
+        text.substr(0, newline == std::string_view::npos ? newline : newline + 1);
+    if (!filling.in_line) ++filling.lines_seen;
+    filling.in_line = newline == std::string_view::npos;
+    if (csv_parse(&parser, line.data(), line.size(), on_field, on_row, &filling) != line.size()) {
       filling.problem = csv_strerror(csv_error(&parser));
     }
-    begin = end;
-  }
-  if (filling.problem.empty() && csv_fini(&parser, on_field, on_row, &filling) != 0) {
-    filling.problem = "a quoted field without an end";
+    require_no_problem(filling);
+    text.remove_prefix(line.size());
   }
 }
+
+void finish(csv_parser& parser, Filling& filling) {
+  if (csv_fini(&parser, on_field, on_row, &filling) != 0) {
+    filling.problem = "a quoted field without an end";
+  }
+  require_no_problem(filling);
+}
+
+/// Takes off a byte order mark, a spreadsheet's way to say UTF-8, wherever blocks begin.
+class WithoutMark {
+ public:
+  std::string_view operator()(std::string_view block) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (is_past_) return block;
+    begin_ += block;
+    if (begin_.size() < kMark.size()) return {};
+    is_past_ = true;
+    return std::string_view(begin_).substr(begin_.rfind(kMark, 0) == 0 ? kMark.size() : 0);
+  }
+  /// What a file shorter than the mark holds.
+  [[nodiscard]] std::string_view rest() const { return is_past_ ? std::string_view() : begin_; }
+
+ private:
+  bool is_past_ = false;
+  std::string begin_;
+};
 
 }  // namespace
 
@@ -141,25 +182,32 @@ const std::string& CsvTable::text(const CsvRow& row, std::size_t column) const {
   return row.fields[column];
 }
 
-CsvTable read_csv(const std::string& path, const CsvForm& form) {
-  std::string text = read_text_file(path);
-  // A byte order mark is a spreadsheet's way to say UTF-8.
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-  CsvTable table;
-  table.file = path;
-  if (text.find('\0') != std::string::npos) fail({path, 0}, "is not a text file");
+void read_csv_rows(const std::string& path, const std::function<void(const CsvTable&)>& begin,
+                   const std::function<void(const CsvRow&)>& take, const CsvForm& form) {
   csv_parser parser{};
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) {
     throw Error("can't start the CSV reader");
   }
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
   csv_set_delim(&parser, static_cast<unsigned char>(form.delimiter));
-  Filling filling{&table, form.header, 1, {}, ""};
-  parse_lines(text, parser, filling);
-  if (!filling.problem.empty()) fail({path, filling.line}, filling.problem);
-  if (table.header.empty()) {
+  Filling filling{{path, {}, {}}, begin, take, form.header, 0, false, {}, 0, "", nullptr};
+  WithoutMark without_mark;
+  read_in_blocks(path,
+                 [&](std::string_view block) { parse(without_mark(block), parser, filling); });
+  parse(without_mark.rest(), parser, filling);
+  finish(parser, filling);
+  if (filling.table.header.empty()) {
     fail({path, 0}, form.header ? "is empty, expected a table with a header line" : "is empty");
   }
+}
+
+CsvTable read_csv(const std::string& path, const CsvForm& form) {
+  CsvTable table;
+  std::vector<CsvRow> rows;
+  read_csv_rows(
+      path, [&](const CsvTable& begun) { table = begun; },
+      [&](const CsvRow& row) { rows.push_back(row); }, form);
+  table.rows = std::move(rows);
   return table;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,12 @@ struct CsvForm {
 /// blank lines are skipped. Throws Error if the file can't be read, is empty, is not text, or has a
 /// line with more or fewer fields than the header (or, without one, than the first line).
 CsvTable read_csv(const std::string& path, const CsvForm& form = {});
+
+/// The same, row by row, of files that don't fit in memory: `begin` gets the table without rows,
+/// `take` gets each row, whose fields are good until it returns. Rows before a bad line have been
+/// taken when it throws.
+void read_csv_rows(const std::string& path, const std::function<void(const CsvTable&)>& begin,
+                   const std::function<void(const CsvRow&)>& take, const CsvForm& form = {});
 
 /// `text` as one field: quoted where it must be.
 std::string csv_field(std::string_view text);

@@ -27,8 +27,8 @@ class Opened {
   ~Opened() {
     if (file_ >= 0) ::close(file_);
   }
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
+  Opened(Opened&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  Opened& operator=(Opened&&) = delete;
   [[nodiscard]] int get() const { return file_; }
 
  private:
@@ -50,12 +50,25 @@ std::size_t require_file(int file, const std::string& path) {
   return static_cast<std::size_t>(status.st_size);
 }
 
-/// The next bytes; none at the end.
-std::size_t read_some(int file, const std::string& path, std::array<char, 1U << 16U>& bytes) {
+Opened opened(const std::string& path) {
+  Opened file(path);
+  if (file.get() < 0 && (errno == ENOENT || errno == ENOTDIR)) fail({path, 0}, "no such file");
+  if (file.get() < 0) fail_to_read(path);
+  return file;
+}
+
+/// All that follows, to its end.
+void read_all(int file, const std::string& path,
+              const std::function<void(std::string_view)>& take) {
+  std::array<char, 1U << 16U> bytes;
   for (;;) {
     const ssize_t count = ::read(file, bytes.data(), bytes.size());
-    if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EINTR) fail_to_read(path);
+    if (count == 0) return;
+    if (count > 0) {
+      take({bytes.data(), static_cast<std::size_t>(count)});
+    } else if (errno != EINTR) {
+      fail_to_read(path);
+    }
   }
 }
 
@@ -80,19 +93,22 @@ fs::path beside(const fs::path& target) {
 }  // namespace
 
 std::string read_text_file(const std::string& path, std::size_t most_bytes) {
-  const Opened file(path);
-  if (file.get() < 0 && (errno == ENOENT || errno == ENOTDIR)) fail({path, 0}, "no such file");
-  if (file.get() < 0) fail_to_read(path);
+  const Opened file = opened(path);
   std::string text;
   text.reserve(std::min(require_file(file.get(), path), most_bytes));
-  std::array<char, 1U << 16U> bytes;
-  while (const std::size_t count = read_some(file.get(), path, bytes)) {
-    text.append(bytes.data(), count);
+  read_all(file.get(), path, [&](std::string_view bytes) {
+    text += bytes;
     if (text.size() > most_bytes) {
       fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
     }
-  }
+  });
   return text;
+}
+
+void read_in_blocks(const std::string& path, const std::function<void(std::string_view)>& take) {
+  const Opened file = opened(path);
+  require_file(file.get(), path);
+  read_all(file.get(), path, take);
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

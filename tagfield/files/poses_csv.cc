@@ -89,21 +89,27 @@ std::string poses_to_csv(const std::vector<AntennaPose>& poses, const std::strin
 }
 
 std::vector<AntennaPose> read_poses_csv(const std::string& path, const std::string& who) {
-  const CsvTable table = read_csv(path);
-  const std::size_t stamp = table.column("stamp_s");
-  const std::size_t name = table.column(who);
-  const auto xyz = table.position_columns();
-  const std::array<std::size_t, 4> q = {table.column("qx"), table.column("qy"), table.column("qz"),
-                                        table.column("qw")};
-  const auto covariance = covariance_columns(table);
+  CsvTable table;
+  std::size_t stamp = 0;
+  std::size_t name = 0;
+  std::array<std::size_t, 3> xyz{};
+  std::array<std::size_t, 4> q{};
+  decltype(covariance_columns(table)) covariance;
   std::vector<AntennaPose> poses;
-  poses.reserve(table.rows.size());
-  for (const CsvRow& row : table.rows) {
+  const auto begin = [&](const CsvTable& begun) {
+    table = begun;
+    stamp = table.column("stamp_s");
+    name = table.column(who);
+    xyz = table.position_columns();
+    q = {table.column("qx"), table.column("qy"), table.column("qz"), table.column("qw")};
+    covariance = covariance_columns(table);
+  };
+  read_csv_rows(path, begin, [&](const CsvRow& row) {
     poses.push_back({table.stamp(row, stamp),
                      table.text(row, name),
                      {quaternion_of(table, row, q), table.position(row, xyz)},
                      covariance ? covariance_of(table, row, *covariance) : std::nullopt});
-  }
+  });
   return poses;
 }
 
