@@ -1,4 +1,4 @@
-// How long each method takes for one tag of 700 reads; see BENCHMARK.md.
+// How long each method takes for one tag of 700 reads, and of more and fewer; see BENCHMARK.md.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -12,18 +12,19 @@ namespace {
 
 constexpr int kReads = 700;
 
-/// Read at `p_WT` from an S-shaped way of 14 m at 2 cm a read; RSSI in whole decibels.
-std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed) {
+/// Read at `p_WT` so often in 47 s from an S-shaped way of 14 m; RSSI in whole decibels.
+std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed, int reads = kReads) {
+  const double step_m = 0.02 * kReads / reads;
   std::mt19937_64 rng(seed);
   std::normal_distribution<double> noise(0.0, 0.1);
   std::vector<PhaseSample> samples;
   Eigen::Vector3d p_WA(0.0, 0.0, 0.4);
-  for (int i = 0; i < kReads; ++i) {
-    const double heading = 1.1 * std::sin(kTwoPi * 0.02 * i / 11.0);
-    p_WA += 0.02 * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0);
+  for (int i = 0; i < reads; ++i) {
+    const double heading = 1.1 * std::sin(kTwoPi * step_m * i / 11.0);
+    p_WA += step_m * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0);
     const double r = (p_WT - p_WA).norm();
     PhaseSample sample;
-    sample.stamp = time_from_seconds(1.7e9 + i / 15.0);
+    sample.stamp = time_from_seconds(1.7e9 + step_m * i / 0.3);
     sample.frequency_hz = 865.7e6;
     sample.phase_rad =
         wrap_to_two_pi(4.0 * kPi / wavelength(sample.frequency_hz) * r + 1.0 + noise(rng));
@@ -35,11 +36,11 @@ std::vector<PhaseSample> read_at(const Eigen::Vector3d& p_WT, unsigned seed) {
 }
 
 /// The tag 2.5 m beside the way.
-LocalizationProblem one_tag() {
+LocalizationProblem one_tag(int reads = kReads) {
   const Eigen::Vector3d p_WT(6.0, 2.5, 0.9);
   LocalizationProblem problem;
   problem.heights.of_all = p_WT.z();
-  problem.samples["tag"]["antenna"] = read_at(p_WT, 1);
+  problem.samples["tag"]["antenna"] = read_at(p_WT, 1, reads);
   for (const PhaseSample& sample : problem.samples["tag"]["antenna"]) {
     problem.tracks["antenna"].X_WA.push_back({sample.stamp, from_translation(sample.p_WA)});
   }
@@ -58,8 +59,8 @@ void add_reference_tags(LocalizationProblem& problem) {
   }
 }
 
-void locate(benchmark::State& state, const Method& method) {
-  LocalizationProblem problem = one_tag();
+void locate(benchmark::State& state, const Method& method, int reads) {
+  LocalizationProblem problem = one_tag(reads);
   if (method.name == "landmarc") add_reference_tags(problem);
   for (auto _ : state) {
     Diagnostics diagnostics;
@@ -72,11 +73,17 @@ void locate(benchmark::State& state, const Method& method) {
 
 int main(int argc, char** argv) {
   using namespace tagfield;
-  for (const Method& method : built_in_methods()) {
-    benchmark::RegisterBenchmark(("locate/" + method.name).c_str(), [method](
-                                                                        benchmark::State& state) {
-      locate(state, method);
+  const auto add = [](const std::string& name, const Method& method, int reads) {
+    benchmark::RegisterBenchmark(name.c_str(), [method, reads](benchmark::State& state) {
+      locate(state, method, reads);
     })->Unit(benchmark::kMillisecond);
+  };
+  for (const Method& method : built_in_methods()) add("locate/" + method.name, method, kReads);
+  for (const char* name : {"hyperbola", "ml", "sar", "robust"}) {
+    for (const int reads : {500, 1500, 5000, 15000}) {
+      add(std::string("locate/") + name + "/reads:" + std::to_string(reads),
+          find_method(built_in_methods(), name), reads);
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

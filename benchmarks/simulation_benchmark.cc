@@ -33,17 +33,19 @@ void add_tag_grid(Scenario& scenario, std::int64_t tags, double spacing_m) {
   }
 }
 
+void add_antenna(Scenario& scenario, double x, double y) {
+  AntennaSpec antenna;
+  antenna.parameters.name = "antenna" + std::to_string(scenario.antennas.size());
+  antenna.X_PA = from_translation({x, y, 2.0});
+  scenario.antennas.push_back(antenna);
+}
+
 /// Four antennas at the corners of a square of 4 m around the origin, 7 m of range, 15 Hz.
 Scenario four_antennas() {
   Scenario scenario;
   scenario.duration_s = kSimulatedSeconds;
   for (const double x : {-2.0, 2.0}) {
-    for (const double y : {-2.0, 2.0}) {
-      AntennaSpec antenna;
-      antenna.parameters.name = "antenna" + std::to_string(scenario.antennas.size());
-      antenna.X_PA = from_translation({x, y, 2.0});
-      scenario.antennas.push_back(antenna);
-    }
+    for (const double y : {-2.0, 2.0}) add_antenna(scenario, x, y);
   }
   return scenario;
 }
@@ -124,6 +126,26 @@ void GrowingHall(benchmark::State& state) {
   run_steps(state, scenario);
 }
 BENCHMARK(GrowingHall)->RangeMultiplier(10)->Range(100, 100'000)->Unit(benchmark::kMillisecond);
+
+/// Tags on 5 m by 5 m, all of which each of the four antennas reads in every update.
+void TagsInRange(benchmark::State& state) {
+  Scenario scenario = four_antennas();
+  add_tag_grid(scenario, state.range(0), 5.0 / std::sqrt(static_cast<double>(state.range(0))));
+  run_steps(state, scenario);
+}
+BENCHMARK(TagsInRange)->RangeMultiplier(10)->Range(10, 10'000)->Unit(benchmark::kMillisecond);
+
+/// Antennas that all read the same 100 tags.
+void Antennas(benchmark::State& state) {
+  Scenario scenario;
+  scenario.duration_s = kSimulatedSeconds;
+  for (std::int64_t i = 0; i < state.range(0); ++i) {
+    add_antenna(scenario, 0.02 * static_cast<double>(i), 0.0);
+  }
+  add_tag_grid(scenario, 100, 0.3);
+  run_steps(state, scenario);
+}
+BENCHMARK(Antennas)->RangeMultiplier(4)->Range(1, 64)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tagfield
