@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "adapters/archive/unpacked_archive.h"
+#include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/spelling.h"
@@ -51,6 +52,9 @@ std::vector<AntennaPose> poses_of(const std::string& command, const std::string&
   return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
 }
 
+/// Whether that is the folder of a run, with its tables.
+bool is_run(const fs::path& path) { return fs::exists(path / "reads.csv"); }
+
 /// Tables that are there as they are.
 ReadsAndPoses read_plain_tables(const std::string& command, const std::string& reads,
                                 const std::string& poses, const std::string& format) {
@@ -60,11 +64,18 @@ ReadsAndPoses read_plain_tables(const std::string& command, const std::string& r
     return {std::move(dataset.reads),
             poses_of(command, poses, format, form, std::move(dataset.poses))};
   }
-  if (poses.empty()) {
+  const bool of_run = is_run(reads);
+  const fs::path folder = of_run ? fs::path(reads) : fs::path(reads).parent_path();
+  const std::string of_poses =
+      poses.empty() && of_run ? (folder / "antenna_poses.csv").string() : poses;
+  if (of_poses.empty()) {
     throw Error(command + ": reads as CSV need --poses FILE, the poses of their antennas");
   }
-  finish_commit(fs::path(reads).parent_path());
-  return {read_reads_csv(reads), read_poses_csv(poses)};
+  finish_commit(folder);
+  ProgressBar bar("reading");
+  return {read_reads_csv(of_run ? (folder / "reads.csv").string() : reads,
+                         [&](double share) { bar.show(share); }),
+          read_poses_csv(of_poses)};
 }
 
 }  // namespace

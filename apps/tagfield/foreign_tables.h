@@ -16,10 +16,10 @@ struct ReadsAndPoses {
   std::vector<AntennaPose> poses;
 };
 
-/// `reads`: a table, or with a format a folder of tables too, or either in an archive. `poses`: a
-/// table, or "" where the format has the antennas' places. `format`: a file, the name of one in
-/// profiles/datasets, or "" for the project's own form. Throws Error where poses are missing or one
-/// too many; `command` begins that line.
+/// `reads`: a table, the folder of a run, or with a format a folder of tables too, or any of them
+/// in an archive. `poses`: a table, or "" where the format or the run has the antennas' places.
+/// `format`: a file, the name of one in profiles/datasets, or "" for the project's own form. Throws
+/// Error where poses are missing or one too many; `command` begins that line. With a progress bar.
 ReadsAndPoses read_tables(const std::string& command, const std::string& reads,
                           const std::string& poses, const std::string& format);
 

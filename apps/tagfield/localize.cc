@@ -175,7 +175,8 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
 
 /// Whether the reads are those of the folder's own run, so that its truth and world are theirs.
 bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) {
-  const fs::path of_reads = fs::weakly_canonical(arguments.recording).parent_path();
+  fs::path of_reads = fs::weakly_canonical(arguments.recording);
+  if (!fs::is_directory(of_reads)) of_reads = of_reads.parent_path();
   return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
 }
 
@@ -265,13 +266,14 @@ int localize(const LocalizeArguments& arguments) {
 
 void add_localize_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<LocalizeArguments>();
-  CLI::App* command = app.add_subcommand("localize",
-                                         "Locate tags from a rosbag of ROS 1 or 2 or an MCAP file, "
-                                         "or from reads and antenna poses as CSV");
+  CLI::App* command =
+      app.add_subcommand("localize",
+                         "Locate tags from a rosbag of ROS 1 or 2 or an MCAP file, "
+                         "from the folder of a run, or from reads and antenna poses as CSV");
   command
       ->add_option("READS", arguments->recording,
                    "Rosbag of ROS 1 (RUN.bag), recording of ROS 2 (RUN.mcap, RUN.db3, or "
-                   "rosbag2's folder), or CSV: "
+                   "rosbag2's folder), the folder of a run, or CSV: "
                    "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,"
                    "rssi_dbm; of CSV also an archive, RUN.tar.zst or RUN.csv.gz")
       ->required();

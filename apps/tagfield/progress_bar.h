@@ -2,13 +2,14 @@
 /// A progress bar on a terminal.
 #pragma once
 
-#include <functional>
+#include <chrono>
 #include <mutex>
 #include <string>
 
 namespace tagfield {
 
-/// Draws on standard error, and only if that is a terminal. Vanishes when it goes out of scope.
+/// Draws on standard error, and only if that is a terminal: the share that is done and, after some
+/// seconds, about how long the rest takes at that rate. Vanishes when it goes out of scope.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label);
@@ -22,7 +23,8 @@ class ProgressBar {
  private:
   std::string label_;
   bool on_terminal_;
-  int shown_percent_ = -1;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::string shown_;
   std::mutex mutex_;
 };
 

@@ -135,7 +135,7 @@ Result track_scenario(const TrackArguments& arguments, Diagnostics& diagnostics)
 
 /// Beside reads of a run there is its truth, which judges the tracks and makes none.
 Truth truth_beside(const std::string& reads) {
-  const fs::path folder = fs::path(reads).parent_path();
+  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
   if (!fs::exists(folder / "truth" / "tags.csv")) return {};
   return read_truth(folder.empty() ? "." : folder.string());
 }
@@ -283,9 +283,10 @@ void add_track_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "track", "Follow moving tags past antennas: tracks with covariances, and the tags' order");
   command
-      ->add_option("READS", arguments->input,
-                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; or a scenario "
-                   "(YAML), which is simulated, tracked and compared with the truth")
+      ->add_option(
+          "READS", arguments->input,
+          "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; the folder of "
+          "a run; or a scenario (YAML), which is simulated, tracked and compared with the truth")
       ->required();
   command->add_option("--poses", arguments->poses,
                       "With reads, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <memory>
 
 #include "tagfield/base/number.h"
@@ -183,7 +184,8 @@ const std::string& CsvTable::text(const CsvRow& row, std::size_t column) const {
 }
 
 void read_csv_rows(const std::string& path, const std::function<void(const CsvTable&)>& begin,
-                   const std::function<void(const CsvRow&)>& take, const CsvForm& form) {
+                   const std::function<void(const CsvRow&)>& take, const CsvForm& form,
+                   const std::function<void(double)>& on_progress) {
   csv_parser parser{};
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI) != 0) {
     throw Error("can't start the CSV reader");
@@ -192,8 +194,14 @@ void read_csv_rows(const std::string& path, const std::function<void(const CsvTa
   csv_set_delim(&parser, static_cast<unsigned char>(form.delimiter));
   Filling filling{{path, {}, {}}, begin, take, form.header, 0, false, {}, 0, "", nullptr};
   WithoutMark without_mark;
-  read_in_blocks(path,
-                 [&](std::string_view block) { parse(without_mark(block), parser, filling); });
+  std::error_code no_size;
+  const auto size = static_cast<double>(std::filesystem::file_size(path, no_size));
+  std::size_t done = 0;
+  read_in_blocks(path, [&](std::string_view block) {
+    parse(without_mark(block), parser, filling);
+    done += block.size();
+    if (on_progress && !no_size) on_progress(static_cast<double>(done) / std::max(size, 1.0));
+  });
   parse(without_mark.rest(), parser, filling);
   finish(parser, filling);
   if (filling.table.header.empty()) {

@@ -58,9 +58,11 @@ CsvTable read_csv(const std::string& path, const CsvForm& form = {});
 
 /// The same, row by row, of files that don't fit in memory: `begin` gets the table without rows,
 /// `take` gets each row, whose fields are good until it returns. Rows before a bad line have been
-/// taken when it throws.
+/// taken when it throws. `on_progress`, where given, gets the share of the file that is done now
+/// and then.
 void read_csv_rows(const std::string& path, const std::function<void(const CsvTable&)>& begin,
-                   const std::function<void(const CsvRow&)>& take, const CsvForm& form = {});
+                   const std::function<void(const CsvRow&)>& take, const CsvForm& form = {},
+                   const std::function<void(double)>& on_progress = {});
 
 /// `text` as one field: quoted where it must be.
 std::string csv_field(std::string_view text);

@@ -84,7 +84,8 @@ std::string reads_to_csv(const std::vector<TagRead>& reads) {
   return text;
 }
 
-std::vector<TagRead> read_reads_csv(const std::string& path) {
+std::vector<TagRead> read_reads_csv(const std::string& path,
+                                    const std::function<void(double)>& on_progress) {
   CsvTable table;
   ReadColumns columns;
   std::vector<TagRead> reads;
@@ -94,7 +95,7 @@ std::vector<TagRead> read_reads_csv(const std::string& path) {
         table = begun;
         columns = columns_of(table);
       },
-      [&](const CsvRow& row) { reads.push_back(read_in(table, columns, row)); });
+      [&](const CsvRow& row) { reads.push_back(read_in(table, columns, row)); }, {}, on_progress);
   reads.shrink_to_fit();
   return reads;
 }

@@ -3,6 +3,7 @@
 /// `doppler_hz` where a read tells it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ std::string reads_to_csv(const std::vector<TagRead>& reads);
 
 /// Reads the table from a file, a simulated or a real reader's. A phase outside [0, 2π) is
 /// wrapped. `reader` may be missing. Throws Error "FILE:LINE: …" on a missing column, text where a
-/// number belongs, a frequency that is not positive.
-std::vector<TagRead> read_reads_csv(const std::string& path);
+/// number belongs, a frequency that is not positive. `on_progress`, where given, gets the share of
+/// the file that is done now and then.
+std::vector<TagRead> read_reads_csv(const std::string& path,
+                                    const std::function<void(double)>& on_progress = {});
 
 }  // namespace tagfield

@@ -588,5 +588,16 @@ def formats_by_name_in_track_and_calibrate(context):
     check_in("did you mean 'adarf'", result.err, "the complaint")
 
 
+@case
+def the_folder_of_a_run_is_its_tables(context):
+    run = context.folder / "run"
+    context.run_well("run", context.source / "scenarios/paper_warehouse.yaml", "--record-only", "--out", run)
+    context.run_well("localize", run, "--method", "ml", "--tag-height", 1.5, "--out", context.folder / "folder")
+    context.run_well("localize", run / "reads.csv", "--poses", run / "antenna_poses.csv", "--method", "ml",
+                     "--tag-height", 1.5, "--out", context.folder / "tables")
+    check_equal(*((context.folder / name / "estimates.csv").read_text(encoding="utf-8")
+                  for name in ("folder", "tables")), "estimates")
+
+
 if __name__ == "__main__":
     main()
