@@ -70,6 +70,10 @@ class RayScene {
   /// nothing.
   bool surfaces(const Stretch& stretch, const std::vector<char>& stops,
                 std::vector<SurfaceHit>& hits) const;
+  /// Whether a stretch clearly ends at this triangle of world_mesh(collision), away from its rim,
+  /// if the collision stops it: surfaces() is then false. Never of a plane.
+  [[nodiscard]] bool clearly_stops(std::uint32_t collision, std::uint32_t triangle,
+                                   const Stretch& stretch) const;
 
  private:
   struct Impl;
