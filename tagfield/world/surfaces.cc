@@ -121,6 +121,16 @@ void gather_surfaces(const RTCFilterFunctionNArguments* hits) {
   }
 }
 
+double RayScene::reach_from(const Eigen::Vector3d& p) const {
+  if (impl_->triangles.indices.empty()) return 0.0;
+  RTCBounds bounds;
+  rtcGetSceneBounds(impl_->scene, &bounds);
+  const Eigen::Vector3d low(bounds.lower_x, bounds.lower_y, bounds.lower_z);
+  const Eigen::Vector3d high(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+  const double reach = (p - low).cwiseAbs().cwiseMax((p - high).cwiseAbs()).norm();
+  return reach + kSingle * (1.0 + greatest(p) + reach);
+}
+
 bool RayScene::clearly_stops(std::uint32_t collision, std::uint32_t triangle,
                              const Stretch& stretch) const {
   const Triangles& triangles = impl_->triangles;
