@@ -273,9 +273,9 @@ RadioModel without_any_effect() {
   return model;
 }
 
-/// An antenna at walking pace, 15 updates a second, that reads all it hears.
-void moving_antenna(benchmark::State& state, const std::string& path,
-                    const Eigen::Vector3d& middle) {
+/// An antenna at walking pace or at rest, 15 updates a second, that reads all it hears.
+void one_antenna(benchmark::State& state, const std::string& path, const Eigen::Vector3d& middle,
+                 double speed_m_s = 0.3) {
   if (path.empty() || !std::filesystem::exists(path)) {
     state.SkipWithError("no such world: set TAGFIELD_AWS_WORLD");
     return;
@@ -290,7 +290,7 @@ void moving_antenna(benchmark::State& state, const std::string& path,
   std::int64_t update = 0;
   for (auto _ : state) {
     const Time now = update_stamp(parameters, ++update);
-    const double way = std::fmod(0.3 * to_seconds(now), 2.0);
+    const double way = std::fmod(speed_m_s * to_seconds(now), 2.0);
     air.update("a", from_translation(middle + Eigen::Vector3d(way - 1.0, 0.0, 1.5)), now, tags,
                replies);
   }
@@ -304,9 +304,12 @@ std::string aws_world() {
   return path == nullptr ? "" : path;
 }
 
-void aws(benchmark::State& state) { moving_antenna(state, aws_world(), {-0.2, -0.2, 0.0}); }
+void aws(benchmark::State& state) { one_antenna(state, aws_world(), {-0.2, -0.2, 0.0}); }
+void aws_at_rest(benchmark::State& state) {
+  one_antenna(state, aws_world(), {-0.2, -0.2, 0.0}, 0.0);
+}
 void small_warehouse(benchmark::State& state) {
-  moving_antenna(state, TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf", {1.4, 0.0, 0.0});
+  one_antenna(state, TAGFIELD_SOURCE_DIR "/worlds/small_warehouse.sdf", {1.4, 0.0, 0.0});
 }
 
 /// Four antennas of one reader by turns, noise, steps, hopping and half turns on.
@@ -344,8 +347,12 @@ BENCHMARK_CAPTURE(link_budget, no_effect, without_any_effect());
 BENCHMARK_CAPTURE(link_budget, all_effects, strong_model());
 BENCHMARK(aws)
     ->ArgNames({"order", "tags"})
-    ->ArgsProduct({{0, 1, 2}, {1000}})
+    ->ArgsProduct({{0, 1, 2, 3}, {1000}})
     ->ArgsProduct({{2}, {10, 100}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(aws_at_rest)
+    ->ArgNames({"order", "tags"})
+    ->ArgsProduct({{2, 3}, {1000}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(small_warehouse)
     ->ArgNames({"order", "tags"})

@@ -51,6 +51,7 @@ double patch_gain(const AntennaPattern& pattern, const Eigen::Vector3d& u_A) {
 
 /// The wire's direction in A.
 Eigen::Vector3d wire(const AntennaPattern& pattern) {
+  if (pattern.tilt_rad == 0.0) return Eigen::Vector3d::UnitZ();
   return {0.0, std::sin(pattern.tilt_rad), std::cos(pattern.tilt_rad)};
 }
 

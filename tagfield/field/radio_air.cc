@@ -61,6 +61,8 @@ struct AirAntenna {
   bool is_over = false;                    ///< It never updates again.
   std::shared_ptr<const ImageSet> images;  ///< Made last; an antenna at rest needs no others.
   std::shared_ptr<const ImageSet> receiver_images;
+  std::vector<WayMemory> memories;  ///< By slot, of those in range; none in empty space.
+  std::vector<WayMemory> receiver_memories;
   std::optional<RigidTransform> X_WA_sending;  ///< As others see it; none before its first update.
   double interference_mw = 0.0;                ///< Since the last update, in its tags' replies.
 
@@ -98,6 +100,17 @@ void add_images(AirAntenna& antenna, RadioView& view) {
   if (view.model.X_AR) view.receiver_images = images_at(view.X_WR, view, antenna.receiver_images);
 }
 
+/// For a memory of each of the slots where ways are traced.
+void make_room(const std::vector<std::uint32_t>& slots, const RadioView& view,
+               AirAntenna& antenna) {
+  if (slots.empty() || (!view.tracing.occlusion && view.tracing.order == 0)) return;
+  const std::size_t count = std::size_t{*std::max_element(slots.begin(), slots.end())} + 1;
+  if (antenna.memories.size() < count) antenna.memories.resize(count);
+  if (view.model.X_AR && antenna.receiver_memories.size() < count) {
+    antenna.receiver_memories.resize(count);
+  }
+}
+
 /// Whether the antenna sends before its next update.
 bool has_turn_soon(const AirAntenna& antenna, const std::vector<PortCycle>& cycles, Time now) {
   // One and a half, as updates of a recording come when they come.
@@ -126,6 +139,8 @@ void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
   for (const auto& antenna : antennas_) {
     antenna->images.reset();
     antenna->receiver_images.reset();
+    antenna->memories.clear();
+    antenna->receiver_memories.clear();
   }
 }
 
@@ -199,6 +214,9 @@ void RadioAir::plan_turns() {
 void RadioAir::forget_tag(std::uint32_t slot) {
   for (const auto& antenna : antennas_) {
     if (antenna->inventory) antenna->inventory->forget(slot);
+    for (auto* memories : {&antenna->memories, &antenna->receiver_memories}) {
+      if (slot < memories->size()) (*memories)[slot] = {};
+    }
     auto& pending = antenna->pending;
     pending.erase(std::remove_if(pending.begin(), pending.end(),
                                  [&](const auto& read) { return read.slot == slot; }),
@@ -359,6 +377,10 @@ TagEnd RadioAir::tag_end(AirAntenna& antenna, std::uint32_t slot, const TagPopul
   if (tags.size() <= kFewTags) tag.images = tag_images(view, slot, tag.X_WT);
   if (tag.images == nullptr && !view.images) add_images(antenna, view);
   surround(tag, slot, *ran_to_, tags, antenna, view);
+  if (slot < antenna.memories.size()) tag.memory = &antenna.memories[slot];
+  if (slot < antenna.receiver_memories.size()) {
+    tag.receiver_memory = &antenna.receiver_memories[slot];
+  }
   return tag;
 }
 
@@ -423,6 +445,7 @@ Disturbance RadioAir::disturbance_of(const AirAntenna& antenna,
 template <class Visit>
 void RadioAir::for_each_link(AirAntenna& antenna, const TagPopulation& tags, RadioView& view,
                              const Visit& visit) {
+  make_room(slots_, view, antenna);
   // What surrounds a tag, and images of its own, hold until the next one's are asked for.
   if (couples_tags(antenna.model()) || tags.size() <= kFewTags) {
     for (const std::uint32_t slot : slots_) {

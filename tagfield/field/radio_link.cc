@@ -18,11 +18,7 @@ using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
 /// A one-way gain, and its logarithm's gradient with the antenna's place where it is of use.
-struct Gain {
-  Complex h = 0.0;
-  Eigen::Vector3cd gradient = Eigen::Vector3cd::Zero();  ///< ∂h/∂p_WA.
-  double power = 0.0;                                    ///< Σ |h_i|².
-
+struct Gain : WayMemory::Gain {
   void add(Complex of_path, const Vector3d& departure_W, double wave_number) {
     h += of_path;
     power += std::norm(of_path);
@@ -87,7 +83,7 @@ void add_diffracted(const RadioView& view, const RadioEnd& antenna, const RadioE
 }
 
 /// Over the antenna's images, or the other way round over the tag's: gains are reciprocal.
-void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
+void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images, WayMemory* memory,
                const RadioEnd& antenna, const RadioEnd& at_tag, std::vector<RadioPath>& paths,
                Gain& gain) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -105,14 +101,19 @@ void add_paths(const RadioView& view, const TagEnd& tag, const ImageSet* images,
     }
     return;
   }
-  trace_paths(view.world.scene, *images, tag.X_WT.translation, view.tracing, paths);
+  const Vector3d& p_WT = tag.X_WT.translation;
+  if (memory != nullptr) {
+    trace_paths(view.world.scene, *images, p_WT, view.tracing, memory->stops, paths);
+  } else {
+    trace_paths(view.world.scene, *images, p_WT, view.tracing, paths);
+  }
   for (const RadioPath& path : paths) {
     gain.add(left(path, antenna, at_tag), path.departure_W, k);
   }
 }
 
 Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-                const TagEnd& tag, std::vector<RadioPath>& paths) {
+                const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
   const RadioEnd antenna{view.model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
@@ -127,7 +128,7 @@ Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSe
     }
     gain.add(free, way / length, view.carrier.wave_number);
   } else {
-    add_paths(view, tag, images, antenna, at_tag, paths, gain);
+    add_paths(view, tag, images, memory, antenna, at_tag, paths, gain);
   }
   if (view.edges != nullptr) add_diffracted(view, antenna, at_tag, gain);
   const bool is_diffuse = view.model.effects.diffuse && view.model.diffuse_k_db;
@@ -135,16 +136,49 @@ Gain gain_alone(const RadioView& view, const RigidTransform& X_WA, const ImageSe
   return gain;
 }
 
+bool is_same(const RigidTransform& one, const RigidTransform& other) {
+  return one.translation == other.translation && one.rotation.coeffs() == other.rotation.coeffs();
+}
+
+/// More carriers' gains are not kept.
+constexpr std::size_t kMostGains = 64;
+
+/// gain_alone(), or what it was where both ends have been at rest since and nothing moves.
+Gain gain_again(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
+                const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
+  if (memory == nullptr || is_plain(view) || !view.bodies.empty()) {
+    return gain_alone(view, X_WA, images, tag, memory, paths);
+  }
+  const bool is_at_rest = memory->kind == &tag.model && memory->tag_images == tag.images &&
+                          is_same(memory->X_WA, X_WA) && is_same(memory->X_WT, tag.X_WT);
+  if (!is_at_rest) {
+    memory->kind = &tag.model;
+    memory->tag_images = tag.images;
+    memory->X_WA = X_WA;
+    memory->X_WT = tag.X_WT;
+    memory->gains.clear();
+    return gain_alone(view, X_WA, images, tag, memory, paths);
+  }
+  const double lambda_m = view.carrier.lambda_m;
+  for (const WayMemory::Gain& kept : memory->gains) {
+    if (kept.lambda_m == lambda_m) return {kept};
+  }
+  Gain gain = gain_alone(view, X_WA, images, tag, memory, paths);
+  gain.lambda_m = lambda_m;
+  if (memory->gains.size() < kMostGains) memory->gains.push_back(gain);
+  return gain;
+}
+
 /// The tag's neighbours lend it of what they take in.
 Gain gain_from(const RadioView& view, const RigidTransform& X_WA, const ImageSet* images,
-               const TagEnd& tag, std::vector<RadioPath>& paths) {
-  Gain alone = gain_alone(view, X_WA, images, tag, paths);
+               const TagEnd& tag, WayMemory* memory, std::vector<RadioPath>& paths) {
+  Gain alone = gain_again(view, X_WA, images, tag, memory, paths);
   if (tag.around == nullptr) return alone;
   Gain gain;
   gain.add(tag.around->own, alone);
   for (const TagSurroundings::Neighbour& near : tag.around->neighbours) {
     const TagEnd neighbour{*near.model, near.X_WT, near.key};
-    gain.add(near.share, gain_alone(view, X_WA, images, neighbour, paths));
+    gain.add(near.share, gain_alone(view, X_WA, images, neighbour, nullptr, paths));
   }
   return gain;
 }
@@ -164,9 +198,10 @@ bool is_empty_space(const RadioView& view) {
 /// Over all of the view's ways.
 RadioLink traced_link(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioModel& model = view.model;
-  const Gain forward = gain_from(view, view.X_WA, view.images.get(), tag, paths);
-  const Gain backward =
-      model.X_AR ? gain_from(view, view.X_WR, view.receiver_images.get(), tag, paths) : forward;
+  const Gain forward = gain_from(view, view.X_WA, view.images.get(), tag, tag.memory, paths);
+  const Gain backward = model.X_AR ? gain_from(view, view.X_WR, view.receiver_images.get(), tag,
+                                               tag.receiver_memory, paths)
+                                   : forward;
   RadioLink link;
   link.forward = forward.h;
   link.backward = backward.h;
@@ -323,7 +358,7 @@ std::complex<double> gain_to_antenna(const RadioView& view, const AntennaPattern
   TagModel end;
   end.antenna = other;
   const ImageSet* const images = view.model.X_AR ? view.receiver_images.get() : view.images.get();
-  return gain_alone(view, view.X_WR, images, {end, X_WO, key}, paths).h;
+  return gain_alone(view, view.X_WR, images, {end, X_WO, key}, nullptr, paths).h;
 }
 
 RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {

@@ -55,6 +55,24 @@ struct TagSurroundings {
   std::vector<Neighbour> neighbours;
 };
 
+/// Of the way from one antenna to one tag, in one world: what makes the next link quicker, not
+/// different. At most 20 kB.
+struct WayMemory {
+  struct Gain {
+    double lambda_m = 0.0;
+    std::complex<double> h = 0.0;
+    Eigen::Vector3cd gradient = Eigen::Vector3cd::Zero();  ///< ∂h/∂p_WA.
+    double power = 0.0;                                    ///< Σ |h_i|².
+  };
+  LastStops stops{};
+  /// The ends as they were last, and if they were there before, their gains on each carrier.
+  RigidTransform X_WA{};
+  RigidTransform X_WT{};
+  const TagModel* kind = nullptr;
+  const ImageSet* tag_images = nullptr;
+  std::vector<Gain> gains{};
+};
+
 /// The tag's end of a link.
 struct TagEnd {
   const TagModel& model;
@@ -66,6 +84,9 @@ struct TagEnd {
   /// What couples with it; null where nothing does. The neighbours are seen by the antenna's
   /// images.
   const TagSurroundings* around = nullptr;
+  /// What is known of the link's ways from the view's antennas from before; null where nothing is.
+  WayMemory* memory = nullptr;
+  WayMemory* receiver_memory = nullptr;
 };
 
 /// A link's powers.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/propagation/internal/beam.h"
@@ -89,17 +90,70 @@ Leg leg_of(const RadioPath& path, int number, const Eigen::Vector3d& p_WA,
   return leg;
 }
 
-/// Sets what the path goes through. False if it is not to be kept.
+/// The path's mirrors as one number, which rises in the order in which paths are traced; none where
+/// facets are too many for that.
+std::optional<std::uint64_t> way_of(const RadioPath& path) {
+  constexpr int kBits = 20;
+  auto way = static_cast<std::uint64_t>(path.bounce_count);
+  for (std::size_t i = 0; i < kMostBounces; ++i) {
+    const bool is_there = i < static_cast<std::size_t>(path.bounce_count);
+    const std::uint32_t facet = is_there ? path.bounces[i].facet : 0;
+    if (facet >= 1U << kBits) return std::nullopt;
+    way = way << kBits | facet;
+  }
+  return way;
+}
+
+/// Goes through what stopped paths before as they are traced again, in the same order.
+class StopSearch {
+ public:
+  explicit StopSearch(LastStops& last) : last_(last) { last_.next.clear(); }
+  ~StopSearch() { last_.stops.swap(last_.next); }
+  StopSearch(const StopSearch&) = delete;
+  StopSearch& operator=(const StopSearch&) = delete;
+
+  /// What stopped the path; null where nothing did.
+  const LastStops::Stop* find(const RadioPath& path) {
+    way_ = way_of(path);
+    if (!way_) return nullptr;
+    while (at_ < last_.stops.size() && last_.stops[at_].way < *way_) ++at_;
+    return at_ < last_.stops.size() && last_.stops[at_].way == *way_ ? &last_.stops[at_] : nullptr;
+  }
+  /// The path that was asked for last is stopped there.
+  void keep(std::uint32_t collision, std::uint32_t triangle, int leg) {
+    if (!way_ || last_.next.size() >= kMostStops) return;
+    last_.next.push_back({*way_, collision, triangle, leg});
+  }
+
+ private:
+  LastStops& last_;
+  std::size_t at_ = 0;
+  std::optional<std::uint64_t> way_;
+};
+
+/// Sets what the path goes through. False if it is not to be kept. `search` may be null.
 bool walk_all(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
-              const TraceOptions& options, RadioPath& path) {
+              const TraceOptions& options, StopSearch* search, RadioPath& path) {
   if (!options.occlusion) return true;
+  if (options.keep_blocked) search = nullptr;
+  const LastStops::Stop* const stop = search != nullptr ? search->find(path) : nullptr;
+  if (stop != nullptr &&
+      is_clearly_stopped(scene, leg_of(path, stop->leg, p_WA, p_WT), options.mount_depth_m,
+                         stop->collision, stop->triangle)) {
+    search->keep(stop->collision, stop->triangle, stop->leg);
+    return false;
+  }
   thread_local LegScratch scratch;
   for (int number = 0; number <= path.bounce_count; ++number) {
     const Leg leg = leg_of(path, number, p_WA, p_WT);
     if (walk(scene, leg, options.mount_depth_m, options.keep_blocked, scratch, path.crossings)) {
       continue;
     }
-    if (!options.keep_blocked) return false;
+    if (!options.keep_blocked) {
+      const SurfaceHit& hit = scratch.hits.back();
+      if (search != nullptr) search->keep(hit.collision, hit.triangle, number);
+      return false;
+    }
     path.blocked = true;
   }
   return true;
@@ -138,23 +192,24 @@ void keep_once(const RadioScene& scene, RadioPath& path, Collector& paths) {
 }
 
 void trace_direct(const RadioScene& scene, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT,
-                  const TraceOptions& options, Collector& paths) {
+                  const TraceOptions& options, StopSearch* search, Collector& paths) {
   RadioPath& path = paths.blank();
   path.bounce_count = 0;
   path.length_m = (p_WT - p_WA).norm();
   if (path.length_m > options.most_length_m) return;
   set_ends(p_WA, p_WT, path);
-  if (walk_all(scene, p_WA, p_WT, options, path)) paths.keep();
+  if (walk_all(scene, p_WA, p_WT, options, search, path)) paths.keep();
 }
 
 void trace_mirrored(const RadioScene& scene, const ImageSet& set, const Image& image,
-                    const Eigen::Vector3d& p_WT, const TraceOptions& options, Collector& paths) {
+                    const Eigen::Vector3d& p_WT, const TraceOptions& options, StopSearch* search,
+                    Collector& paths) {
   RadioPath& path = paths.blank();
   path.length_m = (p_WT - image.p_W).norm();
   if (path.length_m > options.most_length_m) return;
   if (!(image.normal_W.dot(p_WT) - image.offset_m > kLeastMirrorDistance)) return;
   if (!find_bounces(scene, set, image, p_WT, path)) return;
-  if (!walk_all(scene, set.p_WA, p_WT, options, path)) return;
+  if (!walk_all(scene, set.p_WA, p_WT, options, search, path)) return;
   set_ends(set.p_WA, p_WT, path);
   keep_once(scene, path, paths);
 }
@@ -163,6 +218,24 @@ std::size_t count_up_to(const ImageSet& set, int order) {
   const auto end = std::partition_point(set.images.begin(), set.images.end(),
                                         [&](const Image& image) { return image.order <= order; });
   return static_cast<std::size_t>(end - set.images.begin());
+}
+
+void trace_all(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
+               const TraceOptions& options, StopSearch* search, std::vector<RadioPath>& paths) {
+  check(options);
+  Collector found(paths);
+  if (!are_ends(images.p_WA, p_WT)) return;
+  trace_direct(scene, images.p_WA, p_WT, options, search, found);
+  const Eigen::Vector3f from_antenna = (p_WT - images.p_WA).cast<float>();
+  const std::size_t count = count_up_to(images, options.order);
+  for (std::size_t first = 0; first < count; first += kBeamLanes) {
+    const BeamBlock::Lanes seen = seen_from(images.beams[first / kBeamLanes], from_antenna);
+    if (!(seen >= 0.0F).any()) continue;
+    for (std::size_t i = first; i < std::min(first + kBeamLanes, count); ++i) {
+      if (!(seen[static_cast<int>(i - first)] >= 0.0F)) continue;
+      trace_mirrored(scene, images, images.images[i], p_WT, options, search, found);
+    }
+  }
 }
 
 }  // namespace
@@ -178,20 +251,13 @@ void check(const TraceOptions& options) {
 
 void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
                  const TraceOptions& options, std::vector<RadioPath>& paths) {
-  check(options);
-  Collector found(paths);
-  if (!are_ends(images.p_WA, p_WT)) return;
-  trace_direct(scene, images.p_WA, p_WT, options, found);
-  const Eigen::Vector3f from_antenna = (p_WT - images.p_WA).cast<float>();
-  const std::size_t count = count_up_to(images, options.order);
-  for (std::size_t first = 0; first < count; first += kBeamLanes) {
-    const BeamBlock::Lanes seen = seen_from(images.beams[first / kBeamLanes], from_antenna);
-    if (!(seen >= 0.0F).any()) continue;
-    for (std::size_t i = first; i < std::min(first + kBeamLanes, count); ++i) {
-      if (!(seen[static_cast<int>(i - first)] >= 0.0F)) continue;
-      trace_mirrored(scene, images, images.images[i], p_WT, options, found);
-    }
-  }
+  trace_all(scene, images, p_WT, options, nullptr, paths);
+}
+
+void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
+                 const TraceOptions& options, LastStops& last, std::vector<RadioPath>& paths) {
+  StopSearch search(last);
+  trace_all(scene, images, p_WT, options, &search, paths);
 }
 
 bool is_unobstructed(const RadioScene& scene, const Eigen::Vector3d& p_WA,

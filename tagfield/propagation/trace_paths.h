@@ -54,6 +54,20 @@ struct ImageSet {
   std::vector<char> around{};                      ///< shells_around() the antenna.
 };
 
+/// What was in the way of one tag's paths when they were traced last: it is tried first the next
+/// time, which makes that quicker, not different. At most kMostStops of them, 6 kB.
+inline constexpr std::size_t kMostStops = 256;
+struct LastStops {
+  struct Stop {
+    std::uint64_t way = 0;        ///< The path's mirrors in order.
+    std::uint32_t collision = 0;  ///< What stops it there,
+    std::uint32_t triangle = 0;   ///< by the numbers of SurfaceHit,
+    int leg = 0;                  ///< on this leg.
+  };
+  std::vector<Stop> stops{};  ///< By rising `way`.
+  std::vector<Stop> next{};   ///< Workspace.
+};
+
 /// The closed solids that a place is in: by shell (RadioScene::shells()) other than 0 where `p_W`
 /// [m] is inside. Seen from two ends in the same solids, paths are the same: those of one end's
 /// images to the other, turned round.
@@ -72,6 +86,10 @@ ImageSet images_of(const RadioScene& scene, const Eigen::Vector3d& p_WA,
 /// as images_of().
 void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
                  const TraceOptions& options, std::vector<RadioPath>& paths);
+
+/// Likewise, to the same bits, with what stopped this tag's paths before, in the same scene.
+void trace_paths(const RadioScene& scene, const ImageSet& images, const Eigen::Vector3d& p_WT,
+                 const TraceOptions& options, LastStops& last, std::vector<RadioPath>& paths);
 
 /// Whether nothing opaque is on the straight way between two points [m, world]. True if one is no
 /// place for an end (see trace_paths()).

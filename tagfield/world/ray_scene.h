@@ -66,10 +66,16 @@ class RayScene {
   /// False if it met a collision for which `stops` (by index; may be empty) is not 0; `hits` may
   /// then lack others. Distances are computed in double precision; a line is decided to meet a
   /// triangle in single precision, so to about 1e-6 of the coordinates at the triangle's rim, and
-  /// no line slips through an edge that triangles share. A stretch that is not finite meets
-  /// nothing.
+  /// no line slips through an edge that triangles share, if the stretch is not much longer than the
+  /// scene (reach_from()). A stretch that is not finite meets nothing.
   bool surfaces(const Stretch& stretch, const std::vector<char>& stops,
                 std::vector<SurfaceHit>& hits) const;
+  /// No triangle is further from `p` than this [m]; 0 without triangles.
+  [[nodiscard]] double reach_from(const Eigen::Vector3d& p) const;
+  /// Whether a stretch clearly ends at this triangle of world_mesh(collision), away from its rim,
+  /// if the collision stops it: surfaces() is then false. Never of a plane.
+  [[nodiscard]] bool clearly_stops(std::uint32_t collision, std::uint32_t triangle,
+                                   const Stretch& stretch) const;
 
  private:
   struct Impl;

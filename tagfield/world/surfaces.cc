@@ -15,6 +15,13 @@ namespace {
 /// precision.
 constexpr double kSingle = 1e-6;
 
+/// clearly_stops() wants a hit to be further inside than what surfaces() takes by these factors,
+/// and the triangle not to be grazed, where Embree may lose it.
+constexpr double kClear = 4.0;
+constexpr double kLeastSlope = 0.02;
+/// Along the line, above the triangle, from where the stretch begins to count or ends [m].
+constexpr double kClearHeight = 1e-4;
+
 /// A query on its way through Embree, which hands the context to the filter.
 struct Query {
   RTCIntersectContext context{};  // First: the filter gets its address.
@@ -112,6 +119,41 @@ void gather_surfaces(const RTCFilterFunctionNArguments* hits) {
     const bool stop = take_triangle(query, triangles, RTCHitN_primID(hits->hit, hits->N, i));
     if (!stop) hits->valid[i] = 0;
   }
+}
+
+double RayScene::reach_from(const Eigen::Vector3d& p) const {
+  if (impl_->triangles.indices.empty()) return 0.0;
+  RTCBounds bounds;
+  rtcGetSceneBounds(impl_->scene, &bounds);
+  const Eigen::Vector3d low(bounds.lower_x, bounds.lower_y, bounds.lower_z);
+  const Eigen::Vector3d high(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+  const double reach = (p - low).cwiseAbs().cwiseMax((p - high).cwiseAbs()).norm();
+  return reach + kSingle * (1.0 + greatest(p) + reach);
+}
+
+bool RayScene::clearly_stops(std::uint32_t collision, std::uint32_t triangle,
+                             const Stretch& stretch) const {
+  const Triangles& triangles = impl_->triangles;
+  const std::size_t number = triangles.firsts[collision] + std::size_t{triangle};
+  if (number >= triangles.indices.size() || triangles.collisions[number] != collision) return false;
+  const auto& [i, j, k] = triangles.indices[number];
+  const Eigen::Vector3d& normal = triangles.normals[number];
+  const Eigen::Vector3d a = triangles.vertices[i] - stretch.origin;
+  const double slope = stretch.direction.dot(normal);
+  if (!(std::abs(slope) > kLeastSlope)) return false;
+  const double distance = normal.dot(a) / slope;
+  const double to_end = std::min(distance - std::max(stretch.from_m, stretch.stop_from_m),
+                                 std::min(stretch.to_m, stretch.stop_to_m) - distance);
+  if (!(to_end * std::abs(slope) > kClearHeight)) return false;
+  const Eigen::Vector3d b = triangles.vertices[j] - stretch.origin;
+  const Eigen::Vector3d c = triangles.vertices[k] - stretch.origin;
+  const double turn = slope < 0.0 ? -1.0 : 1.0;
+  const double clear = kClear * kSingle * (1.0 + greatest(stretch.origin) + greatest(a));
+  const auto is_inside = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    // The edge's length is no less than what it has across the line.
+    return turn * stretch.direction.dot(p.cross(q)) > clear * (q - p).lpNorm<1>();
+  };
+  return is_inside(a, b) && is_inside(b, c) && is_inside(c, a);
 }
 
 bool RayScene::surfaces(const Stretch& stretch, const std::vector<char>& stops,

@@ -36,11 +36,8 @@ Complex transmission_of_slab(Complex face, Complex once) {
   return (1.0 - face * face) * once / (1.0 - face * face * once * once);
 }
 
-}  // namespace
-
-FresnelPair half_space_reflection(Complex eta, double cos_incidence) {
-  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
-  const Complex root = normal_component(eta, cosine);
+/// half_space_reflection() with the normal component that it takes.
+FresnelPair face_of(Complex eta, double cosine, Complex root) {
   // Where both are 0, air at grazing incidence, nothing is reflected by anything.
   const Complex te_sum = cosine + root;
   const Complex tm_sum = eta * cosine + root;
@@ -48,21 +45,30 @@ FresnelPair half_space_reflection(Complex eta, double cos_incidence) {
           tm_sum == 0.0 ? Complex{} : (eta * cosine - root) / tm_sum};
 }
 
+}  // namespace
+
+FresnelPair half_space_reflection(Complex eta, double cos_incidence) {
+  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
+  return face_of(eta, cosine, normal_component(eta, cosine));
+}
+
 FresnelPair slab_reflection(Complex eta, double cos_incidence, double thickness_m,
                             double lambda_m) {
-  const FresnelPair face = half_space_reflection(eta, cos_incidence);
-  const Complex root = normal_component(eta, std::clamp(cos_incidence, 0.0, 1.0));
+  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
+  const Complex root = normal_component(eta, cosine);
   const Complex once = through(root, thickness_m, lambda_m);
   if (once == 1.0) return {};
+  const FresnelPair face = face_of(eta, cosine, root);
   return {reflection_of_slab(face.te, once), reflection_of_slab(face.tm, once)};
 }
 
 FresnelPair slab_transmission(Complex eta, double cos_incidence, double thickness_m,
                               double lambda_m) {
-  const FresnelPair face = half_space_reflection(eta, cos_incidence);
   const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
-  const Complex once = through(normal_component(eta, cosine), thickness_m, lambda_m);
+  const Complex root = normal_component(eta, cosine);
+  const Complex once = through(root, thickness_m, lambda_m);
   if (once == 1.0) return {1.0, 1.0};
+  const FresnelPair face = face_of(eta, cosine, root);
   const Complex in_air = through(cosine, thickness_m, lambda_m);
   return {transmission_of_slab(face.te, once) / in_air,
           transmission_of_slab(face.tm, once) / in_air};

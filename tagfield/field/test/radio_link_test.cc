@@ -1,7 +1,9 @@
 #include "tagfield/field/radio_link.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tagfield/base/units.h"
@@ -207,6 +209,63 @@ TEST(MovingBodies, TakeOfEachPathWhatTheyTakeOfItsLegs) {
   EXPECT_LT(std::abs(link_of(view, with_images, paths).forward - sum), 1e-9);
   view.bodies.clear();
   EXPECT_GT(std::abs(link_of(view, end, paths).forward - sum), 1e-3);
+}
+
+bool is_equal(const RadioLink& one, const RadioLink& other) {
+  return one.forward == other.forward && one.backward == other.backward &&
+         one.tag_dbm == other.tag_dbm && one.reply_dbm == other.reply_dbm &&
+         one.phase_slope_W == other.phase_slope_W;
+}
+
+RC_GTEST_PROP(WayMemory, ChangesNoLink, ()) {
+  static const RadioWorld world = walls();
+  RadioModel model = antenna(30.0, 915e6);
+  model.effects.occlusion = true;
+  model.effects.reflections = true;
+  model.effects.diffuse = *rc::gen::arbitrary<bool>();
+  model.diffuse_k_db = 6.0;
+  model.reflection_order = *rc::gen::inRange(0, 3);
+  if (*rc::gen::arbitrary<bool>()) model.X_AR = from_translation({0.0, 0.4, 0.0});
+  const std::array<TagModel, 2> kinds{tag(2.0, -20.0), tag(0.0, -15.0)};
+  MovingBody body;
+  body.material = find_material(known_materials(), "metal");
+  body.half_m = {0.2, 0.3, 0.9};
+  WayMemory there;
+  WayMemory back;
+  std::vector<RadioPath> paths;
+  // What of the link changes from one time to the next: often nothing.
+  for (int time = 0; time < 30; ++time) {
+    const int turn = *rc::gen::element(0, 0, 0, 1);
+    const RigidTransform X_WA =
+        from_xyz_rpy({-2.0, 0.1 * *rc::gen::element(0, 0, 0, 1), 0.0}, {0.0, 0.0, 0.3 * turn});
+    const RigidTransform X_WT =
+        from_xyz_rpy({2.0, -0.3 * *rc::gen::element(1, 1, 1, 2), 0.1}, {0.0, 0.0, kPi});
+    const double frequency_hz = *rc::gen::element(915e6, 915.5e6, 916e6);
+    RadioView view = view_from(model, world, X_WA, frequency_hz, 3, 1);
+    if (*rc::gen::inRange(0, 5) == 0) view.bodies = {body};
+    const TagModel& kind = kinds.at(*rc::gen::element(0U, 0U, 0U, 1U));
+    const RadioLink plain = link_of(view, {kind, X_WT, 7}, paths);
+    const RadioLink kept = link_of(view, {kind, X_WT, 7, nullptr, nullptr, &there, &back}, paths);
+    RC_ASSERT(is_equal(plain, kept));
+  }
+}
+
+TEST(WayMemory, KeepsGainsOfEndsAtRestByCarrier) {
+  const RadioWorld world = walls();
+  RadioModel model = antenna(30.0, 915e6);
+  model.effects.occlusion = true;
+  const TagModel kind = tag(2.0, -20.0);
+  WayMemory memory;
+  std::vector<RadioPath> paths;
+  for (int time = 0; time < 200; ++time) {
+    const double frequency_hz = 902e6 + 0.25e6 * (time % 100);
+    const RadioView view = view_from(model, world, {}, frequency_hz, 0, 1);
+    link_of(view, {kind, from_translation({2.0, 0.0, 0.0}), 7, nullptr, nullptr, &memory}, paths);
+  }
+  EXPECT_EQ(memory.gains.size(), 64U);
+  const RadioView moved = view_from(model, world, from_translation({0.1, 0, 0}), 902e6, 0, 1);
+  link_of(moved, {kind, from_translation({2.0, 0.0, 0.0}), 7, nullptr, nullptr, &memory}, paths);
+  EXPECT_TRUE(memory.gains.empty());
 }
 
 TEST(Diffuse, HasThePowerOfItsKFactor) {

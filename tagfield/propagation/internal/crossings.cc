@@ -41,9 +41,37 @@ Hits tidy(const RadioScene& scene, Hits begin, Hits end) {
   return out;
 }
 
-/// Adds one solid's brackets.
-void match(const RadioScene& scene, Hits begin, Hits end, double length_m,
-           CrossingScratch& scratch) {
+/// Whether a line from the place upwards, a bit aslant, meets the solid's closed surfaces an odd
+/// number of times: the usual case, quickly.
+bool seems_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3d& p_W) {
+  thread_local std::vector<SurfaceHit> hits;
+  const Eigen::Vector3d upwards = Eigen::Vector3d(0.0713, 0.0391, 0.9967).normalized();
+  scene.rays().surfaces({p_W, upwards, 0.0, scene.rays().reach_from(p_W)}, {}, hits);
+  return std::count_if(hits.begin(), hits.end(),
+                       [&](const SurfaceHit& hit) {
+                         return hit.collision == solid && is_closed(scene, hit);
+                       }) %
+             2 !=
+         0;
+}
+
+/// Whether the solid is around a place.
+bool is_in(const RadioScene& scene, std::uint32_t solid, const Eigen::Vector3d& p_W) {
+  if (seems_in(scene, solid, p_W)) return true;
+  const std::vector<char> around = shells_around(scene, p_W);
+  for (std::size_t shell = 0; shell < around.size(); ++shell) {
+    if (around[shell] != 0 && scene.shells()[shell].solid == solid) return true;
+  }
+  return false;
+}
+
+/// Adds one solid's brackets. A hit without its like is looked at more closely: where the leg
+/// grazes an edge, Embree may see one side of it alone.
+void match(const RadioScene& scene, const Leg& leg, const Eigen::Vector3d& direction_W, Hits begin,
+           Hits end, double length_m, CrossingScratch& scratch) {
+  const auto is_inside = [&](const SurfaceHit& hit, double at_m) {
+    return is_closed(scene, hit) && is_in(scene, hit.collision, leg.from_W + at_m * direction_W);
+  };
   scratch.open.clear();
   for (Hits hit = begin; hit != end; ++hit) {
     const double at = hit->distance_m;
@@ -53,12 +81,14 @@ void match(const RadioScene& scene, Hits begin, Hits end, double length_m,
       scratch.inside.push_back({scratch.open.back()->distance_m, at, scratch.open.back()});
       scratch.open.pop_back();
     } else {
-      scratch.inside.push_back({is_closed(scene, *hit) ? 0.0 : at, at, &*hit});
+      const bool is_from_start = is_inside(*hit, 0.5 * begin->distance_m);
+      scratch.inside.push_back({is_from_start ? 0.0 : at, at, &*hit});
     }
   }
   for (const SurfaceHit* hit : scratch.open) {
     const double at = hit->distance_m;
-    scratch.inside.push_back({at, is_closed(scene, *hit) ? length_m : at, hit});
+    const bool is_to_end = is_inside(*hit, 0.5 * ((end - 1)->distance_m + length_m));
+    scratch.inside.push_back({at, is_to_end ? length_m : at, hit});
   }
 }
 
@@ -114,7 +144,7 @@ void add_crossings(const RadioScene& scene, const Leg& leg, const Eigen::Vector3
       return hit.collision != begin->collision;
     });
     const std::size_t first = scratch.inside.size();
-    match(scene, begin, tidy(scene, begin, end), length_m, scratch);
+    match(scene, leg, direction_W, begin, tidy(scene, begin, end), length_m, scratch);
     join(scratch.inside, first);
     begin = end;
   }

@@ -97,6 +97,13 @@ Stretch stretch_of(const Leg& leg, const Span& span) {
 
 }  // namespace
 
+bool is_clearly_stopped(const RadioScene& scene, const Leg& leg, double mount_depth_m,
+                        std::uint32_t collision, std::uint32_t triangle) {
+  return scene.is_opaque(collision) &&
+         scene.rays().clearly_stops(collision, triangle,
+                                    stretch_of(leg, span_of(leg, mount_depth_m)));
+}
+
 bool walk(const RadioScene& scene, const Leg& leg, double mount_depth_m, bool all,
           LegScratch& scratch, std::vector<Crossing>& crossings) {
   const Span span = span_of(leg, mount_depth_m);

@@ -2,6 +2,7 @@
 /// What a leg of a path goes through.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "tagfield/propagation/radio_path.h"
@@ -42,5 +43,10 @@ struct LegScratch {
 /// `all` is not set, crossings may lack.
 bool walk(const RadioScene& scene, const Leg& leg, double mount_depth_m, bool all,
           LegScratch& scratch, std::vector<Crossing>& crossings);
+
+/// Whether the leg clearly meets that triangle, of something opaque, in its way: walk() without
+/// `all` is then false.
+bool is_clearly_stopped(const RadioScene& scene, const Leg& leg, double mount_depth_m,
+                        std::uint32_t collision, std::uint32_t triangle);
 
 }  // namespace tagfield

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/units.h"
+#include "tagfield/propagation/trace_paths.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {
@@ -131,6 +133,35 @@ TEST(RadioScene, KnowsOnWhichSideAFacetHasPoints) {
     EXPECT_EQ(radio.reaches(i, true, ground), std::abs(z) < 0.5) << i;
     EXPECT_EQ(radio.reaches(i, false, ground), z > -0.5) << i;
   }
+}
+
+/// Also where the look up passes an edge that two triangles share.
+TEST(ShellsAround, AreThoseOfTheBoxesThatAPlaceIsIn) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Scene scene;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d size(1.0 + unit(random), 1.5 + unit(random), 2.0 + unit(random));
+    scene.collisions.push_back({"box", Box{size.array() + 0.1},
+                                from_xyz_rpy({8.0 * unit(random), unit(random), 0.0},
+                                             {0.0, unit(random), 3.0 * unit(random)})});
+  }
+  const RadioScene radio(scene);
+  int inside = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto& box = scene.collisions[static_cast<std::size_t>(i) % 8];
+    const Eigen::Vector3d half = 0.5 * std::get<Box>(box.shape).size;
+    const Eigen::Vector3d p_C(unit(random) * half.x(), unit(random) * half.y(),
+                              1.5 * unit(random) * half.z());
+    const std::vector<char> around = shells_around(radio, box.X_WC * p_C);
+    for (std::size_t shell = 0; shell < around.size(); ++shell) {
+      if (radio.shells()[shell].solid != static_cast<std::uint32_t>(i % 8)) continue;
+      if (!radio.shells()[shell].closed) continue;
+      ASSERT_EQ(around[shell] != 0, std::abs(p_C.z()) < half.z()) << i;
+      inside += around[shell];
+    }
+  }
+  EXPECT_GT(inside, 50000);
 }
 
 }  // namespace
