@@ -25,6 +25,7 @@ tagfield_component(scenario NEEDS files localization sdf navigation ROOMS scenar
 tagfield_component(simulator NEEDS scenario ROOMS simulator)
 tagfield_component(planning NEEDS report simulator ROOMS planning)
 tagfield_component(experiment NEEDS report simulator ROOMS experiment)
+tagfield_component(live NEEDS planning ROOMS live)
 
 # tagfield_with_needs(OUT COMPONENT…): these and all that they stand on, in the order above. A name that is
 # none remains at the front.

@@ -58,11 +58,14 @@ void FieldDriver::remove_tag(std::uint32_t number) {
   free_numbers_.push_back(number);
 }
 
-bool FieldDriver::has_antenna(const std::string& name) const {
-  return std::any_of(antennas_.begin(), antennas_.end(), [&](const Antenna& antenna) {
+std::shared_ptr<const FieldAntenna> FieldDriver::antenna(const std::string& name) const {
+  const auto found = std::find_if(antennas_.begin(), antennas_.end(), [&](const Antenna& antenna) {
     return antenna.antenna->parameters.name == name;
   });
+  return found == antennas_.end() ? nullptr : found->antenna;
 }
+
+bool FieldDriver::has_antenna(const std::string& name) const { return antenna(name) != nullptr; }
 
 void FieldDriver::add_antenna(const std::shared_ptr<const FieldAntenna>& antenna) {
   const std::string& name = antenna->parameters.name;

@@ -31,6 +31,8 @@ class FieldDriver {
   /// Nothing where there is no such antenna.
   void remove_antenna(const std::string& name);
   [[nodiscard]] bool has_antenna(const std::string& name) const;
+  /// What is told of it; null where there is no such antenna.
+  [[nodiscard]] std::shared_ptr<const FieldAntenna> antenna(const std::string& name) const;
 
   /// The antenna updates at its rate from `from` on; `antenna` has its name, and may tell more than
   /// what was added. `at`: the stamps of its updates instead, rising.

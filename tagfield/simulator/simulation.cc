@@ -138,6 +138,16 @@ void Simulation::remove_tag(const std::string& id) {
                      moving_tags_.end());
 }
 
+void Simulation::move_tag(const std::string& id, const RigidTransform& X_WT) {
+  const auto found = tags_.find(id);
+  if (found == tags_.end()) throw Error(fmt::format("there is no tag with the ID '{}'", id));
+  const std::uint32_t number = found->second;
+  moving_tags_.erase(std::remove_if(moving_tags_.begin(), moving_tags_.end(),
+                                    [&](const auto& tag) { return tag.first == number; }),
+                     moving_tags_.end());
+  driver_.place_tag(number, X_WT, now_);
+}
+
 void Simulation::add_antenna(const AntennaSpec& antenna) {
   const std::string& name = antenna.parameters.name;
   require_robot(antenna.on, antenna.location);
@@ -164,6 +174,26 @@ void Simulation::remove_antenna(const std::string& name) {
     throw Error(fmt::format("there is no antenna called '{}'", name));
   }
   driver_.remove_antenna(name);
+}
+
+void Simulation::update_antenna(const std::string& name) {
+  const auto found = antennas_.find(name);
+  if (found == antennas_.end()) throw Error(fmt::format("there is no antenna called '{}'", name));
+  AntennaDue due;
+  due.antenna = driver_.antenna(name);
+  // The last moment of the last step, as now is the next one's.
+  update({due}, std::max(Time{}, now_ - Duration(1)));
+}
+
+void Simulation::add_obstacle(const ObstacleSpec& obstacle) {
+  if (obstacle.body) obstacles_.push_back(obstacle);
+}
+
+void Simulation::remove_obstacle(const std::string& name) {
+  obstacles_.erase(
+      std::remove_if(obstacles_.begin(), obstacles_.end(),
+                     [&](const ObstacleSpec& obstacle) { return obstacle.name == name; }),
+      obstacles_.end());
 }
 
 void Simulation::begin_step() {
@@ -251,10 +281,13 @@ void Simulation::place(AntennaDue& due, Time stamp) const {
 /// All antennas that update at `stamp`, with all that can move where it is then.
 void Simulation::update_at(Time stamp) {
   handle_events(stamp);
+  update(driver_.take_due(stamp), stamp);
+}
+
+void Simulation::update(std::vector<AntennaDue> due, Time stamp) {
   for (const auto& [number, tag] : moving_tags_) {
     driver_.place_tag(number, tag_pose(tag, stamp), stamp);
   }
-  std::vector<AntennaDue> due = driver_.take_due(stamp);
   for (AntennaDue& antenna : due) place(antenna, stamp);
   FieldStep step = driver_.take_step(stamp);
   step.due = std::move(due);

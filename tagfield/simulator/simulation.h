@@ -68,16 +68,27 @@ class Simulation {
   void add_tag(const TagSpec& tag);
   /// Throws Error if there is no such tag.
   void remove_tag(const std::string& id);
+  [[nodiscard]] bool has_tag(const std::string& id) const { return tags_.count(id) > 0; }
+  /// The tag rests there from now on, on no robot. Throws Error if there is no such tag.
+  void move_tag(const std::string& id, const RigidTransform& X_WT);
   /// Adds an antenna, to be heard from its first update from now on. Throws Error if the name is
   /// present, its robot unknown, or a parameter out of range.
   void add_antenna(const AntennaSpec& antenna);
   /// Throws Error if there is no such antenna.
   void remove_antenna(const std::string& name);
+  /// The antenna's update now, besides those at its rate: what an inventory has read until now is
+  /// told, or it begins. Throws Error if there is no such antenna.
+  void update_antenna(const std::string& name);
+  /// Something in waves' way, where it has a body, from now on.
+  void add_obstacle(const ObstacleSpec& obstacle);
+  /// Nothing where there is no such obstacle.
+  void remove_obstacle(const std::string& name);
 
  private:
   void begin_step();
   void handle_events(Time until);
   void update_at(Time stamp);
+  void update(std::vector<AntennaDue> due, Time stamp);
   void place(AntennaDue& due, Time stamp) const;
   [[nodiscard]] const Robot* robot_named(const std::string& name) const;
   void require_robot(const std::string& name, const Location& location) const;

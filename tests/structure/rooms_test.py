@@ -16,7 +16,7 @@ import tempfile
 ROOMS = ["base", "poses", "stream", "files", "motion", "world", "sdf", "map", "laser", "link",
          "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
          "tracking", "calibration", "report", "navigation", "scenario", "simulator", "planning",
-         "experiment"]
+         "experiment", "live"]
 # What a room must not include although it stands above.
 FORBIDDEN = {"localization": {"world", "sdf", "field"}, "tracking": {"world", "sdf", "field"},
              "calibration": {"world", "sdf", "field", "tracking"}, "field": {"files"},
@@ -65,7 +65,7 @@ TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "e
 # The robot's filter draws from a generator that a RandomStream has seeded, one a scan.
 ALLOWED = {("navigation", "std::mt19937")}
 # In step with real time, or to say how long a method took.
-CLOCK_ROOMS = {"simulator", "experiment"}
+CLOCK_ROOMS = {"simulator", "experiment", "live"}
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
 TYPE = re.compile(

@@ -1,0 +1,469 @@
+#include "tagfield/live/live_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "tagfield/base/error.h"
+#include "tagfield/field/antenna_facts.h"
+#include "tagfield/live/internal/live_clock.h"
+#include "tagfield/planning/moment.h"
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/simulator/robot.h"
+#include "tagfield/simulator/simulation.h"
+
+namespace tagfield {
+namespace {
+
+/// Three years, which nobody waits for.
+constexpr double kWithoutEnd_s = 1e8;
+/// While nothing is due, how soon a stop is noticed.
+constexpr std::chrono::milliseconds kNap(50);
+
+Scenario without_end(const Scenario& scenario) {
+  Scenario endless = scenario;
+  endless.duration_s = kWithoutEnd_s;
+  return endless;
+}
+
+/// What to make of the scenario's antennas comes later, one by one.
+Scenario without_antennas(const Scenario& scenario) {
+  Scenario bare = without_end(scenario);
+  bare.antennas.clear();
+  return bare;
+}
+
+bool takes_inventory(const AntennaParameters& antenna) {
+  const RadioModel* const model = physical(antenna);
+  return model != nullptr && model->gen2 && model->effects.inventory;
+}
+
+void require_finite(const RigidTransform& X, const std::string& whose) {
+  // A hall is at most 100 km, as in scenarios.
+  if (!is_finite(X) || X.translation.cwiseAbs().maxCoeff() > 1e5) {
+    throw Error(fmt::format("{}: the pose must be finite and within 100 km", whose));
+  }
+}
+
+}  // namespace
+
+class LiveWorld::Impl {
+ public:
+  Impl(const Scenario& scenario, std::uint64_t seed, Outlets outlets, LiveOptions options)
+      : scenario(without_end(scenario)),
+        seed(seed),
+        clock(options.speed, options.is_paused),
+        simulation(without_antennas(scenario), seed, std::move(outlets)) {
+    for (const AntennaSpec& spec : scenario.antennas) {
+      antennas.push_back({spec, false, false});
+      if (!options.readers_start) duties[spec.parameters.reader] = {};
+    }
+    for (LiveAntenna& antenna : antennas) apply_duty(antenna);
+  }
+
+  void post(Task task);
+  void run(LiveWorld& world, const std::atomic<bool>& stop);
+
+  LiveAntenna& antenna_named(const std::string& name);
+  TagSpec& tag_with(const std::string& id);
+  void require_reader(const std::string& reader) const;
+  void check_name(const AntennaSpec& antenna) const;
+  std::vector<LiveAntenna*> in_turn(const std::string& reader);
+  AntennaSpec as_told(const LiveAntenna& antenna, std::vector<std::string>& warnings) const;
+  void apply_duty(LiveAntenna& antenna);
+  void switch_on(LiveAntenna& antenna, const AntennaSpec& told);
+  void switch_off(LiveAntenna& antenna);
+  [[nodiscard]] Scenario scenario_on_air() const;
+
+  Scenario scenario;
+  std::uint64_t seed;
+  LiveClock clock;
+  Simulation simulation;
+  std::vector<LiveAntenna> antennas;
+  std::map<std::string, ReaderDuty> duties;  ///< By reader; none where it is as the scenario says.
+  std::vector<std::shared_ptr<LiveMember>> members;
+
+ private:
+  void do_tasks(LiveWorld& world);
+  void wait_until(LiveClock::Wall wall);
+  void step(LiveWorld& world);
+
+  std::mutex lock_;  ///< Of the following.
+  std::condition_variable posted_;
+  std::deque<Task> tasks_;
+  bool is_over_ = false;
+};
+
+void LiveWorld::Impl::post(Task task) {
+  {
+    const std::lock_guard<std::mutex> guard(lock_);
+    if (is_over_) return;
+    tasks_.push_back(std::move(task));
+  }
+  posted_.notify_one();
+}
+
+void LiveWorld::Impl::do_tasks(LiveWorld& world) {
+  std::deque<Task> tasks;
+  {
+    const std::lock_guard<std::mutex> guard(lock_);
+    tasks.swap(tasks_);
+  }
+  for (const Task& task : tasks) task(world);
+}
+
+void LiveWorld::Impl::wait_until(LiveClock::Wall wall) {
+  std::unique_lock<std::mutex> guard(lock_);
+  posted_.wait_until(guard, wall, [this] { return !tasks_.empty(); });
+}
+
+void LiveWorld::Impl::step(LiveWorld& world) {
+  simulation.step();
+  clock.stepped(simulation.now(), std::chrono::steady_clock::now());
+  for (const auto& member : members) member->on_step(world, simulation.now());
+}
+
+void LiveWorld::Impl::run(LiveWorld& world, const std::atomic<bool>& stop) {
+  const Duration length = duration_from_seconds(scenario.time_step_s);
+  clock.set_speed(clock.speed(), simulation.now(), std::chrono::steady_clock::now());
+  while (!stop) {
+    do_tasks(world);
+    const LiveClock::Wall wall = std::chrono::steady_clock::now();
+    const bool is_paused = clock.is_paused(simulation.now());
+    const LiveClock::Wall due = is_paused ? wall + kNap : clock.due(simulation.now() + length);
+    if (due > wall) {
+      wait_until(std::min(due, wall + kNap));
+    } else {
+      step(world);
+    }
+  }
+  std::deque<Task> dropped;
+  const std::lock_guard<std::mutex> guard(lock_);
+  is_over_ = true;
+  dropped.swap(tasks_);
+}
+
+LiveAntenna& LiveWorld::Impl::antenna_named(const std::string& name) {
+  for (LiveAntenna& antenna : antennas) {
+    if (antenna.spec.parameters.name == name) return antenna;
+  }
+  throw Error(fmt::format("there is no antenna called '{}'", name));
+}
+
+TagSpec& LiveWorld::Impl::tag_with(const std::string& id) {
+  for (TagSpec& tag : scenario.tags) {
+    if (tag.id == id && simulation.has_tag(id)) return tag;
+  }
+  throw Error(fmt::format("there is no tag with the ID '{}'", id));
+}
+
+void LiveWorld::Impl::require_reader(const std::string& reader) const {
+  const bool is_there = std::any_of(
+      antennas.begin(), antennas.end(),
+      [&](const LiveAntenna& antenna) { return antenna.spec.parameters.reader == reader; });
+  if (!is_there) throw Error(fmt::format("there is no reader called '{}'", reader));
+}
+
+/// The antenna with its reader's duty on top.
+AntennaSpec LiveWorld::Impl::as_told(const LiveAntenna& antenna,
+                                     std::vector<std::string>& warnings) const {
+  AntennaSpec told = antenna.spec;
+  const auto duty = duties.find(told.parameters.reader);
+  if (duty != duties.end()) told.parameters = on_duty(told.parameters, duty->second, warnings);
+  return told;
+}
+
+/// As its reader's duty and its cable have it.
+void LiveWorld::Impl::apply_duty(LiveAntenna& antenna) {
+  switch_off(antenna);
+  const auto duty = duties.find(antenna.spec.parameters.reader);
+  const bool is_asked =
+      duty == duties.end() || std::any_of(duty->second.antennas.begin(),
+                                          duty->second.antennas.end(), [&](const AntennaDuty& one) {
+                                            return one.antenna == antenna.spec.parameters.name;
+                                          });
+  std::vector<std::string> told_before;
+  if (is_asked && !antenna.is_faulty) switch_on(antenna, as_told(antenna, told_before));
+}
+
+void LiveWorld::Impl::switch_on(LiveAntenna& antenna, const AntennaSpec& told) {
+  simulation.add_antenna(told);
+  antenna.is_on = true;
+  // Its inventory begins now, and not with its next update.
+  if (takes_inventory(told.parameters)) simulation.update_antenna(told.parameters.name);
+}
+
+void LiveWorld::Impl::switch_off(LiveAntenna& antenna) {
+  if (!antenna.is_on) return;
+  const std::string& name = antenna.spec.parameters.name;
+  // What it has read since its last update is not lost.
+  if (takes_inventory(antenna.spec.parameters)) simulation.update_antenna(name);
+  simulation.remove_antenna(name);
+  antenna.is_on = false;
+}
+
+/// A reader's antennas in the order of their turns.
+std::vector<LiveAntenna*> LiveWorld::Impl::in_turn(const std::string& reader) {
+  std::vector<LiveAntenna*> all;
+  const auto duty = duties.find(reader);
+  if (duty != duties.end()) {
+    for (const AntennaDuty& one : duty->second.antennas) {
+      all.push_back(&antenna_named(one.antenna));
+    }
+    return all;
+  }
+  for (LiveAntenna& antenna : antennas) {
+    if (antenna.spec.parameters.reader == reader) all.push_back(&antenna);
+  }
+  return all;
+}
+
+/// With the antennas that send, as they do.
+Scenario LiveWorld::Impl::scenario_on_air() const {
+  Scenario now = scenario;
+  now.antennas.clear();
+  std::vector<std::string> told_before;
+  for (const LiveAntenna& antenna : antennas) {
+    if (antenna.is_on) now.antennas.push_back(as_told(antenna, told_before));
+  }
+  return now;
+}
+
+LiveWorld::LiveWorld(const Scenario& scenario, std::uint64_t seed, Outlets outlets,
+                     LiveOptions options)
+    : impl_(std::make_unique<Impl>(scenario, seed, std::move(outlets), options)) {}
+LiveWorld::~LiveWorld() = default;
+
+void LiveWorld::attach(std::shared_ptr<LiveMember> member) {
+  impl_->members.push_back(std::move(member));
+}
+
+void LiveWorld::post(Task task) { impl_->post(std::move(task)); }
+
+void LiveWorld::run(const std::atomic<bool>& stop) { impl_->run(*this, stop); }
+
+Time LiveWorld::now() const { return impl_->simulation.now(); }
+const Scenario& LiveWorld::scenario() const { return impl_->scenario; }
+double LiveWorld::speed() const { return impl_->clock.speed(); }
+double LiveWorld::pace() const {
+  return impl_->clock.pace(now(), std::chrono::steady_clock::now());
+}
+bool LiveWorld::is_paused() const { return impl_->clock.is_paused(now()); }
+
+void LiveWorld::set_speed(double speed) {
+  if (!std::isfinite(speed) || speed < 0.0 || speed > 1e6) {
+    throw Error("the speed must be from 0 (as fast as it can) to 1e6 times real time");
+  }
+  impl_->clock.set_speed(speed, now(), std::chrono::steady_clock::now());
+}
+
+void LiveWorld::pause() { impl_->clock.pause(); }
+void LiveWorld::resume() { impl_->clock.resume(now(), std::chrono::steady_clock::now()); }
+
+void LiveWorld::advance(Duration simulated) {
+  if (simulated <= Duration::zero()) throw Error("a step must be longer than 0 s");
+  impl_->clock.run_until(now() + simulated, now(), std::chrono::steady_clock::now());
+}
+
+void LiveWorld::add_tag(const TagSpec& tag) {
+  if (tag.motion.empty()) throw Error(fmt::format("tag '{}' has no position", tag.id));
+  for (const StampedPose& pose : tag.motion) require_finite(pose.X_WB, "tag '" + tag.id + "'");
+  impl_->simulation.add_tag(tag);
+  std::vector<TagSpec>& tags = impl_->scenario.tags;
+  // One of the same ID that has gone, or is still to come, gives way.
+  tags.erase(std::remove_if(tags.begin(), tags.end(),
+                            [&](const TagSpec& other) { return other.id == tag.id; }),
+             tags.end());
+  tags.push_back(tag);
+}
+
+void LiveWorld::remove_tag(const std::string& id) {
+  const TagSpec* const tag = &impl_->tag_with(id);
+  impl_->simulation.remove_tag(id);
+  std::vector<TagSpec>& tags = impl_->scenario.tags;
+  tags.erase(tags.begin() + (tag - tags.data()));
+}
+
+void LiveWorld::move_tag(const std::string& id, const RigidTransform& X_WT) {
+  require_finite(X_WT, "tag '" + id + "'");
+  TagSpec& tag = impl_->tag_with(id);
+  impl_->simulation.move_tag(id, X_WT);
+  tag.on.clear();
+  tag.motion = {{now(), X_WT}};
+}
+
+void LiveWorld::detune_tag(const std::string& id, double detuning_db) {
+  TagSpec& tag = impl_->tag_with(id);
+  auto model = std::make_shared<TagModel>(tag.model ? *tag.model : *default_tag_model());
+  model->detuning_db = detuning_db;
+  Diagnostics diagnostics;
+  check(*model, diagnostics);
+  TagSpec detuned = tag;
+  detuned.model = std::move(model);
+  detuned.appears = now();
+  impl_->simulation.remove_tag(id);
+  impl_->simulation.add_tag(detuned);
+  tag = detuned;
+}
+
+std::vector<LivePose> LiveWorld::tags() const {
+  std::vector<LivePose> all;
+  all.reserve(impl_->scenario.tags.size());
+  for (const TagSpec& tag : impl_->scenario.tags) {
+    if (!impl_->simulation.has_tag(tag.id)) continue;
+    all.push_back({tag.id, impl_->simulation.tag_pose(tag, now())});
+  }
+  return all;
+}
+
+void LiveWorld::add_antenna(const AntennaSpec& antenna) {
+  const std::string& name = antenna.parameters.name;
+  for (const LiveAntenna& known : impl_->antennas) {
+    if (known.spec.parameters.name == name) {
+      throw Error(fmt::format("there is an antenna called '{}' already", name));
+    }
+  }
+  require_finite(antenna.X_PA, "antenna '" + name + "'");
+  LiveAntenna added{antenna, false, false};
+  impl_->apply_duty(added);
+  impl_->antennas.push_back(added);
+}
+
+void LiveWorld::remove_antenna(const std::string& name) {
+  LiveAntenna& antenna = impl_->antenna_named(name);
+  impl_->switch_off(antenna);
+  for (auto& [reader, duty] : impl_->duties) {
+    duty.antennas.erase(std::remove_if(duty.antennas.begin(), duty.antennas.end(),
+                                       [&](const AntennaDuty& one) { return one.antenna == name; }),
+                        duty.antennas.end());
+  }
+  impl_->antennas.erase(impl_->antennas.begin() + (&antenna - impl_->antennas.data()));
+}
+
+void LiveWorld::move_antenna(const std::string& name, const RigidTransform& X_WA) {
+  require_finite(X_WA, "antenna '" + name + "'");
+  LiveAntenna& antenna = impl_->antenna_named(name);
+  impl_->switch_off(antenna);
+  antenna.spec.on.clear();
+  antenna.spec.X_PA = X_WA;
+  antenna.spec.lift = {};
+  antenna.spec.recorded.clear();
+  impl_->apply_duty(antenna);
+}
+
+void LiveWorld::set_antenna_faulty(const std::string& name, bool is_faulty) {
+  LiveAntenna& antenna = impl_->antenna_named(name);
+  if (antenna.is_faulty == is_faulty) return;
+  antenna.is_faulty = is_faulty;
+  impl_->apply_duty(antenna);
+}
+
+const std::vector<LiveAntenna>& LiveWorld::antennas() const { return impl_->antennas; }
+
+RigidTransform LiveWorld::antenna_pose(const LiveAntenna& antenna) const {
+  return impl_->simulation.antenna_pose(antenna.spec, now());
+}
+
+std::vector<std::string> LiveWorld::readers() const {
+  std::vector<std::string> all;
+  for (const LiveAntenna& antenna : impl_->antennas) {
+    const std::string& reader = antenna.spec.parameters.reader;
+    if (std::find(all.begin(), all.end(), reader) == all.end()) all.push_back(reader);
+  }
+  return all;
+}
+
+std::vector<std::string> LiveWorld::set_duty(const std::string& reader, const ReaderDuty& duty) {
+  impl_->require_reader(reader);
+  std::vector<std::string> warnings;
+  std::vector<AntennaSpec> told;
+  for (const AntennaDuty& one : duty.antennas) {
+    const LiveAntenna& antenna = impl_->antenna_named(one.antenna);
+    if (antenna.spec.parameters.reader != reader) {
+      throw Error(fmt::format("antenna '{}' is not of reader '{}'", one.antenna, reader));
+    }
+    // All are tried before the first is switched.
+    on_duty(antenna.spec.parameters, duty, warnings);
+  }
+  for (LiveAntenna& antenna : impl_->antennas) {
+    if (antenna.spec.parameters.reader == reader) impl_->switch_off(antenna);
+  }
+  impl_->duties[reader] = duty;
+  for (LiveAntenna* antenna : impl_->in_turn(reader)) impl_->apply_duty(*antenna);
+  return warnings;
+}
+
+void LiveWorld::reset_duty(const std::string& reader) {
+  impl_->require_reader(reader);
+  impl_->duties.erase(reader);
+  for (LiveAntenna* antenna : impl_->in_turn(reader)) impl_->apply_duty(*antenna);
+}
+
+void LiveWorld::add_obstacle(const ObstacleSpec& obstacle) {
+  std::vector<ObstacleSpec>& all = impl_->scenario.obstacles;
+  if (std::any_of(all.begin(), all.end(),
+                  [&](const ObstacleSpec& other) { return other.name == obstacle.name; })) {
+    throw Error(fmt::format("there is an obstacle called '{}' already", obstacle.name));
+  }
+  for (const StampedPose& pose : obstacle.motion) {
+    require_finite(pose.X_WB, "obstacle '" + obstacle.name + "'");
+  }
+  impl_->simulation.add_obstacle(obstacle);
+  all.push_back(obstacle);
+}
+
+void LiveWorld::remove_obstacle(const std::string& name) {
+  std::vector<ObstacleSpec>& all = impl_->scenario.obstacles;
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&](const ObstacleSpec& obstacle) { return obstacle.name == name; });
+  if (found == all.end()) throw Error(fmt::format("there is no obstacle called '{}'", name));
+  impl_->simulation.remove_obstacle(name);
+  all.erase(found);
+}
+
+std::vector<LivePose> LiveWorld::robots() const {
+  std::vector<LivePose> all;
+  for (const Robot& robot : impl_->simulation.robots()) {
+    all.push_back({robot.name(), robot.true_pose(impl_->scenario.time_step_s)});
+  }
+  return all;
+}
+
+LinkExplanation LiveWorld::explain(const std::string& antenna_name,
+                                   const std::string& tag_id) const {
+  const LiveAntenna& antenna = impl_->antenna_named(antenna_name);
+  const TagSpec& tag = impl_->tag_with(tag_id);
+  if (!antenna.is_on) {
+    throw Error(fmt::format("antenna '{}' is {}", antenna_name,
+                            antenna.is_faulty ? "disconnected" : "off by its reader's settings"));
+  }
+  const Scenario on_air = impl_->scenario_on_air();
+  const Simulation& simulation = impl_->simulation;
+  const auto asked =
+      std::find_if(on_air.antennas.begin(), on_air.antennas.end(),
+                   [&](const AntennaSpec& spec) { return spec.parameters.name == antenna_name; });
+  LinkQuestion question{*asked,
+                        tag,
+                        now(),
+                        simulation.antenna_pose(*asked, now()),
+                        simulation.tag_pose(tag, now()),
+                        impl_->seed,
+                        simulation.bodies_at(now())};
+  for (const TagSpec& other : impl_->scenario.tags) {
+    if (&other == &tag || !simulation.has_tag(other.id)) continue;
+    question.other_tags.push_back({other, simulation.tag_pose(other, now())});
+  }
+  for (const AntennaSpec& other : on_air.antennas) {
+    if (&other == &*asked) continue;
+    question.other_antennas.push_back({other, simulation.antenna_pose(other, now())});
+  }
+  return explain_link(on_air, question);
+}
+
+}  // namespace tagfield
