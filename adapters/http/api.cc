@@ -16,6 +16,7 @@
 #include "tagfield/planning/coverage.h"
 #include "tagfield/planning/explanation_json.h"
 #include "tagfield/reader/radio_model.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield::http {
 namespace {
@@ -157,7 +158,7 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   CoverageQuestion question;
   const Scenario& scenario = world.scenario();
   question.scenario.materials = scenario.materials;
-  question.scenario.radio_world = scenario.radio_world;
+  question.scenario.radio_world = radio_world_of(scenario);
   question.scenario.antennas = {antenna.spec};
   const RigidTransform X_WA = world.antenna_pose(antenna);
   question.samples = {{world.now(), {X_WA}, {}}};

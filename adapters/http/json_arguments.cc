@@ -45,7 +45,7 @@ const nlohmann::json& JsonArguments::at(const std::string& key) {
 std::string JsonArguments::text(const std::string& key) {
   const nlohmann::json& value = at(key);
   if (!value.is_string()) throw Error(fmt::format("'{}' must be text", key));
-  const auto text = value.get<std::string>();
+  auto text = value.get<std::string>();
   if (text.empty() || text.size() > kMostText ||
       std::any_of(text.begin(), text.end(), is_control)) {
     throw Error(

@@ -19,8 +19,8 @@ namespace {
 
 namespace http = beast::http;
 
-constexpr std::uint64_t kMostBody = 64 * 1024;
-constexpr std::uint32_t kMostHeader = 16 * 1024;
+constexpr std::uint64_t kMostBody = 65'536;
+constexpr std::uint32_t kMostHeader = 16'384;
 /// To bring a request, and between two of them.
 constexpr std::chrono::seconds kPatience(30);
 
