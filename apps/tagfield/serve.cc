@@ -6,6 +6,7 @@
 
 #include "adapters/http/admission.h"
 #include "adapters/http/http_server.h"
+#include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/scenario_arguments.h"
@@ -17,6 +18,8 @@ namespace {
 struct ServeArguments {
   ScenarioArguments of_scenario;
   std::optional<std::uint16_t> http;
+  std::optional<std::uint16_t> llrp;
+  std::string start = "2020-01-01T00:00:00Z";
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
