@@ -11,7 +11,7 @@ macro(tagfield_component name)
   cmake_parse_arguments(tagfield_${name} "" "" "NEEDS;ROOMS;PACKAGES;MODULES" ${ARGN})
 endmacro()
 
-tagfield_component(core ROOMS base poses stream PACKAGES Threads "Eigen3 3.3" fmt)
+tagfield_component(core ROOMS base poses stream epc PACKAGES Threads "Eigen3 3.3" fmt)
 tagfield_component(files NEEDS core ROOMS files)
 tagfield_component(motion NEEDS core ROOMS motion)
 tagfield_component(localization NEEDS core ROOMS fit localization tracking calibration)

@@ -13,8 +13,8 @@ import sys
 import tempfile
 
 # docs/architecture.md has the same, in the same order: a room includes only itself and rooms above it.
-ROOMS = ["base", "poses", "stream", "files", "motion", "world", "sdf", "map", "laser", "link",
-         "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
+ROOMS = ["base", "poses", "stream", "epc", "files", "motion", "world", "sdf", "map", "laser",
+         "link", "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
          "tracking", "calibration", "report", "navigation", "scenario", "simulator", "planning",
          "experiment", "live"]
 # What a room must not include although it stands above.
