@@ -7,7 +7,7 @@
 
 #include "adapters/llrp/rf_modes.h"
 #include "tagfield/base/error.h"
-#include "tagfield/gen2/epc.h"
+#include "tagfield/gen2/tag_epc.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield::llrp {
@@ -81,7 +81,21 @@ std::uint64_t LlrpReader::utc_us(Time time) const {
 
 void LlrpReader::send(std::uint16_t type, std::uint32_t id, const ByteWriter& body,
                       bool is_report) {
-  if (line_) line_->send(to_bytes({type, id, body.written()}), is_report);
+  if (!line_) return;
+  Bytes message = to_bytes({type, id, body.written()});
+  if (after_answer_) {
+    after_answer_->emplace_back(std::move(message), is_report);
+  } else {
+    line_->send(message, is_report);
+  }
+}
+
+/// Before all that the request has brought about: simple clients take what comes next for it.
+void LlrpReader::answer(std::uint16_t type, std::uint32_t id, const ByteWriter& body) {
+  const auto brought_about = std::exchange(after_answer_, std::nullopt);
+  send(type, id, body);
+  if (!brought_about || !line_) return;
+  for (const auto& [message, is_report] : *brought_about) line_->send(message, is_report);
 }
 
 void LlrpReader::tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write) {
@@ -129,7 +143,7 @@ bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
         return true;
       case kCloseConnection:
         write_ok(out);
-        send(4, message.id, out);
+        answer(4, message.id, out);
         return false;
       default:
         break;
@@ -139,14 +153,15 @@ bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
       throw Fault(Status::kUnsupportedMessage,
                   fmt::format("message {} is not known here", message.type));
     }
+    after_answer_.emplace();
     (this->*handler->second)(world, message, out);
-    send(static_cast<std::uint16_t>(message.type + kToAnswer), message.id, out);
+    answer(static_cast<std::uint16_t>(message.type + kToAnswer), message.id, out);
   } catch (const Fault& fault) {
-    ByteWriter answer;
-    write_status(fault.status(), fault.what(), answer);
+    ByteWriter refusal;
+    write_status(fault.status(), fault.what(), refusal);
     const bool is_known = handlers().count(message.type) > 0;
-    send(is_known ? static_cast<std::uint16_t>(message.type + kToAnswer) : kErrorMessage,
-         message.id, answer);
+    answer(is_known ? static_cast<std::uint16_t>(message.type + kToAnswer) : kErrorMessage,
+           message.id, refusal);
   }
   return true;
 }

@@ -128,6 +128,7 @@ class LlrpReader {
   void flush();
   void tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write);
   void send(std::uint16_t type, std::uint32_t id, const ByteWriter& body, bool is_report = false);
+  void answer(std::uint16_t type, std::uint32_t id, const ByteWriter& body);
   [[nodiscard]] std::uint64_t utc_us(Time time) const;
 
   std::string name_;
@@ -139,6 +140,8 @@ class LlrpReader {
   std::shared_ptr<ClientLine> line_;
   bool is_holding_ = false;  ///< Reports, until the client asks.
   std::uint32_t next_id_ = 1;
+  /// What a request has brought about, to be sent after its answer; none between requests.
+  std::optional<std::vector<std::pair<Bytes, bool>>> after_answer_;
   Time now_{};
   std::optional<Time> kept_alive_;
   bool has_warned_of_buffer_ = false;

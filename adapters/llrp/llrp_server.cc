@@ -18,7 +18,7 @@
 
 #include "adapters/llrp/llrp_reader.h"
 #include "tagfield/base/error.h"
-#include "tagfield/gen2/epc.h"
+#include "tagfield/gen2/tag_epc.h"
 
 namespace tagfield::llrp {
 namespace {
@@ -31,6 +31,8 @@ constexpr std::size_t kMostWaiting = std::size_t{4} << 20U;
 /// For the rest of a message that has begun, and for a client to take what was written.
 constexpr std::chrono::seconds kPatience(30);
 constexpr std::chrono::milliseconds kRest(100);
+/// Before and after an answer or an event: some clients take what arrives together for one message.
+constexpr std::chrono::milliseconds kGap(2);
 
 /// Reader, server and socket: who is connected to what.
 struct Endpoint {
@@ -48,7 +50,7 @@ struct Endpoint {
 class Session final : public ClientLine, public std::enable_shared_from_this<Session> {
  public:
   Session(std::shared_ptr<Endpoint> endpoint, asio::io_context& io, tcp::socket socket)
-      : endpoint_(std::move(endpoint)), io_(io), socket_(std::move(socket)), timer_(io) {}
+      : endpoint_(std::move(endpoint)), io_(io), socket_(std::move(socket)), timer_(io), gap_(io) {}
 
   void begin() {
     endpoint_->has_client = true;
@@ -162,6 +164,7 @@ class Session final : public ClientLine, public std::enable_shared_from_this<Ses
       is_woken_ = !queue_.empty();
       if (is_woken_) {
         outgoing_ = std::move(queue_.front().bytes);
+        is_report_ = queue_.front().is_report;
         queue_.pop_front();
         waiting_ -= outgoing_.size();
       }
@@ -173,10 +176,26 @@ class Session final : public ClientLine, public std::enable_shared_from_this<Ses
     is_writing_ = true;
     asio::async_write(socket_, asio::buffer(outgoing_),
                       [self = shared_from_this()](boost::system::error_code error, std::size_t) {
-                        self->is_writing_ = false;
                         if (error) return self->end();
-                        self->write();
+                        self->on_written();
                       });
+  }
+
+  void on_written() {
+    if (is_report_ && is_report_next()) {
+      is_writing_ = false;
+      return write();
+    }
+    gap_.expires_after(kGap);
+    gap_.async_wait([self = shared_from_this()](boost::system::error_code) {
+      self->is_writing_ = false;
+      self->write();
+    });
+  }
+
+  bool is_report_next() {
+    const std::lock_guard<std::mutex> guard(lock_);
+    return !queue_.empty() && queue_.front().is_report;
   }
 
   bool is_woken() {
@@ -200,9 +219,11 @@ class Session final : public ClientLine, public std::enable_shared_from_this<Ses
   asio::io_context& io_;
   tcp::socket socket_;
   asio::steady_timer timer_;
+  asio::steady_timer gap_;
   std::array<std::uint8_t, kHeaderSize> header_{};
   Bytes message_;
   Bytes outgoing_;
+  bool is_report_ = false;  ///< That is outgoing.
   bool is_writing_ = false;
   bool closes_when_sent_ = false;
   bool has_ended_ = false;
@@ -243,12 +264,14 @@ void require_different_epcs(const Scenario& scenario) {
 class LlrpServer::Impl {
  public:
   explicit Impl(const LlrpOptions& asked) : options_(asked) {}
-  ~Impl() {
+  ~Impl() { close(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void close() {
     io_.stop();
     if (thread_.joinable()) thread_.join();
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
   void open(LiveWorld& world) {
     require_different_epcs(world.scenario());
@@ -326,6 +349,7 @@ LlrpServer::LlrpServer(const LlrpOptions& options) : impl_(std::make_unique<Impl
 LlrpServer::~LlrpServer() = default;
 
 void LlrpServer::open(LiveWorld& world) { impl_->open(world); }
+void LlrpServer::close() { impl_->close(); }
 std::vector<LlrpAddress> LlrpServer::addresses() const { return impl_->addresses(); }
 
 void LlrpServer::on_read(const TagRead& read) {

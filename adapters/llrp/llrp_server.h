@@ -41,6 +41,8 @@ class LlrpServer final : public ReadListener, public LiveMember {
   /// a port can't be listened on, or two tags would have the same EPC.
   void open(LiveWorld& world);
   [[nodiscard]] std::vector<LlrpAddress> addresses() const;
+  /// Ends all connections; before the world is gone.
+  void close();
 
   void on_read(const TagRead& read) override;
   void on_step(LiveWorld& world, Time now) override;

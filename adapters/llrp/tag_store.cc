@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tagfield/gen2/epc.h"
+#include "tagfield/gen2/tag_epc.h"
 
 namespace tagfield::llrp {
 namespace {

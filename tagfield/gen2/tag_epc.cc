@@ -1,4 +1,4 @@
-#include "tagfield/gen2/epc.h"
+#include "tagfield/gen2/tag_epc.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "tagfield/base/random.h"
+#include "tagfield/epc/epc.h"
 
 namespace tagfield {
 namespace {
@@ -18,6 +19,14 @@ bool is_hex(const std::string& id) {
          std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
+Words words_of(const EpcBytes& bytes) {
+  Words words;
+  for (std::size_t i = 0; i < bytes.size(); i += 2) {
+    words.push_back(static_cast<std::uint16_t>(unsigned{bytes[i]} << 8U | bytes[i + 1]));
+  }
+  return words;
+}
+
 }  // namespace
 
 Words epc_of_id(const std::string& id) {
@@ -28,6 +37,7 @@ Words epc_of_id(const std::string& id) {
     }
     return words;
   }
+  if (is_epc_uri(id)) return words_of(epc_bytes(epc_from_uri(id)));
   words.assign(kWords, 0);
   if (id.size() <= 2 * kWords) {
     for (std::size_t i = 0; i < id.size(); ++i) {
