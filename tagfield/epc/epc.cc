@@ -33,6 +33,12 @@ std::string joined(const std::vector<std::string>& fields) {
   return fmt::format("{}", fmt::join(fields, "."));
 }
 
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
 /// Takes the scheme's name up to its colon from `rest`.
 EpcScheme take_scheme(std::string_view& rest, std::string_view suffix) {
   const std::size_t colon = rest.find(':');
@@ -99,10 +105,7 @@ std::string tag_uri(const Epc& epc) {
 }
 
 std::string raw_uri(const std::string& hex) {
-  std::string digits = hex;
-  std::transform(digits.begin(), digits.end(), digits.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return fmt::format("urn:epc:raw:{}.x{}", 4 * hex.size(), digits);
+  return fmt::format("urn:epc:raw:{}.x{}", 4 * hex.size(), upper_case(hex));
 }
 
 std::string hex_of(const EpcBytes& bytes) {
@@ -113,14 +116,24 @@ std::string hex_of(const EpcBytes& bytes) {
 
 EpcBytes bytes_of_hex(const std::string& hex) {
   EpcBytes bytes{};
-  const auto is_digit = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (hex.size() != 2 * bytes.size() || !std::all_of(hex.begin(), hex.end(), is_digit)) {
+  if (hex.size() != 2 * bytes.size() || !is_hexadecimal(hex)) {
     throw Error(fmt::format("EPC '{}' must be 24 hexadecimal digits", hex));
   }
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     bytes[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
   }
   return bytes;
+}
+
+bool is_hexadecimal(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+std::string bits_of_id(const std::string& id) {
+  if (!id.empty() && id.size() % 4 == 0 && is_hexadecimal(id)) return upper_case(id);
+  const std::optional<Epc> epc = is_epc_uri(id) ? epc_of(id) : std::nullopt;
+  return epc ? hex_of(epc_bytes(*epc)) : "";
 }
 
 std::optional<Epc> epc_of(const std::string& id) {

@@ -64,6 +64,13 @@ Epc epc_from_bytes(const EpcBytes& bytes);
 std::string hex_of(const EpcBytes& bytes);
 EpcBytes bytes_of_hex(const std::string& hex);
 
+/// Whether all of it is hexadecimal digits, of any case.
+bool is_hexadecimal(std::string_view text);
+
+/// The bits that a tag's ID tells, as upper-case hexadecimal digits: of an EPC's URI, or digits
+/// whose number is a multiple of 4, as bits of tags come in words of 16. "" for all else.
+std::string bits_of_id(const std::string& id);
+
 /// What a tag's ID says that is its EPC: a URI, or 24 hexadecimal digits of one of the schemes.
 /// None for all else.
 std::optional<Epc> epc_of(const std::string& id);

@@ -29,11 +29,6 @@ std::string upper(std::string text) {
   return text;
 }
 
-bool is_hexadecimal(const std::string& text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isxdigit(c) != 0; });
-}
-
 EpcFieldPattern range_of(const std::string& text) {
   const std::size_t dash = text.find('-');
   if (text.size() < 2 || text.back() != ']' || dash == std::string::npos) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -13,23 +11,6 @@
 #include "tagfield/files/json_text.h"
 
 namespace tagfield {
-namespace {
-
-/// The bits of an EPC as hexadecimal digits; "" where the ID says none.
-std::string bits_of(const std::string& id) {
-  const auto is_digit = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (!id.empty() && id.size() % 4 == 0 && std::all_of(id.begin(), id.end(), is_digit)) {
-    std::string digits = id;
-    for (char& c : digits) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return digits;
-  }
-  if (!is_epc_uri(id)) return "";
-  const std::optional<Epc> epc = epc_of(id);
-  return epc ? hex_of(epc_bytes(*epc)) : "";
-}
-
-}  // namespace
-
 int AntennaPorts::port_of(const std::string& reader, const std::string& antenna) {
   int& port = ports_[{reader, antenna}];
   if (port == 0) port = ++counts_[reader];
@@ -46,7 +27,7 @@ void append_json(const TagRead& read, Time start, AntennaPorts& ports, std::stri
   append_quoted(read.antenna, json);
   json += R"(,"epc":)";
   append_quoted(read.tag, json);
-  const std::string bits = bits_of(read.tag);
+  const std::string bits = bits_of_id(read.tag);
   if (!bits.empty()) fmt::format_to(out, R"(,"epcHex":"{}")", bits);
   fmt::format_to(out, R"(,"peakRssiCdbm":{},"phaseAngle":{:.4f},"frequency":{:.10g})",
                  std::lround(100.0 * read.rssi_dbm), degrees(read.phase_rad),

@@ -117,6 +117,15 @@ TEST(Epc, IsFoundInATagsIdWhereThereIsOne) {
   EXPECT_FALSE(epc_of("urn:epc:id:sgtin:0614141"));
 }
 
+TEST(BitsOfId, AreDigitsOfWholeWordsOrOfUris) {
+  EXPECT_EQ(bits_of_id("e2801160600002054cc2096f"), "E2801160600002054CC2096F");
+  EXPECT_EQ(bits_of_id("abcd"), "ABCD");
+  EXPECT_EQ(bits_of_id(kExamples[0].tag), kExamples[0].hex);
+  for (const char* id : {"", "abc", "abcde", "tag4", "urn:epc:id:sgtin:1"}) {
+    EXPECT_EQ(bits_of_id(id), "") << id;
+  }
+}
+
 TEST(Epc, OfNoSchemeHasARawUri) {
   EXPECT_EQ(raw_uri("e2801160600002054cc2096f"), "urn:epc:raw:96.xE2801160600002054CC2096F");
   EXPECT_EQ(raw_uri("ABCD"), "urn:epc:raw:16.xABCD");
