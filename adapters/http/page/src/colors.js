@@ -6,9 +6,7 @@ const MATERIALS = {
   ceiling_board: "#d5d5cf", floorboard: "#a97d50", water: "#5b93c9", plastic: "#6f9fb5",
 };
 const ANTENNAS = ["#2f7ed8", "#d9662b", "#1c9c6b", "#a855c9", "#c2a413", "#d64583", "#16a3b8", "#8a6d4b"];
-const LOW = [47, 107, 232];
-const MEDIUM = [31, 170, 85];
-const HIGH = [226, 48, 40];
+const RSSI_STOPS = [[43, 95, 227], [22, 165, 201], [34, 166, 82], [224, 172, 20], [222, 47, 38]];
 const LEAST_OPACITY = 0.35;
 
 function hue(name) {
@@ -30,7 +28,10 @@ export const antennaColor = (index) => ANTENNAS[index % ANTENNAS.length];
 // u from 0 (weak) to 1 (strong); writes [r, g, b, opacity], each 0 … 1.
 export function rssiColor(u, out, at) {
   const v = Math.min(Math.max(u, 0), 1);
-  const [from, to, share] = v < 0.5 ? [LOW, MEDIUM, 2 * v] : [MEDIUM, HIGH, 2 * v - 1];
+  const stop = Math.min(Math.floor(v * (RSSI_STOPS.length - 1)), RSSI_STOPS.length - 2);
+  const share = v * (RSSI_STOPS.length - 1) - stop;
+  const from = RSSI_STOPS[stop];
+  const to = RSSI_STOPS[stop + 1];
   for (let k = 0; k < 3; ++k) out[at + k] = (from[k] + (to[k] - from[k]) * share) / 255;
   out[at + 3] = LEAST_OPACITY + (1 - LEAST_OPACITY) * v;
 }

@@ -56,8 +56,7 @@ export class Drawing {
     }
     if (bounds.isEmpty()) bounds.set(new Vector3(-2, -2, 0), new Vector3(2, 2, 2));
     bounds.expandByPoint(p.set(bounds.min.x, bounds.min.y, 0));
-    stage.bounds.copy(bounds);
-    this.ground.set(world.scene, bounds);
+    stage.bounds.copy(this.ground.set(world.scene, bounds));
     if (this.fitted !== world.scene.name) {
       this.fitted = world.scene.name;
       stage.look("world");

@@ -27,15 +27,29 @@ export class Live {
     this.token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
   }
 
-  async start() {
+  // Follows first and fetches then, so that no change falls between the two.
+  start() {
     this.say("connecting", "connecting …");
+    const address = new URL("api/live", location.href);
+    address.protocol = address.protocol.replace("http", "ws");
+    address.hash = "";
+    this.loaded = false;
+    const socket = new WebSocket(address);
+    socket.onopen = () => this.#opened(socket);
+    socket.onmessage = (event) => this.loaded && this.#frame(JSON.parse(event.data));
+    socket.onclose = () => this.#again();
+  }
+
+  async #opened(socket) {
     try {
       await this.#fetchAll();
-    } catch (error) {
-      this.#again(error.message);
+    } catch {
+      socket.close();
       return;
     }
-    this.#listen();
+    this.loaded = true;
+    this.wait = FIRST_WAIT_MS;
+    this.say("connected", "");
   }
 
   async #fetchAll() {
@@ -55,23 +69,9 @@ export class Live {
     this.world.touch("time");
   }
 
-  #listen() {
-    const address = new URL("api/live", location.href);
-    address.protocol = address.protocol.replace("http", "ws");
-    address.hash = "";
-    const socket = new WebSocket(address);
-    socket.onopen = () => {
-      this.wait = FIRST_WAIT_MS;
-      this.say("connected", "");
-    };
-    socket.onmessage = (event) => this.#frame(JSON.parse(event.data));
-    socket.onclose = () => this.#again("");
-  }
-
-  #again(why) {
-    const seconds = Math.round(this.wait / 100) / 10;
-    this.say("away", `The server is away${why && why !== "Failed to fetch" ? ` (${why})` : ""}; ` +
-      `trying again in ${seconds} s`);
+  #again() {
+    this.loaded = false;
+    this.say("away", `The server is away; trying again every ${LONGEST_WAIT_MS / 1000} s at least`);
     setTimeout(() => this.start(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
   }

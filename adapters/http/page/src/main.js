@@ -98,6 +98,7 @@ class View {
       }, PANEL_MS);
     }
     if (changed.has("selection")) this.#insets();
+    if (this.stage) this.at.views.lastChild.hidden = !this.drawing.robots.place();
     if (this.recording && !world.paused) this.#ask();
   }
 

@@ -1,6 +1,6 @@
-// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 5 dB by what is read.
+// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is read.
 
-const STEP_DB = 5;
+const STEP_DB = 10;
 
 export class Scale {
   constructor() {

@@ -5,12 +5,13 @@ import {AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, Perspectiv
 import {OrbitControls} from "three/addons/controls/OrbitControls.js";
 
 const FIELD_OF_VIEW_DEG = 45;
+const FOLLOWED_FROM_M = 8;
 const VIEWS = {world: [-0.55, -0.9, 0.85], top: [0, -1e-4, 1], side: [0, -1, 0.12]};
 
 function light(scene) {
-  const sun = new DirectionalLight("#ffffff", 1.7);
+  const sun = new DirectionalLight("#ffffff", 2);
   sun.position.set(-4, -7, 12);
-  scene.add(new HemisphereLight("#ffffff", "#8f8a80", 1.5), new AmbientLight("#ffffff", 0.35), sun);
+  scene.add(new HemisphereLight("#ffffff", "#b8b4ac", 1.5), new AmbientLight("#ffffff", 0.6), sun);
 }
 
 export class Stage {
@@ -18,7 +19,6 @@ export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({canvas, antialias: true, powerPreference: "high-performance"});
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new Scene();
     this.scene.background = new Color();
     light(this.scene);
@@ -29,11 +29,13 @@ export class Stage {
     this.controls.maxPolarAngle = 0.52 * Math.PI;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.view = ""));
     this.bounds = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
     this.layers = [];  // {update(changed), frame?(now) → true while it goes on}
     this.before = [];  // Called before each frame with the time since the last one [s].
     this.insets = {left: 0, right: 0, top: 0, bottom: 0};
     this.follow = null;
+    this.view = "";  // The named view for as long as nobody has turned it; it is fitted anew to a new size.
     this.asked = 0;
     this.frames = 0;
     this.last = 0;
@@ -46,9 +48,11 @@ export class Stage {
   resize() {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.#offset(width, height);
+    if (this.view) this.#fit();
     this.invalidate();
   }
 
@@ -97,52 +101,67 @@ export class Stage {
 
   look(name) {
     this.follow = null;
-    const center = this.bounds.getCenter(new Vector3());
-    const direction = new Vector3(...(VIEWS[name] ?? VIEWS.world)).normalize();
-    this.controls.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(direction, this.#distance(direction));
-    this.camera.near = Math.max(0.02, this.bounds.getSize(new Vector3()).length() / 2000);
-    this.camera.far = 60 * this.bounds.getSize(new Vector3()).length() + 100;
+    this.view = name;
     this.resize();
-    this.controls.update();
-    this.invalidate();
   }
 
-  // From where all corners of the bounds are in what the panels leave free.
-  #distance(direction) {
+  // Near enough that the bounds fill what the panels leave free, and in its middle.
+  #fit() {
+    const size = this.bounds.getSize(new Vector3()).length();
+    const target = this.bounds.getCenter(new Vector3());
+    const back = new Vector3(...VIEWS[this.view]).normalize();
+    const right = new Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
-    const {left, right, top, bottom} = this.insets;
-    const up = Math.tan((FIELD_OF_VIEW_DEG * Math.PI) / 360);
-    const tanY = up * Math.max(1 - (top + bottom) / height, 0.3);
-    const tanX = up * this.camera.aspect * Math.max(1 - (left + right) / width, 0.3);
-    const right_W = new Vector3().crossVectors(direction, new Vector3(0, 0, 1)).normalize();
-    const up_W = new Vector3().crossVectors(right_W, direction).normalize();
-    const center = this.bounds.getCenter(new Vector3());
-    let distance = 1;
-    for (let corner = 0; corner < 8; ++corner) {
-      const p = new Vector3(corner & 1 ? this.bounds.max.x : this.bounds.min.x,
-                            corner & 2 ? this.bounds.max.y : this.bounds.min.y,
-                            corner & 4 ? this.bounds.max.z : this.bounds.min.z).sub(center);
-      const ahead = p.dot(direction);
-      distance = Math.max(distance, ahead + Math.abs(p.dot(right_W)) / tanX,
-                          ahead + Math.abs(p.dot(up_W)) / tanY);
+    const half = Math.tan((FIELD_OF_VIEW_DEG * Math.PI) / 360);
+    const tanY = half * Math.max(1 - (this.insets.top + this.insets.bottom) / height, 0.3);
+    const tanX = half * this.camera.aspect * Math.max(1 - (this.insets.left + this.insets.right) / width, 0.3);
+    let distance = size;
+    for (let i = 0; i < 6; ++i) {
+      const [x0, x1, y0, y1] = this.#seen(target, back, right, up, distance);
+      target.addScaledVector(right, ((x0 + x1) / 2) * distance).addScaledVector(up, ((y0 + y1) / 2) * distance);
+      distance *= 1.03 * Math.max((x1 - x0) / (2 * tanX), (y1 - y0) / (2 * tanY));
     }
-    return 1.04 * distance;
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(back, distance);
+    this.camera.near = Math.max(0.02, size / 2000);
+    this.camera.far = 60 * size + 100;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+  }
+
+  // Tangents of the angles between which the corners of the bounds are seen: left, right, low, high.
+  #seen(target, back, right, up, distance) {
+    const all = [Infinity, -Infinity, Infinity, -Infinity];
+    const p = new Vector3();
+    for (let corner = 0; corner < 8; ++corner) {
+      const {min, max} = this.bounds;
+      p.set(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(target);
+      const depth = Math.max(distance - p.dot(back), 0.1 * distance);
+      const [x, y] = [p.dot(right) / depth, p.dot(up) / depth];
+      all[0] = Math.min(all[0], x);
+      all[1] = Math.max(all[1], x);
+      all[2] = Math.min(all[2], y);
+      all[3] = Math.max(all[3], y);
+    }
+    return all;
   }
 
   follows(place) {
     this.follow = place;
+    this.view = "";
     const at = place();
     if (!at) return;
     this.controls.target.copy(at);
-    const back = this.camera.position.clone().sub(at);
-    this.camera.position.copy(at).addScaledVector(back.normalize(), 6);
+    const back = this.camera.position.clone().sub(at).setZ(0).normalize().setZ(1.1).normalize();
+    this.camera.position.copy(at).addScaledVector(back, FOLLOWED_FROM_M);
     this.controls.update();
     this.invalidate();
   }
 
   // By keyboard: radians about the vertical and towards the top, factor of the distance.
   orbit(azimuth, polar, zoom) {
+    this.view = "";
     const {camera, controls} = this;
     const back = camera.position.clone().sub(controls.target);
     const length = back.length() * zoom;

@@ -209,6 +209,17 @@ export class World {
     }
   }
 
+  // The antenna that reads a tag strongest of late, or null.
+  strongestAntenna(tag) {
+    const {log} = this;
+    let best = -1;
+    for (let i = log.end - 1; i >= 0 && log.t[i] > this.time - this.recent(); --i) {
+      if (log.tag[i] === tag && (best < 0 || log.rssi[i] > log.rssi[best])) best = i;
+    }
+    const antenna = best < 0 ? null : this.antennas[log.antenna[best]];
+    return antenna?.present ? antenna : null;
+  }
+
   #remember() {
     if (this.counted > this.log.end) {
       this.lastRssi.fill(NaN);

@@ -67,9 +67,9 @@ export class Flashes {
   }
 
   #add(tag, antenna, now) {
-    const pose = this.world.antennas[antenna].pose;
-    const {only = this.world.onlyAntenna} = this;
-    if (only >= 0 && antenna !== only) return;
+    const {pose} = this.world.antennas[antenna];
+    const {selection} = this.world;
+    if (selection && selection.index !== (selection.kind === "tag" ? tag : antenna)) return;
     const at = 2 * this.next;
     const p = this.world.position;
     const rgb = this.#color(antenna);

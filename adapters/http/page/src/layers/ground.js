@@ -1,21 +1,16 @@
 // Floor, metre grid, map and the robots' paths.
 
-import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Mesh,
-        MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader} from "three";
+import {Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Mesh,
+        MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3} from "three";
 
-const LEAST_MARGIN = 1;  // Floor beyond what stands on it [m].
-
-function gridLines(bounds, step, skip, height) {
+// Lines each `step` metres, but for those at multiples of `skip`.
+function gridLines({min, max}, step, skip, height) {
   const points = [];
-  const x0 = Math.floor(bounds.min.x - LEAST_MARGIN);
-  const x1 = Math.ceil(bounds.max.x + LEAST_MARGIN);
-  const y0 = Math.floor(bounds.min.y - LEAST_MARGIN);
-  const y1 = Math.ceil(bounds.max.y + LEAST_MARGIN);
-  for (let x = Math.ceil(x0 / step) * step; x <= x1; x += step) {
-    if (!skip || x % skip) points.push(x, y0, height, x, y1, height);
+  for (let x = Math.ceil(min.x / step) * step; x <= max.x; x += step) {
+    if (!skip || x % skip) points.push(x, min.y, height, x, max.y, height);
   }
-  for (let y = Math.ceil(y0 / step) * step; y <= y1; y += step) {
-    if (!skip || y % skip) points.push(x0, y, height, x1, y, height);
+  for (let y = Math.ceil(min.y / step) * step; y <= max.y; y += step) {
+    if (!skip || y % skip) points.push(min.x, y, height, max.x, y, height);
   }
   return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
 }
@@ -33,6 +28,7 @@ export class Ground {
     if (this.scene) this.set(this.scene, this.bounds);
   }
 
+  // Draws all; returns how far the floor goes: a metre or two beyond what stands on it.
   set(scene, bounds) {
     this.scene = scene;
     this.bounds = bounds;
@@ -42,20 +38,19 @@ export class Ground {
       object.material?.dispose();
     });
     this.group.clear();
-    const width = Math.max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-    const step = width > 400 ? 50 : width > 80 ? 10 : 1;
-    const floor = new Mesh(
-      new PlaneGeometry(Math.ceil(bounds.max.x + LEAST_MARGIN) - Math.floor(bounds.min.x - LEAST_MARGIN),
-                        Math.ceil(bounds.max.y + LEAST_MARGIN) - Math.floor(bounds.min.y - LEAST_MARGIN)),
-      new MeshBasicMaterial({color: this.theme.floor, polygonOffset: true, polygonOffsetFactor: 4,
-                             polygonOffsetUnits: 4}));
-    floor.position.set(
-      (Math.ceil(bounds.max.x + LEAST_MARGIN) + Math.floor(bounds.min.x - LEAST_MARGIN)) / 2,
-      (Math.ceil(bounds.max.y + LEAST_MARGIN) + Math.floor(bounds.min.y - LEAST_MARGIN)) / 2, 0);
-    this.group.add(floor, this.#grid(gridLines(bounds, step, 5 * step, 0.003), 0.35),
-                   this.#grid(gridLines(bounds, 5 * step, 0, 0.004), 0.9));
+    const wide = new Box3(new Vector3(Math.floor(bounds.min.x) - 1, Math.floor(bounds.min.y) - 1, bounds.min.z),
+                          new Vector3(Math.ceil(bounds.max.x) + 1, Math.ceil(bounds.max.y) + 1, bounds.max.z));
+    const size = wide.getSize(new Vector3());
+    const longest = Math.max(size.x, size.y);
+    const step = longest > 400 ? 50 : longest > 80 ? 10 : 1;
+    const floor = new Mesh(new PlaneGeometry(size.x, size.y), new MeshBasicMaterial({
+      color: this.theme.floor, polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 4}));
+    floor.position.set((wide.min.x + wide.max.x) / 2, (wide.min.y + wide.max.y) / 2, 0);
+    this.group.add(floor, this.#grid(gridLines(wide, step, 5 * step, 0.003), 0.35),
+                   this.#grid(gridLines(wide, 5 * step, 0, 0.004), 0.9));
     if (scene.map) this.#map(scene.map);
     for (const path of scene.paths) this.#path(path.points);
+    return wide;
   }
 
   #grid(geometry, opacity) {

@@ -2,7 +2,7 @@
 
 import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial} from "three";
 
-const MOST = 24;
+const MOST = 12;
 const FAINTEST_DB = -40;  // A path this far below the direct way is drawn faintest.
 
 function lengthOf(points) {
@@ -27,7 +27,7 @@ export class Link {
     this.stage = stage;
     this.group = new Group();
     stage.scene.add(this.group);
-    this.theme = {path: "#1c7ed6", blocked: "#d6336c"};
+    this.theme = {ink: "#000000", blocked: "#d6336c"};
   }
 
   setTheme(theme) {
@@ -43,7 +43,8 @@ export class Link {
     });
     this.group.clear();
     const paths = explanation?.paths ?? (explanation ? [{bounces: 0, by_way_of: [], relative_db: 0}] : []);
-    const sorted = [...paths].sort((a, b) => (b.relative_db ?? -999) - (a.relative_db ?? -999));
+    const shown = paths.filter((path) => !path.blocked || path.bounces === 0);
+    const sorted = shown.sort((a, b) => (b.relative_db ?? -999) - (a.relative_db ?? -999));
     for (const path of sorted.slice(0, MOST)) this.#add(pathPoints(explanation, path), path);
     this.stage.invalidate();
   }
@@ -55,7 +56,7 @@ export class Link {
     const look = {transparent: true, depthTest: false};
     const material = path.blocked ?
       new LineDashedMaterial({...look, color: this.theme.blocked, dashSize: 0.25, gapSize: 0.2, opacity: 0.5}) :
-      new LineBasicMaterial({...look, color: new Color(this.theme.path), opacity: 0.15 + 0.85 * strength});
+      new LineBasicMaterial({...look, color: new Color(this.theme.ink), opacity: 0.15 + 0.85 * strength});
     const line = new Line(geometry, material);
     line.computeLineDistances();
     line.renderOrder = 22;

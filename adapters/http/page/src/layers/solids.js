@@ -82,6 +82,7 @@ export class Solids {
     this.group = new Group();
     stage.scene.add(this.group);
     this.screens = [];
+    this.inside = new Vector3();
     this.edgeColor = new Color("#000000");
   }
 
@@ -178,13 +179,13 @@ export class Solids {
 
   frame() {
     const eye = this.stage.camera.position;
-    const inside = this.stage.bounds.getCenter(new Vector3());
+    const inside = this.stage.bounds.getCenter(this.inside);
     for (const {mesh, center, size} of this.screens) {
       const axis = size.z < WALL_THICKNESS ? "z" : size.x < size.y ? "x" : "y";
       const between = (eye[axis] - center[axis]) * (center[axis] - inside[axis]) > 0;
       if (mesh.material.transparent === between) continue;
       mesh.material.transparent = between;
-      mesh.material.opacity = between ? 0.1 : isTransparent(mesh) ? 0.35 : 1;
+      mesh.material.opacity = between ? 0.1 : 1;
       mesh.material.depthWrite = !between;
       mesh.material.needsUpdate = true;
     }

@@ -1,5 +1,5 @@
-// Tags as discs that always face the camera, all in one draw call (and one more for those behind
-// something): coloured by RSSI with opacity where read of late, a ring where read before, grey where never.
+// Tags as discs that always face the camera, all in three draw calls (those behind something,
+// those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring where read before, grey where never.
 
 import {GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh,
         PlaneGeometry, ShaderMaterial, Color, Vector2} from "three";
@@ -13,7 +13,7 @@ const SELECTED = 4;
 
 const VERTEX = `
 uniform vec2 uViewport;
-uniform float uRadius, uLeastPx;
+uniform float uRadius, uLeastPx, uFrom, uTo;
 attribute vec3 aPlace;
 attribute vec4 aColor;
 attribute float aKind;
@@ -29,7 +29,7 @@ void main() {
   vColor = aColor;
   vKind = aKind;
   vPx = px;
-  gl_Position = aKind < 0.0 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * at;
+  gl_Position = aKind < uFrom || aKind > uTo ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * at;
   gl_Position.xy += position.xy * 4.0 * px / uViewport * gl_Position.w;
   // A little nearer than the face that it sticks to.
   gl_Position.z -= 0.0006 * gl_Position.w;
@@ -72,13 +72,15 @@ export class Tags {
     const uniforms = {uViewport: {value: new Vector2()}, uRadius: {value: RADIUS_M},
                       uLeastPx: {value: LEAST_RADIUS_PX}, uInk: {value: new Color()}};
     this.uniforms = uniforms;
-    this.meshes = [[LessEqualDepth, 1], [GreaterDepth, 0.3]].map(([depthFunc, opacity], i) => {
+    // Those behind something first, then those in sight, those read of late on top.
+    this.meshes = [[GreaterDepth, 0.3, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]].map(
+        ([depthFunc, opacity, from, to], i) => {
       const material = new ShaderMaterial({
         vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, depthFunc,
-        uniforms: {...uniforms, uOpacity: {value: opacity}}});
+        uniforms: {...uniforms, uOpacity: {value: opacity}, uFrom: {value: from}, uTo: {value: to}}});
       const mesh = new Mesh(undefined, material);
       mesh.frustumCulled = false;
-      mesh.renderOrder = 20 - i;
+      mesh.renderOrder = 18 + i;
       stage.scene.add(mesh);
       return mesh;
     });
@@ -137,7 +139,8 @@ export class Tags {
   frame() {
     const {renderer} = this.stage;
     renderer.getDrawingBufferSize(this.uniforms.uViewport.value);
-    this.uniforms.uLeastPx.value = LEAST_RADIUS_PX * renderer.getPixelRatio();
+    const crowded = Math.min(Math.max((1000 / Math.max(this.world.tags.length, 1)) ** 0.3, 0.45), 1);
+    this.uniforms.uLeastPx.value = LEAST_RADIUS_PX * crowded * renderer.getPixelRatio();
     return false;
   }
 }

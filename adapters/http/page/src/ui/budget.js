@@ -104,7 +104,7 @@ function paper(link) {
 }
 
 export function budget(link) {
-  return [h("p", {class: "verdict", "data-read": String(link.read), text: link.verdict}),
+  return [h("p", {class: "verdict", "data-read": link.read ? "yes" : link.verdict.startsWith("not read just now") ? "soon" : "no", text: link.verdict}),
           ...(link.model === "paper" ? paper(link) : physical(link)).filter(Boolean),
           ...(link.warnings ?? []).map((warning) => h("p", {class: "note", text: warning}))];
 }

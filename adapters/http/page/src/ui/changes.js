@@ -94,7 +94,7 @@ export class Changes {
       return h("div", {}, h("div", {class: "row"}, button("Disconnect", () => act("POST", "/disconnect")),
         button("Connect", () => act("POST", "/connect")), button("Remove", () => act("DELETE", ""))), error);
     }
-    const loss = number("detune", "6", {"aria-label": "Detuning [dB]", min: "0", max: "60", size: "4"});
+    const loss = number("detune", "6", {"aria-label": "Detuning [dB]", min: "0", max: "60", class: "short"});
     const move = async () => {
       const place = await this.pickPlace(`Click where ${name} is to go`);
       if (place) await act("POST", "/move", {position: place.map((value) => Number(fixed(value, 3).replace("−", "-")))});

@@ -2,7 +2,7 @@
 
 import {antennaColor} from "../colors.js";
 
-const MARGIN = {left: 40, right: 8, top: 18, bottom: 18};
+const MARGIN = {left: 40, right: 8, top: 22, bottom: 18};
 const POINT_PX = 2.4;
 
 function ticks(low, high, most) {

@@ -18,7 +18,7 @@ const place = (p) => `(${fixed(p[0], 2)}, ${fixed(p[1], 2)}, ${fixed(p[2], 2)}) 
 export class Detail {
   // hooks: {explained(json|null), coverage(json|null, height), close(), actions(kind, name) → element|null}
   constructor(at, world, scale, hooks) {
-    Object.assign(this, {at, world, scale, hooks, shown: "", lastChart: 0, lastExplain: 0, request: 0, points: []});
+    Object.assign(this, {at, world, scale, hooks, shown: "", lastChart: 0, lastExplain: 0, request: 0});
   }
 
   #style() {
@@ -92,7 +92,7 @@ export class Detail {
   }
 
   #coverage(name) {
-    const height = h("input", {type: "number", step: "0.1", min: "0", max: "50", value: "1.0", id: "height", size: "5"});
+    const height = h("input", {type: "number", step: "0.1", min: "0", max: "50", value: "1.0", id: "height", class: "short"});
     const word = h("p", {class: "note", role: "status"});
     const legend = h("div", {hidden: true}, ...MARGINS.map(([, [r, g, b], text]) => {
       const swatch = h("span", {class: "swatch square"});
@@ -168,11 +168,12 @@ export class Detail {
   }
 
   #drawCharts(index) {
-    const {world, scale, points} = this;
+    const {world, scale} = this;
     const {log} = world;
     const to = Math.max(world.time, CHART_S / 6);
     const from = Math.max(to - CHART_S, 0);
     const [rssi, phase] = [[], []];
+    let lowest = 0;
     const antennas = new Set();
     const counts = new Map();
     for (let i = log.end - 1; i >= 0 && log.t[i] >= from && phase.length < 3 * MOST_POINTS; --i) {
@@ -181,12 +182,11 @@ export class Detail {
       counts.set(log.antenna[i], (counts.get(log.antenna[i]) ?? 0) + log.count[i]);
       phase.push(log.t[i], log.phase[i], log.antenna[i]);
       rssi.push(log.t[i], log.rssi[i], log.antenna[i]);
+      lowest = Math.min(lowest, log.rssi[i]);
     }
-    points.length = 0;
     const style = this.#style();
-    const title = (text) => ({...PHASE, title: text});
-    drawChart(this.charts[0], phase, from, to, title("Phase [rad]"), style);
-    drawChart(this.charts[1], rssi, from, to, {title: "RSSI [dBm]", low: scale.low, high: scale.high}, style);
+    drawChart(this.charts[0], phase, from, to, PHASE, style);
+    drawChart(this.charts[1], rssi, from, to, {title: "RSSI [dBm]", low: Math.min(scale.low, lowest), high: scale.high}, style);
     const reads = [...counts.values()].reduce((a, b) => a + b, 0);
     this.charts[0].setAttribute("aria-label", `Phase of ${reads} reads over time`);
     this.charts[1].setAttribute("aria-label", `RSSI of ${reads} reads over time`);
@@ -199,7 +199,6 @@ export class Detail {
       swatch.style.background = antennaColor(k);
       return h("span", {class: "key"}, swatch, h("span", {text: `${world.antennas[k].name}: ${counts.get(k)} reads`}));
     }) : [h("span", {class: "note", text: "No reads in this time."})]));
-    this.best = keys.reduce((a, b) => ((counts.get(b) ?? 0) > (counts.get(a) ?? -1) ? b : a), -1);
   }
 
   #choices() {
@@ -212,11 +211,12 @@ export class Detail {
     }
   }
 
-  // The antenna that reads it best of late; else the nearest.
+  // The antenna chosen; else the one that reads the tag strongest of late; else the nearest.
   #antennaFor(index) {
     const {world} = this;
     if (this.chosen && world.antennas[world.antennaIndex.get(this.chosen)]?.present) return this.chosen;
-    if (this.best >= 0 && world.antennas[this.best]?.present) return world.antennas[this.best].name;
+    const best = world.strongestAntenna(index);
+    if (best) return best.name;
     const p = world.position.subarray(3 * index, 3 * index + 3);
     let nearest = null;
     for (const antenna of world.antennas) {

@@ -21,7 +21,7 @@ export function buildFrame(host) {
     keep("status", h("p", {class: "status", role: "status", "aria-live": "polite"})),
     views,
     keep("beams", button("Beams", "Show the antennas' beams", {"aria-pressed": "true"})),
-    keep("theme", button("Dark", "Switch between light and dark")));
+    keep("theme", button("Dark", "Switch between light and dark", {class: "theme"})));
   const stage = h("div", {class: "stage"},
     keep("canvas", h("canvas", {tabindex: "0", role: "application",
       "aria-label": "The world in three dimensions. Arrows turn it, plus and minus zoom; the lists hold the same tags and antennas."})),

@@ -9,7 +9,7 @@ const PERIOD_MS = 500;
 export class Lists {
   // tabs: further ones beside tags and antennas, [{name, element}].
   constructor(at, world, scale, select) {
-    Object.assign(this, {world, scale, select, rows: [], shown: "tags", last: 0, order: []});
+    Object.assign(this, {world, scale, select, rows: [], shown: "tags", last: 0});
     this.search = h("input", {type: "search", placeholder: "Search", "aria-label": "Search tags and antennas",
                               oninput: () => this.rebuild()});
     this.sort = h("select", {"aria-label": "Order", onchange: () => this.rebuild()},
@@ -75,12 +75,22 @@ export class Lists {
     all.forEach((one, i) => {
       if (one.present && (one.id ?? one.name).toLowerCase().includes(words)) found.push(i);
     });
-    if (this.shown === "antennas" || this.sort.value === "name") {
-      return found.sort((a, b) => naturally(all[a].id ?? all[a].name, all[b].id ?? all[b].name));
-    }
+    if (this.shown === "antennas") return found.sort((a, b) => naturally(all[a].name, all[b].name));
+    const rank = this.#ranks();
+    if (this.sort.value === "name") return found.sort((a, b) => rank[a] - rank[b]);
     const key = this.sort.value === "rate" ? world.tagRate : world.strength;
-    const value = (i) => (Number.isNaN(key[i]) ? -Infinity : key[i]);
-    return found.sort((a, b) => value(b) - value(a) || naturally(all[a].id, all[b].id));
+    const value = (i) => (Number.isNaN(key[i]) ? -999 : key[i]);
+    return found.sort((a, b) => value(b) - value(a) || rank[a] - rank[b]);
+  }
+
+  // Places of the tags in the order of their names; comparing thousands of names takes long.
+  #ranks() {
+    const {tags} = this.world;
+    if (this.ranks?.length === tags.length) return this.ranks;
+    const order = tags.map((_, i) => i).sort((a, b) => naturally(tags[a].id, tags[b].id));
+    this.ranks = new Int32Array(tags.length);
+    order.forEach((tag, place) => (this.ranks[tag] = place));
+    return this.ranks;
   }
 
   rebuild() {
@@ -145,6 +155,7 @@ export class Lists {
     const anew = changed.has("tags-list") || changed.has("antennas");
     if (!anew && !changed.has("selection") && now - this.last < PERIOD_MS) return true;
     this.last = now;
+    if (changed.has("tags-list")) this.ranks = null;
     if (anew || this.sort.value !== "name") this.rebuild();
     else this.refresh();
     return false;
