@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/explain_text.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "tagfield/planning/explanation_json.h"
 #include "tagfield/planning/moment.h"
 
 namespace tagfield {

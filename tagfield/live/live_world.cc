@@ -88,6 +88,7 @@ class LiveWorld::Impl {
   std::vector<LiveAntenna> antennas;
   std::map<std::string, ReaderDuty> duties;  ///< By reader; none where it is as the scenario says.
   std::vector<std::shared_ptr<LiveMember>> members;
+  std::uint64_t revision = 0;
 
  private:
   void do_tasks(LiveWorld& world);
@@ -116,6 +117,8 @@ void LiveWorld::Impl::do_tasks(LiveWorld& world) {
     tasks.swap(tasks_);
   }
   for (const Task& task : tasks) task(world);
+  if (tasks.empty()) return;
+  for (const auto& member : members) member->on_tasks(world);
 }
 
 void LiveWorld::Impl::wait_until(LiveClock::Wall wall) {
@@ -249,6 +252,7 @@ void LiveWorld::post(Task task) { impl_->post(std::move(task)); }
 void LiveWorld::run(const std::atomic<bool>& stop) { impl_->run(*this, stop); }
 
 Time LiveWorld::now() const { return impl_->simulation.now(); }
+std::uint64_t LiveWorld::revision() const { return impl_->revision; }
 const Scenario& LiveWorld::scenario() const { return impl_->scenario; }
 double LiveWorld::speed() const { return impl_->clock.speed(); }
 double LiveWorld::pace() const {
@@ -281,6 +285,7 @@ void LiveWorld::add_tag(const TagSpec& tag) {
                             [&](const TagSpec& other) { return other.id == tag.id; }),
              tags.end());
   tags.push_back(tag);
+  ++impl_->revision;
 }
 
 void LiveWorld::remove_tag(const std::string& id) {
@@ -288,6 +293,7 @@ void LiveWorld::remove_tag(const std::string& id) {
   impl_->simulation.remove_tag(id);
   std::vector<TagSpec>& tags = impl_->scenario.tags;
   tags.erase(tags.begin() + (tag - tags.data()));
+  ++impl_->revision;
 }
 
 void LiveWorld::move_tag(const std::string& id, const RigidTransform& X_WT) {
@@ -296,6 +302,7 @@ void LiveWorld::move_tag(const std::string& id, const RigidTransform& X_WT) {
   impl_->simulation.move_tag(id, X_WT);
   tag.on.clear();
   tag.motion = {{now(), X_WT}};
+  ++impl_->revision;
 }
 
 void LiveWorld::detune_tag(const std::string& id, double detuning_db) {
@@ -310,6 +317,7 @@ void LiveWorld::detune_tag(const std::string& id, double detuning_db) {
   impl_->simulation.remove_tag(id);
   impl_->simulation.add_tag(detuned);
   tag = detuned;
+  ++impl_->revision;
 }
 
 std::vector<LivePose> LiveWorld::tags() const {
@@ -317,6 +325,15 @@ std::vector<LivePose> LiveWorld::tags() const {
   all.reserve(impl_->scenario.tags.size());
   for (const TagSpec& tag : impl_->scenario.tags) {
     if (!impl_->simulation.has_tag(tag.id)) continue;
+    all.push_back({tag.id, impl_->simulation.tag_pose(tag, now())});
+  }
+  return all;
+}
+
+std::vector<LivePose> LiveWorld::moving_tags() const {
+  std::vector<LivePose> all;
+  for (const TagSpec& tag : impl_->scenario.tags) {
+    if (!moves(tag) || !impl_->simulation.has_tag(tag.id)) continue;
     all.push_back({tag.id, impl_->simulation.tag_pose(tag, now())});
   }
   return all;
@@ -333,6 +350,7 @@ void LiveWorld::add_antenna(const AntennaSpec& antenna) {
   LiveAntenna added{antenna, false, false};
   impl_->apply_duty(added);
   impl_->antennas.push_back(added);
+  ++impl_->revision;
 }
 
 void LiveWorld::remove_antenna(const std::string& name) {
@@ -344,6 +362,7 @@ void LiveWorld::remove_antenna(const std::string& name) {
                         duty.antennas.end());
   }
   impl_->antennas.erase(impl_->antennas.begin() + (&antenna - impl_->antennas.data()));
+  ++impl_->revision;
 }
 
 void LiveWorld::move_antenna(const std::string& name, const RigidTransform& X_WA) {
@@ -355,6 +374,7 @@ void LiveWorld::move_antenna(const std::string& name, const RigidTransform& X_WA
   antenna.spec.lift = {};
   antenna.spec.recorded.clear();
   impl_->apply_duty(antenna);
+  ++impl_->revision;
 }
 
 void LiveWorld::set_antenna_faulty(const std::string& name, bool is_faulty) {
@@ -362,6 +382,7 @@ void LiveWorld::set_antenna_faulty(const std::string& name, bool is_faulty) {
   if (antenna.is_faulty == is_faulty) return;
   antenna.is_faulty = is_faulty;
   impl_->apply_duty(antenna);
+  ++impl_->revision;
 }
 
 const std::vector<LiveAntenna>& LiveWorld::antennas() const { return impl_->antennas; }
@@ -416,6 +437,7 @@ void LiveWorld::add_obstacle(const ObstacleSpec& obstacle) {
   }
   impl_->simulation.add_obstacle(obstacle);
   all.push_back(obstacle);
+  ++impl_->revision;
 }
 
 void LiveWorld::remove_obstacle(const std::string& name) {
@@ -425,6 +447,7 @@ void LiveWorld::remove_obstacle(const std::string& name) {
   if (found == all.end()) throw Error(fmt::format("there is no obstacle called '{}'", name));
   impl_->simulation.remove_obstacle(name);
   all.erase(found);
+  ++impl_->revision;
 }
 
 std::vector<LivePose> LiveWorld::robots() const {

@@ -29,6 +29,8 @@ class LiveMember {
 
   /// After each step, all reads up to `now` that can be told having been told.
   virtual void on_step(LiveWorld& world, Time now) = 0;
+  /// After tasks were done, also while it is paused.
+  virtual void on_tasks(LiveWorld& /*world*/) {}
 };
 
 /// An antenna of a live world, as it is now.
@@ -71,6 +73,9 @@ class LiveWorld {
   void run(const std::atomic<bool>& stop);
 
   [[nodiscard]] Time now() const;
+  /// Grows whenever tags, antennas or obstacles come, go or are put elsewhere by those who use
+  /// this.
+  [[nodiscard]] std::uint64_t revision() const;
   [[nodiscard]] const Scenario& scenario() const;  ///< With all changes made since.
   [[nodiscard]] double speed() const;
   /// How fast it goes on, as a multiple of real time, over the last second or so; 0 when paused.
@@ -91,6 +96,8 @@ class LiveWorld {
   /// So much loss by what it is mounted on, each way, instead of what it had [dB].
   void detune_tag(const std::string& id, double detuning_db);
   [[nodiscard]] std::vector<LivePose> tags() const;
+  /// Those that move, or ride on a robot.
+  [[nodiscard]] std::vector<LivePose> moving_tags() const;
 
   void add_antenna(const AntennaSpec& antenna);
   void remove_antenna(const std::string& name);

@@ -21,9 +21,16 @@ void LiveClock::anchor(Time now, Wall wall) {
   anchor_wall_ = wall;
 }
 
+void LiveClock::measure_from(Time now, Wall wall) {
+  second_ = now;
+  second_wall_ = wall;
+  pace_ = 0.0;
+}
+
 void LiveClock::set_speed(double speed, Time now, Wall wall) {
   speed_ = speed;
   anchor(now, wall);
+  measure_from(now, wall);
 }
 
 void LiveClock::pause() { until_ = Time::min(); }
@@ -35,9 +42,7 @@ void LiveClock::run_until(Time until, Time now, Wall wall) {
   until_ = until;
   if (goes_on) return;
   anchor(now, wall);
-  second_ = now;
-  second_wall_ = wall;
-  pace_ = 0.0;
+  measure_from(now, wall);
 }
 
 LiveClock::Wall LiveClock::due(Time end) const {

@@ -34,6 +34,7 @@ class LiveClock {
 
  private:
   void anchor(Time now, Wall wall);
+  void measure_from(Time now, Wall wall);
 
   double speed_;
   Time until_;

@@ -1,0 +1,427 @@
+#include "adapters/http/api.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "adapters/http/json_arguments.h"
+#include "adapters/http/target.h"
+#include "adapters/http/world_json.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/units.h"
+#include "tagfield/planning/coverage.h"
+#include "tagfield/planning/explanation_json.h"
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/simulator/simulation.h"
+
+namespace tagfield::http {
+namespace {
+
+/// A hall is at most 100 km, as in scenarios.
+constexpr double kMostPlace_m = 1e5;
+constexpr double kMostStep_s = 1e6;
+constexpr std::size_t kMostCoverageCells = 40'000;
+/// What is added by others, besides the scenario's own.
+constexpr std::size_t kMostTags = 200'000;
+constexpr std::size_t kMostAntennas = 1'000;
+constexpr std::size_t kMostObstacles = 10'000;
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+RigidTransform pose_of(const std::vector<double>& n) {
+  RigidTransform X = from_translation({n[0], n[1], n[2]});
+  X.rotation = Eigen::AngleAxisd(n[5], Eigen::Vector3d::UnitZ()) *
+               Eigen::AngleAxisd(n[4], Eigen::Vector3d::UnitY()) *
+               Eigen::AngleAxisd(n[3], Eigen::Vector3d::UnitX());
+  return X;
+}
+
+RigidTransform place_of(JsonArguments& body) {
+  const std::vector<double> p = body.numbers("position", 3, kMostPlace_m);
+  return from_translation({p[0], p[1], p[2]});
+}
+
+template <class Items>
+void require_room(const Items& items, std::size_t most, const char* what) {
+  if (items.size() >= most) throw Error(fmt::format("there are {} {} already", most, what));
+}
+
+const TagSpec& tag_in(const LiveWorld& world, const std::string& id) {
+  for (const TagSpec& tag : world.scenario().tags) {
+    if (tag.id == id) return tag;
+  }
+  throw Error(fmt::format("there is no tag with the ID '{}'", id));
+}
+
+const LiveAntenna& antenna_in(const LiveWorld& world, const std::string& name) {
+  for (const LiveAntenna& antenna : world.antennas()) {
+    if (antenna.spec.parameters.name == name) return antenna;
+  }
+  throw Error(fmt::format("there is no antenna called '{}'", name));
+}
+
+/// A tag like another one of the world's, or like its first.
+TagSpec tag_of(JsonArguments& body, const LiveWorld& world) {
+  TagSpec tag;
+  tag.id = body.text("id");
+  tag.motion = {{world.now(), place_of(body)}};
+  tag.appears = world.now();
+  const std::vector<TagSpec>& others = world.scenario().tags;
+  if (body.has("like")) {
+    const TagSpec& other = tag_in(world, body.text("like"));
+    tag.model = other.model;
+    tag.motion.front().X_WB.rotation = other.motion.front().X_WB.rotation;
+  } else if (!others.empty()) {
+    tag.model = others.front().model;
+  }
+  return tag;
+}
+
+/// What waves don't notice would change nothing.
+void require_notice(const LiveWorld& world) {
+  const auto& antennas = world.antennas();
+  const bool any = std::any_of(antennas.begin(), antennas.end(), [](const LiveAntenna& antenna) {
+    const RadioModel* const model = physical(antenna.spec.parameters);
+    return model != nullptr && model->effects.bodies;
+  });
+  if (!any) {
+    throw Error("no antenna here notices it: those of the paper's model read through anything");
+  }
+}
+
+ObstacleSpec obstacle_of(JsonArguments& body, const LiveWorld& world) {
+  ObstacleSpec obstacle;
+  obstacle.name = body.text("name");
+  const std::vector<double> p = body.numbers("position", 2, kMostPlace_m);
+  obstacle.motion = {{Time{}, from_translation({p[0], p[1], 0.0})}};
+  if (body.has("radius") == body.has("size")) {
+    throw Error("either 'radius' (round) or 'size' ([length, width]) is needed");
+  }
+  if (body.has("radius")) {
+    obstacle.radius_m = body.number("radius", 1e-3, 1e3);
+  } else {
+    const std::vector<double> size = body.numbers("size", 2, 1e3);
+    if (!(size[0] >= 1e-3 && size[1] >= 1e-3)) throw Error("'size' must be 1 mm or more each way");
+    obstacle.size_m = {size[0], size[1]};
+  }
+  obstacle.yaw_rad = radians(body.number("yaw_deg", -360.0, 360.0, 0.0));
+  BodySpec solid;
+  solid.height_m = body.number("height", 1e-3, 1e3, solid.height_m);
+  const std::string material = body.has("material") ? body.text("material") : "metal";
+  solid.material = find_material(world.scenario().materials.materials, material);
+  obstacle.body = solid;
+  return obstacle;
+}
+
+/// What is asked for of a floor's coverage.
+struct CoverageQuestion {
+  Scenario scenario;
+  std::vector<DriveSample> samples;
+  CoverageRequest request;
+  double height_m = 0.0;
+};
+
+/// Around the antenna, as far as it may read.
+CoverageGrid grid_around(const Eigen::Vector3d& p_WA, double range_m, double cell_m) {
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(std::min(range_m, 100.0));
+  const Eigen::AlignedBox2d region(p_WA.head<2>() - reach, p_WA.head<2>() + reach);
+  return grid_over(region, cell_m, kMostCoverageCells);
+}
+
+double number_in(const Target& target, const std::string& key, double least, double most,
+                 double otherwise) {
+  const auto text = target.query(key);
+  if (!text) return otherwise;
+  char* end = nullptr;
+  const double number = std::strtod(text->c_str(), &end);
+  if (text->empty() || *end != '\0' || !(number >= least && number <= most)) {
+    throw Error(fmt::format("'{}' must be from {:g} to {:g}", key, least, most));
+  }
+  return number;
+}
+
+std::string word_in(const Target& target, const std::string& key) {
+  const auto text = target.query(key);
+  if (!text) throw Error(fmt::format("'?{}=…' is missing", key));
+  return *text;
+}
+
+CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
+                                   std::uint64_t seed) {
+  const LiveAntenna& antenna = antenna_in(world, word_in(target, "antenna"));
+  CoverageQuestion question;
+  const Scenario& scenario = world.scenario();
+  question.scenario.materials = scenario.materials;
+  question.scenario.radio_world = radio_world_of(scenario);
+  question.scenario.antennas = {antenna.spec};
+  const RigidTransform X_WA = world.antenna_pose(antenna);
+  question.samples = {{world.now(), {X_WA}, {}}};
+  question.height_m = number_in(target, "height", -1e3, 1e3, 1.0);
+  const double cell_m = number_in(target, "cell", 0.01, 10.0, 0.25);
+  CoverageRequest& request = question.request;
+  request.antennas = {0};
+  request.tag = scenario.tags.empty() || !scenario.tags.front().model ? default_tag_model()
+                                                                      : scenario.tags.front().model;
+  request.heights_m = {question.height_m};
+  const double range_m = antenna_json(antenna.spec, X_WA, 1)["range"].get<double>();
+  request.grid = grid_around(X_WA.translation, range_m, cell_m);
+  request.seed = seed;
+  return question;
+}
+
+ApiResponse coverage_response(const CoverageQuestion& question) {
+  const Coverage coverage = cover(question.scenario, question.samples, question.request);
+  const CoverageGrid& grid = coverage.grid;
+  Json margins = Json::array();
+  Json probabilities = Json::array();
+  for (const CoverageCell& cell : coverage.layers.front().cells) {
+    const bool has_power = cell.margin_db > kLeastPower_db;
+    margins.push_back(has_power ? Json(std::round(cell.margin_db * 100.0) / 100.0) : Json(nullptr));
+    probabilities.push_back(std::round(cell.probability * 1e4) / 1e4);
+  }
+  return {200, text_of({{"x0", grid.corner_m.x()},
+                        {"y0", grid.corner_m.y()},
+                        {"cell", grid.step_m},
+                        {"columns", grid.columns},
+                        {"rows", grid.rows},
+                        {"height", question.height_m},
+                        {"margin_db", std::move(margins)},
+                        {"probability", std::move(probabilities)}})};
+}
+
+}  // namespace
+
+ApiResponse api_error(int status, const std::string& message) {
+  return {status, text_of({{"error", message}})};
+}
+
+bool is_command(const ApiRequest& request) { return request.method != "GET"; }
+
+class Api::Impl {
+ public:
+  Impl(const Scene& scene, const Scenario& scenario, std::uint64_t seed)
+      : solids(solids_json(scene, scenario)), paths(paths_json(scenario)), seed(seed) {}
+
+  struct Call {
+    LiveWorld& world;
+    const Target& target;
+    JsonArguments& body;
+    const std::atomic<bool>& stop;
+  };
+  using Handler = ApiAnswer (Impl::*)(Call&);
+  struct Route {
+    const char* method;
+    const char* path;
+    Handler handler;
+  };
+  static const std::vector<Route>& all_routes();
+
+  static Json status_json(const LiveWorld& world) {
+    return {{"name", world.scenario().name},
+            {"mode", "live"},
+            {"time", to_seconds(world.now())},
+            {"speed", world.speed()},
+            {"pace", world.pace()},
+            {"paused", world.is_paused()},
+            {"tags", world.tags().size()},
+            {"antennas", world.antennas().size()},
+            {"readers", world.readers()},
+            {"duration", nullptr}};
+  }
+  static ApiAnswer done(const LiveWorld& world) {
+    return ApiResponse{200, text_of(status_json(world))};
+  }
+  static std::string name_in(const Call& call) { return call.target.parts[2]; }
+
+  ApiAnswer status(Call& call) { return done(call.world); }
+  ApiAnswer scene(Call& call) {
+    Json json = solids;
+    json["obstacles"] = obstacles_json(call.world);
+    json["paths"] = paths;
+    return ApiResponse{200, text_of(json)};
+  }
+  ApiAnswer antennas(Call& call) { return ApiResponse{200, text_of(antennas_json(call.world))}; }
+  ApiAnswer tags(Call& call) { return ApiResponse{200, text_of(tags_json(call.world))}; }
+  ApiAnswer explain(Call& call) {
+    return ApiResponse{200, text_of(to_json(call.world.explain(word_in(call.target, "antenna"),
+                                                               word_in(call.target, "tag"))))};
+  }
+  ApiAnswer coverage(Call& call) {
+    auto question =
+        std::make_shared<CoverageQuestion>(coverage_question(call.world, call.target, seed));
+    question->request.stop = &call.stop;
+    return [question] { return coverage_response(*question); };
+  }
+
+  ApiAnswer pause(Call& call) {
+    call.body.finish();
+    call.world.pause();
+    return done(call.world);
+  }
+  ApiAnswer resume(Call& call) {
+    call.body.finish();
+    call.world.resume();
+    return done(call.world);
+  }
+  ApiAnswer step(Call& call) {
+    const double seconds = call.body.number("seconds", 1e-6, kMostStep_s);
+    call.body.finish();
+    call.world.advance(duration_from_seconds(seconds));
+    return done(call.world);
+  }
+  ApiAnswer speed(Call& call) {
+    const double speed = call.body.number("speed", 0.0, 1e6);
+    call.body.finish();
+    call.world.set_speed(speed);
+    return done(call.world);
+  }
+
+  ApiAnswer add_tag(Call& call) {
+    require_room(call.world.scenario().tags, kMostTags, "tags");
+    const TagSpec tag = tag_of(call.body, call.world);
+    call.body.finish();
+    call.world.add_tag(tag);
+    return done(call.world);
+  }
+  ApiAnswer remove_tag(Call& call) {
+    call.world.remove_tag(name_in(call));
+    return done(call.world);
+  }
+  ApiAnswer move_tag(Call& call) {
+    RigidTransform X_WT = place_of(call.body);
+    call.body.finish();
+    X_WT.rotation = tag_in(call.world, name_in(call)).motion.front().X_WB.rotation;
+    call.world.move_tag(name_in(call), X_WT);
+    return done(call.world);
+  }
+  ApiAnswer detune_tag(Call& call) {
+    const double db = call.body.number("db", 0.0, 100.0);
+    call.body.finish();
+    const auto& antennas = call.world.antennas();
+    if (std::none_of(antennas.begin(), antennas.end(), [](const LiveAntenna& antenna) {
+          return physical(antenna.spec.parameters) != nullptr;
+        })) {
+      throw Error("no antenna here notices it: the paper's model knows no tags' losses");
+    }
+    call.world.detune_tag(name_in(call), db);
+    return done(call.world);
+  }
+
+  ApiAnswer add_antenna(Call& call) {
+    require_room(call.world.antennas(), kMostAntennas, "antennas");
+    AntennaSpec added;
+    added.parameters = antenna_in(call.world, call.body.text("like")).spec.parameters;
+    added.parameters.name = call.body.text("name");
+    if (call.body.has("reader")) added.parameters.reader = call.body.text("reader");
+    added.X_PA = pose_of(call.body.numbers("pose", 6, kMostPlace_m));
+    call.body.finish();
+    call.world.add_antenna(added);
+    return done(call.world);
+  }
+  ApiAnswer remove_antenna(Call& call) {
+    call.world.remove_antenna(name_in(call));
+    return done(call.world);
+  }
+  ApiAnswer move_antenna(Call& call) {
+    const RigidTransform X_WA = pose_of(call.body.numbers("pose", 6, kMostPlace_m));
+    call.body.finish();
+    call.world.move_antenna(name_in(call), X_WA);
+    return done(call.world);
+  }
+  ApiAnswer disconnect(Call& call) {
+    call.body.finish();
+    call.world.set_antenna_faulty(name_in(call), true);
+    return done(call.world);
+  }
+  ApiAnswer connect(Call& call) {
+    call.body.finish();
+    call.world.set_antenna_faulty(name_in(call), false);
+    return done(call.world);
+  }
+
+  ApiAnswer add_obstacle(Call& call) {
+    require_room(call.world.scenario().obstacles, kMostObstacles, "obstacles");
+    require_notice(call.world);
+    const ObstacleSpec obstacle = obstacle_of(call.body, call.world);
+    call.body.finish();
+    call.world.add_obstacle(obstacle);
+    return done(call.world);
+  }
+  ApiAnswer remove_obstacle(Call& call) {
+    call.world.remove_obstacle(name_in(call));
+    return done(call.world);
+  }
+
+  Json solids;
+  Json paths;
+  std::uint64_t seed;
+};
+
+const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
+  static const std::vector<Route> all = {
+      {"GET", "/api/status", &Impl::status},
+      {"GET", "/api/scene", &Impl::scene},
+      {"GET", "/api/antennas", &Impl::antennas},
+      {"GET", "/api/tags", &Impl::tags},
+      {"GET", "/api/explain", &Impl::explain},
+      {"GET", "/api/coverage", &Impl::coverage},
+      {"POST", "/api/pause", &Impl::pause},
+      {"POST", "/api/resume", &Impl::resume},
+      {"POST", "/api/step", &Impl::step},
+      {"POST", "/api/speed", &Impl::speed},
+      {"POST", "/api/tags", &Impl::add_tag},
+      {"DELETE", "/api/tags/{id}", &Impl::remove_tag},
+      {"POST", "/api/tags/{id}/move", &Impl::move_tag},
+      {"POST", "/api/tags/{id}/detune", &Impl::detune_tag},
+      {"POST", "/api/antennas", &Impl::add_antenna},
+      {"DELETE", "/api/antennas/{name}", &Impl::remove_antenna},
+      {"POST", "/api/antennas/{name}/move", &Impl::move_antenna},
+      {"POST", "/api/antennas/{name}/disconnect", &Impl::disconnect},
+      {"POST", "/api/antennas/{name}/connect", &Impl::connect},
+      {"POST", "/api/obstacles", &Impl::add_obstacle},
+      {"DELETE", "/api/obstacles/{name}", &Impl::remove_obstacle},
+  };
+  return all;
+}
+
+Api::Api(const Scene& scene, const Scenario& scenario, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(scene, scenario, seed)) {}
+Api::~Api() = default;
+Api::Api(Api&&) noexcept = default;
+Api& Api::operator=(Api&&) noexcept = default;
+
+std::vector<std::string> Api::routes() {
+  std::vector<std::string> all;
+  for (const Impl::Route& route : Impl::all_routes()) {
+    all.push_back(fmt::format("{} {}", route.method, route.path));
+  }
+  return all;
+}
+
+ApiAnswer Api::answer(LiveWorld& world, const ApiRequest& request, const std::atomic<bool>& stop) {
+  try {
+    const std::optional<Target> target = parsed_target(request.target);
+    if (!target) return api_error(400, "the address is malformed");
+    bool is_path = false;
+    for (const Impl::Route& route : Impl::all_routes()) {
+      if (!matches(*target, route.path)) continue;
+      is_path = true;
+      if (request.method != route.method) continue;
+      JsonArguments body(request.body);
+      Impl::Call call{world, *target, body, stop};
+      return ((*impl_).*(route.handler))(call);
+    }
+    return is_path ? api_error(405, fmt::format("{} is not for this address", request.method))
+                   : api_error(404, "there is no such address; see /api/openapi.json");
+  } catch (const Error& error) {
+    return api_error(400, error.what());
+  }
+}
+
+}  // namespace tagfield::http

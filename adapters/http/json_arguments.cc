@@ -1,0 +1,83 @@
+#include "adapters/http/json_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield::http {
+namespace {
+
+constexpr std::size_t kMostText = 1000;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+double finite_within(const nlohmann::json& value, double least, double most,
+                     const std::string& what) {
+  if (!value.is_number()) throw Error(fmt::format("{} must be a number", what));
+  const auto number = value.get<double>();
+  if (!(number >= least && number <= most)) {
+    throw Error(fmt::format("{} must be from {:g} to {:g}, is {:g}", what, least, most, number));
+  }
+  return number;
+}
+
+}  // namespace
+
+JsonArguments::JsonArguments(const std::string& body) : values_(nlohmann::json::object()) {
+  if (body.empty()) return;
+  values_ = nlohmann::json::parse(body, nullptr, false);
+  if (values_.is_discarded()) throw Error("the body is no JSON");
+  if (!values_.is_object()) throw Error("the body must be a JSON object");
+}
+
+bool JsonArguments::has(const std::string& key) const { return values_.contains(key); }
+
+const nlohmann::json& JsonArguments::at(const std::string& key) {
+  const auto found = values_.find(key);
+  if (found == values_.end()) throw Error(fmt::format("'{}' is missing", key));
+  taken_.insert(key);
+  return *found;
+}
+
+std::string JsonArguments::text(const std::string& key) {
+  const nlohmann::json& value = at(key);
+  if (!value.is_string()) throw Error(fmt::format("'{}' must be text", key));
+  auto text = value.get<std::string>();
+  if (text.empty() || text.size() > kMostText ||
+      std::any_of(text.begin(), text.end(), is_control)) {
+    throw Error(
+        fmt::format("'{}' must have 1 to {} bytes without control characters", key, kMostText));
+  }
+  return text;
+}
+
+double JsonArguments::number(const std::string& key, double least, double most) {
+  return finite_within(at(key), least, most, "'" + key + "'");
+}
+
+double JsonArguments::number(const std::string& key, double least, double most, double otherwise) {
+  return has(key) ? number(key, least, most) : otherwise;
+}
+
+std::vector<double> JsonArguments::numbers(const std::string& key, std::size_t count, double most) {
+  const nlohmann::json& value = at(key);
+  if (!value.is_array() || value.size() != count) {
+    throw Error(fmt::format("'{}' must be a list of {} numbers", key, count));
+  }
+  std::vector<double> numbers;
+  for (const nlohmann::json& entry : value) {
+    numbers.push_back(finite_within(entry, -most, most, "each number of '" + key + "'"));
+  }
+  return numbers;
+}
+
+void JsonArguments::finish() const {
+  for (const auto& [key, value] : values_.items()) {
+    if (taken_.count(key) == 0) throw Error(fmt::format("'{}' is not known here", key));
+  }
+}
+
+}  // namespace tagfield::http

@@ -1,0 +1,39 @@
+/// @file
+/// What a request's body asks for: one JSON object, taken apart with care.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tagfield::http {
+
+/// Takes the values of a JSON object one by one. All throw Error, one line that names the key and
+/// what was expected.
+class JsonArguments {
+ public:
+  /// `body`: a JSON object, or nothing at all for one without keys.
+  explicit JsonArguments(const std::string& body);
+
+  [[nodiscard]] bool has(const std::string& key) const;
+  /// 1 to 1000 bytes without control characters.
+  std::string text(const std::string& key);
+  /// Finite and from `least` to `most`.
+  double number(const std::string& key, double least, double most);
+  double number(const std::string& key, double least, double most, double otherwise);
+  /// So many finite numbers within ±`most`.
+  std::vector<double> numbers(const std::string& key, std::size_t count, double most);
+  /// Complains of keys that nobody asked for.
+  void finish() const;
+
+ private:
+  const nlohmann::json& at(const std::string& key);
+
+  nlohmann::json values_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace tagfield::http

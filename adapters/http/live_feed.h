@@ -1,0 +1,96 @@
+/// @file
+/// What happens in a live world, told to those who watch: frames for pages, reads for programs.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tagfield/live/live_world.h"
+#include "tagfield/stream/listeners.h"
+
+namespace tagfield::http {
+
+/// Reads of one step, each as a line of JSON.
+struct ReadLines {
+  std::vector<TagRead> reads;
+  std::vector<std::string> lines;  ///< Ending in a newline; of the same number.
+};
+
+/// Gets frames. Called by the thread that simulates: it must return at once.
+class FrameClient {
+ public:
+  FrameClient() = default;
+  virtual ~FrameClient() = default;
+  FrameClient(const FrameClient&) = delete;
+  FrameClient& operator=(const FrameClient&) = delete;
+  virtual void on_frame(std::shared_ptr<const std::string> frame) = 0;
+};
+
+/// Gets reads; likewise.
+class ReadClient {
+ public:
+  ReadClient() = default;
+  virtual ~ReadClient() = default;
+  ReadClient(const ReadClient&) = delete;
+  ReadClient& operator=(const ReadClient&) = delete;
+  virtual void on_reads(std::shared_ptr<const ReadLines> reads) = 0;
+};
+
+/// An outlet and a member of a live world. Nothing is put into words while nobody listens.
+class LiveFeed final : public ReadListener, public LiveMember {
+ public:
+  // From any thread; a client that is no more is forgotten.
+  void add(std::weak_ptr<FrameClient> client);
+  void add(std::weak_ptr<ReadClient> client);
+  [[nodiscard]] std::int64_t reads() const { return count_; }
+
+  void on_read(const TagRead& read) override;
+  void on_step(LiveWorld& world, Time now) override;
+  void on_tasks(LiveWorld& world) override;
+
+ private:
+  /// A tag's last read by an antenna, and how many there were.
+  struct LastRead {
+    TagRead read;
+    int count = 0;
+  };
+  /// What a frame says of how the world goes on.
+  struct Going {
+    Time now;
+    bool is_paused = false;
+    double speed = 0.0;
+    std::uint64_t revision = 0;
+    bool operator==(const Going& other) const {
+      return now == other.now && is_paused == other.is_paused && speed == other.speed &&
+             revision == other.revision;
+    }
+  };
+  template <class Client, class Message>
+  void tell(std::vector<std::weak_ptr<Client>>& clients, std::atomic<bool>& any,
+            const Message& message, void (Client::*take)(Message));
+  void tell_reads(const LiveWorld& world);
+  void tell_frame(const LiveWorld& world);
+  std::string frame_of(const LiveWorld& world, const Going& going);
+
+  std::mutex lock_;  ///< Of the clients.
+  std::vector<std::weak_ptr<FrameClient>> frame_clients_;
+  std::vector<std::weak_ptr<ReadClient>> read_clients_;
+  std::atomic<bool> has_frame_clients_{false};
+  std::atomic<bool> has_read_clients_{false};
+  std::atomic<std::int64_t> count_{0};
+
+  // Of the thread that simulates.
+  std::vector<TagRead> fresh_;
+  std::map<std::pair<std::string, std::string>, LastRead> last_;  ///< By tag and antenna.
+  std::chrono::steady_clock::time_point framed_{};
+  Going told_;
+};
+
+}  // namespace tagfield::http

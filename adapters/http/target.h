@@ -1,0 +1,31 @@
+/// @file
+/// The address that a request asks for, taken apart.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tagfield::http {
+
+/// "/api/tags/tag%201/move?to=x" as {"api", "tags", "tag 1", "move"} and {"to": "x"}.
+struct Target {
+  std::vector<std::string> parts;
+  std::map<std::string, std::string> values;
+
+  [[nodiscard]] std::optional<std::string> query(const std::string& key) const {
+    const auto found = values.find(key);
+    if (found == values.end()) return std::nullopt;
+    return found->second;
+  }
+};
+
+/// None where it does not begin with '/' or holds a broken escape, or one of a control character.
+std::optional<Target> parsed_target(std::string_view target);
+
+/// Whether the parts are those of `pattern`, in which "{…}" stands for any one part.
+bool matches(const Target& target, std::string_view pattern);
+
+}  // namespace tagfield::http

@@ -1,0 +1,219 @@
+#include "adapters/http/world_json.h"
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tagfield/base/units.h"
+#include "tagfield/channel/radio_world.h"
+#include "tagfield/field/antenna_facts.h"
+#include "tagfield/reader/radio_model.h"
+
+namespace tagfield::http {
+namespace {
+
+/// Of a beam's grid: fine enough for its half-power line, small enough for a page.
+constexpr int kPolarSteps = 36;
+constexpr int kAzimuthSteps = 24;
+constexpr double kLeastGain_db = -40.0;
+
+Json point_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Json mesh_json(const TriangleMesh& mesh) {
+  Json vertices = Json::array();
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    // A tenth of a millimetre is enough to look at.
+    for (int i = 0; i < 3; ++i) vertices.push_back(std::round(vertex[i] * 1e4) / 1e4);
+  }
+  Json triangles = Json::array();
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) triangles.push_back(corner);
+  }
+  return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
+}
+
+/// Each mesh once, however many show it.
+class Meshes {
+ public:
+  std::size_t number_of(const MeshPtr& mesh) {
+    const auto [entry, is_new] = numbers_.emplace(mesh.get(), json_.size());
+    if (is_new) json_.push_back(mesh_json(*mesh));
+    return entry->second;
+  }
+  Json take() { return std::move(json_); }
+
+ private:
+  std::map<const TriangleMesh*, std::size_t> numbers_;
+  Json json_ = Json::array();
+};
+
+void add_shape(const Shape& shape, Meshes& meshes, Json& solid) {
+  if (const auto* box = std::get_if<Box>(&shape)) solid["box"] = point_json(box->size);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    solid["cylinder"] = {cylinder->radius, cylinder->length};
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) solid["sphere"] = sphere->radius;
+  if (const auto* plane = std::get_if<Plane>(&shape)) {
+    solid["plane"] = {plane->size.x(), plane->size.y()};
+    solid["normal"] = point_json(plane->normal);
+  }
+  if (const auto* mesh = std::get_if<MeshPtr>(&shape)) solid["mesh"] = meshes.number_of(*mesh);
+}
+
+/// What each collision is made of; "" where that can't be said.
+std::vector<std::string> materials_of(const Scene& scene, const Scenario& scenario) {
+  std::vector<std::string> names(scene.collisions.size());
+  Diagnostics unheard;  // Loading the world has warned of it where it matters.
+  try {
+    const RadioWorld world = radio_world(scene, scenario.materials, unheard);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      names[i] = world.materials[world.material_of[i]].name;
+    }
+  } catch (const Error&) {
+    // A world that waves can't be traced in can be looked at all the same.
+    return names;
+  }
+  return names;
+}
+
+std::size_t port_of(const LiveWorld& world, const LiveAntenna& antenna) {
+  std::size_t port = 1;
+  for (const LiveAntenna& other : world.antennas()) {
+    if (&other == &antenna) break;
+    if (other.spec.parameters.reader == antenna.spec.parameters.reader) ++port;
+  }
+  return port;
+}
+
+}  // namespace
+
+Json pose_json(const RigidTransform& X) {
+  const Eigen::Vector3d& p = X.translation;
+  const Eigen::Quaterniond& q = X.rotation;
+  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Json solids_json(const Scene& scene, const Scenario& scenario) {
+  const std::vector<std::string> materials = materials_of(scene, scenario);
+  Meshes meshes;
+  Json solids = Json::array();
+  for (std::size_t i = 0; i < scene.collisions.size(); ++i) {
+    const Collision& collision = scene.collisions[i];
+    Json solid = {
+        {"name", collision.name}, {"material", materials[i]}, {"pose", pose_json(collision.X_WC)}};
+    add_shape(collision.shape, meshes, solid);
+    solids.push_back(std::move(solid));
+  }
+  return {{"name", scenario.name},
+          {"description", scenario.description},
+          {"solids", std::move(solids)},
+          {"meshes", meshes.take()},
+          {"map", nullptr}};
+}
+
+Json obstacles_json(const LiveWorld& world) {
+  Json all = Json::array();
+  for (const ObstacleSpec& obstacle : world.scenario().obstacles) {
+    if (!is_there(obstacle, world.now())) continue;
+    const Eigen::Vector3d p_W = held_pose_at(obstacle.motion, world.now()).translation;
+    all.push_back({{"name", obstacle.name},
+                   {"position", {p_W.x(), p_W.y()}},
+                   {"size", {obstacle.size_m.x(), obstacle.size_m.y()}},
+                   {"radius", obstacle.radius_m},
+                   {"yaw", obstacle.yaw_rad},
+                   {"height", obstacle.body ? obstacle.body->height_m : BodySpec{}.height_m}});
+  }
+  return all;
+}
+
+Json paths_json(const Scenario& scenario) {
+  Json all = Json::array();
+  for (const RobotSpec& robot : scenario.robots) {
+    Json points = Json::array();
+    points.push_back({robot.start.x, robot.start.y, 0.0});
+    for (const Eigen::Vector2d& waypoint : robot.waypoints) {
+      points.push_back({waypoint.x(), waypoint.y(), 0.0});
+    }
+    all.push_back({{"name", robot.name}, {"points", std::move(points)}});
+  }
+  return all;
+}
+
+Json beam_json(const AntennaParameters& antenna) {
+  const RadioModel* const model = physical(antenna);
+  if (model == nullptr || !model->effects.patterns) return nullptr;
+  const double peak = peak_gain(model->antenna);
+  Json theta = Json::array();
+  Json phi = Json::array();
+  Json gains = Json::array();
+  for (int k = 0; k < kAzimuthSteps; ++k) phi.push_back(2.0 * kPi * k / kAzimuthSteps);
+  for (int i = 0; i <= kPolarSteps; ++i) {
+    const double off = kPi * i / kPolarSteps;
+    theta.push_back(off);
+    Json row = Json::array();
+    for (int k = 0; k < kAzimuthSteps; ++k) {
+      const double about = 2.0 * kPi * k / kAzimuthSteps;
+      const Eigen::Vector3d u_A(std::cos(off), std::sin(off) * std::cos(about),
+                                std::sin(off) * std::sin(about));
+      const double gain_db = to_db(gain(model->antenna, u_A) / peak);
+      row.push_back(std::round(std::max(gain_db, kLeastGain_db) * 100.0) / 100.0);
+    }
+    gains.push_back(std::move(row));
+  }
+  return {{"theta", theta}, {"phi", phi}, {"gain_db", gains}};
+}
+
+Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port) {
+  const AntennaParameters& parameters = spec.parameters;
+  const auto power_dbm = transmit_power_dbm(parameters);
+  return {{"name", parameters.name},
+          {"reader", parameters.reader},
+          {"port", port},
+          {"robot", spec.on},
+          {"pose", pose_json(X_WA)},
+          {"model", meets_world(parameters) ? "physical" : "paper"},
+          {"range", nominal_range_m(parameters)},
+          {"frequency", nominal_frequency_hz(parameters)},
+          {"power_dbm", power_dbm ? Json(*power_dbm) : Json(nullptr)},
+          {"beam", beam_json(parameters)}};
+}
+
+Json antennas_json(const LiveWorld& world) {
+  Json all = Json::array();
+  for (const LiveAntenna& antenna : world.antennas()) {
+    Json json = antenna_json(antenna.spec, world.antenna_pose(antenna), port_of(world, antenna));
+    json["on"] = antenna.is_on;
+    json["faulty"] = antenna.is_faulty;
+    all.push_back(std::move(json));
+  }
+  return {{"antennas", std::move(all)}};
+}
+
+Json tags_json(const LiveWorld& world) {
+  std::map<std::string, bool> moving;
+  for (const TagSpec& tag : world.scenario().tags) moving[tag.id] = moves(tag);
+  Json all = Json::array();
+  for (const LivePose& tag : world.tags()) {
+    const Eigen::Quaterniond& q = tag.X_W.rotation;
+    all.push_back({{"id", tag.name},
+                   {"position", point_json(tag.X_W.translation)},
+                   {"rotation", {q.x(), q.y(), q.z(), q.w()}},
+                   {"moves", moving[tag.name]}});
+  }
+  return {{"tags", std::move(all)}};
+}
+
+std::string read_line(const TagRead& read, std::size_t port) {
+  Json json = {{"timestamp", to_seconds(read.stamp)},
+               {"reader", read.reader},
+               {"antennaPort", port},
+               {"antennaName", read.antenna},
+               {"epc", read.tag},
+               {"peakRssiCdbm", std::lround(read.rssi_dbm * 100.0)},
+               {"phaseAngle", degrees(read.phase_rad)},
+               {"frequency", std::lround(read.frequency_hz / 1e3)}};
+  if (read.doppler_hz) json["dopplerHz"] = *read.doppler_hz;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tagfield::http

@@ -1,0 +1,39 @@
+/// @file
+/// A live world as JSON, for pages and programs: docs/live.md and openapi.json say what is in it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tagfield/live/live_world.h"
+#include "tagfield/poses/rigid_transform.h"
+#include "tagfield/stream/tag_read.h"
+#include "tagfield/world/scene.h"
+
+namespace tagfield::http {
+
+using Json = nlohmann::ordered_json;
+
+/// [x, y, z, qx, qy, qz, qw].
+Json pose_json(const RigidTransform& X);
+
+/// The world at rest: solids with their shapes and what each is made of, meshes once each.
+Json solids_json(const Scene& scene, const Scenario& scenario);
+/// Those that are there now.
+Json obstacles_json(const LiveWorld& world);
+/// Waypoints of robots, from where they start.
+Json paths_json(const Scenario& scenario);
+
+/// Gain over direction against the greatest [dB], on a grid of the angle off the boresight and the
+/// azimuth about it; null for the paper's antenna, which has none.
+Json beam_json(const AntennaParameters& antenna);
+Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port);
+Json antennas_json(const LiveWorld& world);
+Json tags_json(const LiveWorld& world);
+
+/// A read as a line of JSON, named as readers do that stream such lines. `port`: of the antenna
+/// at its reader, from 1 on.
+std::string read_line(const TagRead& read, std::size_t port);
+
+}  // namespace tagfield::http

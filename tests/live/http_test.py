@@ -1,0 +1,378 @@
+#!/usr/bin/python3
+"""'tagfield serve' as HTTP and WebSocket clients see it, the well-behaved and the others.
+
+    http_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
+"""
+
+import json
+import pathlib
+import random
+import signal
+import socket
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
+from common import (case, check, check_between, check_equal, check_in,  # noqa: E402
+                    check_near, main, read_csv)
+from served import served  # noqa: E402
+
+try:
+    import jsonschema
+    import websocket
+except ImportError as missing:
+    print(f"skipped: {missing.name} is missing (python3-jsonschema, python3-websocket)")
+    sys.exit(77)
+
+PORTAL = "portal"
+
+
+def as_json_schema(node, components):
+    """A schema of OpenAPI 3.0 as one of JSON Schema draft 4: nullable is a type, too."""
+    if isinstance(node, list):
+        return [as_json_schema(entry, components) for entry in node]
+    if not isinstance(node, dict):
+        return node
+    if "$ref" in node:
+        return as_json_schema(components[node["$ref"].rsplit("/", 1)[1]], components)
+    schema = {key: as_json_schema(value, components) for key, value in node.items()}
+    if schema.pop("nullable", False) is True and "type" in schema:
+        schema["type"] = [schema["type"], "null"]
+    return schema
+
+
+class Contract:
+    """openapi.json as it is served."""
+
+    def __init__(self, server):
+        self.document = server.get("/api/openapi.json")
+        self.components = self.document["components"]["schemas"]
+        self.unseen = {(method.upper(), path) for path, methods in self.document["paths"].items()
+                       for method in methods}
+
+    def schema(self, method, path, status):
+        operation = self.document["paths"][path][method.lower()]
+        responses = operation["responses"]
+        content = responses["200" if status == 200 else "4XX"]["content"]
+        return as_json_schema(next(iter(content.values()))["schema"], self.components)
+
+    def check(self, method, path, status, answer):
+        self.unseen.discard((method, path))
+        try:
+            jsonschema.Draft4Validator(self.schema(method, path, status)).validate(answer)
+        except jsonschema.ValidationError as error:
+            check(False, f"{method} {path} ({status}): {error.message} at {list(error.path)}")
+
+
+def reads_of(server, count, target="/api/reads"):
+    """So many lines of a stream."""
+    connection = server.connection()
+    connection.request("GET", target)
+    response = connection.getresponse()
+    check_equal(response.getheader("Content-Type"), "application/jsonl", "type of the stream")
+    lines = [json.loads(response.readline()) for _ in range(count)]
+    connection.close()
+    return lines
+
+
+@case
+def all_that_openapi_describes_is_so(context):
+    with served(context, context.shipped(PORTAL)) as server:
+        contract = Contract(server)
+
+        def ask(method, path, body=None, expected=200, **names):
+            target = path
+            for name, value in names.items():
+                target = target.replace("{" + name + "}", value)
+            query = {"/api/explain": "?antenna=port_1&tag=tag_01",
+                     "/api/coverage": "?antenna=port_1&height=0.9&cell=0.5"}.get(path, "")
+            status, answer = server.ask(method, target + query, body)
+            check_equal(status, expected, f"{method} {target}: {answer}, status")
+            contract.check(method, path, status, answer)
+            return answer
+
+        for path in ("status", "scene", "antennas", "tags", "explain", "coverage"):
+            ask("GET", f"/api/{path}")
+        ask("POST", "/api/speed", {"speed": 2})
+        ask("POST", "/api/pause")
+        ask("POST", "/api/step", {"seconds": 0.25})
+        ask("POST", "/api/resume")
+        ask("POST", "/api/tags", {"id": "a b/c", "position": [1, 2, 0.5], "like": "tag_01"})
+        ask("POST", "/api/tags/{id}/move", {"position": [2, 2, 0.5]}, id="a%20b%2Fc")
+        ask("POST", "/api/tags/{id}/detune", {"db": 1}, id="a%20b%2Fc")
+        tags = {tag["id"]: tag for tag in ask("GET", "/api/tags")["tags"]}
+        check_equal(tags["a b/c"]["position"], [2, 2, 0.5], "place of the tag that was moved")
+        ask("DELETE", "/api/tags/{id}", id="a%20b%2Fc")
+        ask("DELETE", "/api/tags/{id}", id="a%20b%2Fc", expected=400)
+        ask("POST", "/api/antennas", {"name": "port_5", "like": "port_1",
+                                      "pose": [2, 2, 2.5, 0, 1.57, 0]})
+        ask("POST", "/api/antennas/{name}/move", {"pose": [2, 2, 2, 0, 1.57, 0]}, name="port_5")
+        ask("POST", "/api/antennas/{name}/disconnect", name="port_5")
+        ask("POST", "/api/antennas/{name}/connect", name="port_5")
+        ask("DELETE", "/api/antennas/{name}", name="port_5")
+        ask("POST", "/api/obstacles", {"name": "pallet", "position": [1, 1], "size": [1, 0.8]})
+        ask("GET", "/api/scene")
+        ask("DELETE", "/api/obstacles/{name}", name="pallet")
+        for line in reads_of(server, 50):
+            contract.check("GET", "/api/reads", 200, line)
+        check_equal(contract.unseen, set(), "what was not tried")
+
+
+@case
+def reads_are_those_of_the_headless_run(context):
+    folder = context.simulate(PORTAL, "--record-only", "--set", "duration_s=5")
+    expected = read_csv(folder / "reads.csv")
+    with served(context, context.shipped(PORTAL), "--paused", "--speed", "max") as server:
+        connection = server.connection()
+        connection.request("GET", "/api/reads")
+        response = connection.getresponse()
+        time.sleep(0.2)  # it is among the listeners
+        server.post("/api/resume")
+        lines = [json.loads(response.readline()) for _ in expected]
+        connection.close()
+    check_between(len(expected), 500, 5000, "number of reads")
+    for row, line in zip(expected, lines):
+        told = (line["epc"], line["antennaName"], line["peakRssiCdbm"], round(line["timestamp"], 9))
+        of_run = (row["tag"], row["antenna"], round(float(row["rssi_dbm"]) * 100),
+                  float(row["stamp_s"]))
+        if not check_equal(told, of_run, "read"):
+            break
+        check_near(line["phaseAngle"], float(row["phase_rad"]) * 57.29577951308232, 1e-4, "phase")
+
+
+@case
+def streams_are_of_what_is_asked_for(context):
+    with served(context, context.shipped(PORTAL), "--speed", "10") as server:
+        lines = reads_of(server, 20, "/api/reads?tag=tag_03&antenna=port_2")
+        check_equal({(line["epc"], line["antennaName"], line["antennaPort"]) for line in lines},
+                    {("tag_03", "port_2", 2)}, "tags and antennas")
+
+
+@case
+def time_goes_as_it_is_told(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        check_equal(server.get("/api/status")["time"], 0, "time at first")
+        time.sleep(0.3)
+        check_equal(server.get("/api/status")["time"], 0, "time while paused")
+        server.post("/api/step", {"seconds": 0.5})
+        status = server.wait_for(lambda now: now["paused"], "it is paused after a step")
+        check_near(status["time"], 0.5, 1e-9, "time after a step")
+        server.post("/api/speed", {"speed": 20})
+        server.post("/api/resume")
+        begin = time.monotonic()
+        before = server.get("/api/status")["time"]
+        time.sleep(1.5)
+        after = server.get("/api/status")["time"]
+        passed = time.monotonic() - begin
+        check_between((after - before) / passed, 12, 24, "pace at a speed of 20")
+
+
+def frames(server, count, headers=None):
+    client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20,
+                                         header=headers or [])
+    for _ in range(count):
+        yield json.loads(client.recv())
+    client.close()
+
+
+@case
+def pages_get_frames(context):
+    with served(context, context.shipped("warehouse_physics")) as server:
+        tags = {tag["id"] for tag in server.get("/api/tags")["tags"]}
+        antennas = {antenna["name"]: antenna for antenna in server.get("/api/antennas")["antennas"]}
+        seen = list(frames(server, 40))
+        times = [frame["time"] for frame in seen]
+        check(all(a < b for a, b in zip(times, times[1:])), f"times do not rise: {times}")
+        check_between(times[-1] - times[0], 1.0, 4.0, "time of forty frames")
+        reads = [read for frame in seen for read in frame["reads"]]
+        check(reads and all(read[0] in tags and read[1] in antennas for read in reads),
+              f"reads of unknown tags or antennas: {reads[:3]}")
+        moving = {name for name, antenna in antennas.items() if antenna["robot"]}
+        check_equal({row[0] for frame in seen for row in frame["antennas"]}, moving,
+                    "antennas that move")
+        robots = [frame["robots"][0] for frame in seen]
+        check(robots[0][1:3] != robots[-1][1:3], "the robot stands")
+
+
+@case
+def what_others_change_is_told_while_paused(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
+        time.sleep(0.2)
+        server.post("/api/tags/tag_01/move", {"position": [1, 1, 1]})
+        frame = json.loads(client.recv())
+        check(frame["paused"] and frame.get("changed"), f"frame after a move: {frame}")
+        client.close()
+
+
+@case
+def a_cable_that_is_off_reads_nothing(context):
+    with served(context, context.shipped(PORTAL), "--speed", "20") as server:
+        server.post("/api/antennas/port_1/disconnect")
+        status, answer = server.ask("GET", "/api/explain?antenna=port_1&tag=tag_01")
+        check_equal((status, answer.get("error")), (400, "antenna 'port_1' is disconnected"),
+                    "explanation")
+        lines = reads_of(server, 500)
+        check_equal({line["antennaName"] for line in lines}, {"port_2", "port_3", "port_4"},
+                    "antennas")
+        server.post("/api/antennas/port_1/connect")
+        check("port_1" in {line["antennaName"] for line in reads_of(server, 1000)},
+              "port_1 does not read again")
+
+
+@case
+def strangers_are_turned_away(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        own = f"127.0.0.1:{server.port}"
+        for headers, expected in (({"Host": "evil.example"}, 403),
+                                  ({"Host": own, "Origin": "http://evil.example"}, 403),
+                                  ({"Host": own, "Origin": "null"}, 403),
+                                  ({"Host": own, "Origin": f"http://{own}"}, 200)):
+            status, _ = server.ask("POST", "/api/pause", headers=headers)
+            check_equal(status, expected, f"status with {headers}")
+        status, _ = server.ask("GET", "/api/tags", headers={"Host": "evil.example"})
+        check_equal(status, 403, "status of a look by another host's name")
+        status, _ = server.ask("POST", "/api/step", '{"seconds": 1}',
+                               {"Content-Type": "text/plain"})
+        check_equal(status, 415, "status of a form's body")
+        try:
+            client = websocket.create_connection(f"ws://{own}/api/live", timeout=20,
+                                                 origin="http://evil.example")
+            client.close()
+            check(False, "a page of another site gets frames")
+        except websocket.WebSocketBadStatusException as error:
+            check_equal(error.status_code, 403, "status of a WebSocket of another site")
+
+
+@case
+def whoever_can_reach_it_needs_the_token_to_command(context):
+    with served(context, context.shipped(PORTAL), "--paused", "--listen", "0.0.0.0", "--token",
+                "a secret") as server:
+        check_equal(server.get("/api/status")["paused"], True, "paused")
+        for word, expected in ((None, 401), ("Bearer wrong", 401), ("Bearer a secret", 200)):
+            headers = {"Authorization": word} if word else {}
+            status, _ = server.ask("POST", "/api/resume", headers=headers)
+            check_equal(status, expected, f"status with {word}")
+        server.process.send_signal(signal.SIGTERM)
+        server.process.wait(timeout=20)
+        check_in("others can reach 0.0.0.0", server.process.stderr.read().decode(), "warnings")
+
+
+def exchange(server, data, seconds=5):
+    """What comes back for these bytes, until it closes or falls silent."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=seconds) as client:
+        try:
+            client.sendall(data)
+            client.shutdown(socket.SHUT_WR)
+            return client.recv(65536)
+        except OSError:
+            return b""
+
+
+@case
+def what_is_too_much_or_no_http_is_refused(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        host = f"Host: 127.0.0.1:{server.port}\r\n".encode()
+        body = b"x" * 70000
+        for data, expected in (
+                (b"POST /api/step HTTP/1.1\r\n" + host +
+                 b"Content-Length: 70000\r\nContent-Type: application/json\r\n\r\n" + body, b"413"),
+                (b"GET / HTTP/1.1\r\n" + host + b"X: " + b"y" * 20000 + b"\r\n\r\n", b"431"),
+                (b"\x16\x03\x01\x00\xa5\x01\x00\x00\xa1\x03\x03", b"400"),
+                (b"GET /%zz HTTP/1.1\r\n" + host + b"\r\n", b"400"),
+                (b"GET /api/nothing HTTP/1.1\r\n" + host + b"\r\n", b"404"),
+                (b"PUT /api/status HTTP/1.1\r\n" + host + b"Content-Length: 0\r\n\r\n", b"405")):
+            answer = exchange(server, data)
+            check_equal(answer[9:12], expected, f"status of {data[:30]!r}: {answer[:80]!r}")
+        server.get("/api/status")
+
+
+@case
+def garbage_harms_nobody(context):
+    with served(context, context.shipped(PORTAL), "--speed", "5") as server:
+        rng = random.Random(1)
+        host = f"127.0.0.1:{server.port}"
+        seeds = [f"POST /api/tags HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n"
+                 'Content-Length: 40\r\n\r\n{"id": "x", "position": [1, 2, 3]}      ',
+                 f"GET /api/explain?antenna=port_1&tag=tag_01 HTTP/1.1\r\nHost: {host}\r\n\r\n",
+                 f"GET /api/live HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\n"
+                 "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+                 "Sec-WebSocket-Version: 13\r\n\r\n\x81\x05hello"]
+        memory = server.memory_mb()
+        for _ in range(1500):
+            data = bytearray(rng.choice(seeds).encode("latin-1"))
+            for _ in range(rng.randrange(1, 12)):
+                place = rng.randrange(len(data))
+                data[place:place + rng.randrange(3)] = rng.randbytes(rng.randrange(3))
+            exchange(server, bytes(data))
+        server.get("/api/status")
+        check_between(server.memory_mb(), 0, memory + 60, "memory [MB]")
+
+
+@case
+def a_hundred_clients_at_once_and_some_that_do_nothing(context):
+    with served(context, context.shipped(PORTAL)) as server:
+        idle = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(100)]
+        clients = [websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
+                   for _ in range(100)]
+        for client in clients:
+            for _ in range(5):
+                check("time" in json.loads(client.recv()), "a frame without time")
+        check_between(server.get("/api/status")["pace"], 0.9, 1.1, "pace")
+        for client in clients:
+            client.close()
+        for client in idle:
+            client.close()
+
+
+@case
+def who_falls_behind_loses_its_own_oldest(context):
+    with served(context, context.shipped(PORTAL), "--speed", "max") as server:
+        slow = server.connection(timeout=2)
+        slow.request("GET", "/api/reads")
+        response = slow.getresponse()
+        server.wait_for(lambda now: now["time"] > 600, "ten minutes are simulated", 60)
+        check_between(server.memory_mb(), 0, 300, "memory [MB]")
+        server.post("/api/pause")
+        lines = []
+        try:
+            while line := response.readline():
+                lines.append(json.loads(line))
+        except TimeoutError:
+            pass
+        slow.close()
+        dropped = sum(line.get("dropped", 0) for line in lines)
+        check(dropped > 1000, f"it is told of {dropped} lost reads")
+        last = lines[-1].get("timestamp", 0)
+        check(last > server.get("/api/status")["time"] - 5, f"the last read is of {last} s")
+
+
+@case
+def it_ends_within_a_second(context):
+    with served(context, context.shipped(PORTAL)) as server:
+        clients = [websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
+                   for _ in range(20)]
+        begin = time.monotonic()
+        server.process.send_signal(signal.SIGTERM)
+        code = server.process.wait(timeout=20)
+        check_between(time.monotonic() - begin, 0, 1, "time to end [s]")
+        check_equal(code, 0, "exit code")
+        for client in clients:
+            client.close()
+
+
+@case
+def a_port_that_is_taken_is_said(context):
+    with served(context, context.shipped(PORTAL), "--paused") as server:
+        result = context.run("serve", context.shipped(PORTAL), "--http", str(server.port))
+        check_equal(result.code, 2, "exit code")
+        check_in(f"HTTP can't listen on 127.0.0.1 port {server.port}", result.err, "message")
+    for arguments, word in ((["--listen", "nowhere"], "'nowhere' is no IP address"),
+                            (["--speed", "-1"], "--speed -1: expected")):
+        result = context.run("serve", context.shipped(PORTAL), *arguments)
+        check_equal(result.code, 2, f"exit code with {arguments}")
+        check_in(word, result.err, "message")
+
+
+if __name__ == "__main__":
+    main()

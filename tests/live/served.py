@@ -1,0 +1,110 @@
+"""A scenario that 'tagfield serve' lets live, for the tests of those who connect to it."""
+
+import contextlib
+import http.client
+import json
+import os
+import signal
+import subprocess
+import sys
+import pathlib
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
+from common import check, clean_environment  # noqa: E402 pylint: disable=wrong-import-position
+
+
+class Served:
+    """The process, and its addresses by what they are for: {"http": "http://127.0.0.1:PORT"}."""
+
+    def __init__(self, process, addresses):
+        self.process = process
+        self.addresses = addresses
+
+    @property
+    def port(self):
+        return int(self.addresses["http"].rsplit(":", 1)[1])
+
+    def connection(self, timeout=20):
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+
+    def ask(self, method, target, body=None, headers=None):
+        """(status, JSON) of one request."""
+        connection = self.connection()
+        sent = dict(headers or {})
+        data = None
+        if body is not None:
+            data = body if isinstance(body, (str, bytes)) else json.dumps(body)
+            sent.setdefault("Content-Type", "application/json")
+        connection.request(method, target, body=data, headers=sent)
+        response = connection.getresponse()
+        text = response.read()
+        connection.close()
+        return response.status, json.loads(text)
+
+    def get(self, target):
+        status, answer = self.ask("GET", target)
+        check(status == 200, f"GET {target}: {status} {answer}")
+        return answer
+
+    def post(self, target, body=None):
+        status, answer = self.ask("POST", target, body)
+        check(status == 200, f"POST {target}: {status} {answer}")
+        return answer
+
+    def wait_for(self, holds, what, seconds=20):
+        """Asks for the status until it is so."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            status = self.get("/api/status")
+            if holds(status):
+                return status
+            time.sleep(0.05)
+        check(False, f"after {seconds} s not: {what}")
+        return {}
+
+    def memory_mb(self):
+        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return int(line.split()[1]) / 1024
+        return 0
+
+
+def lines_until(process, word, seconds=60):
+    """What it prints on standard output, up to a line that begins with `word`."""
+    lines = []
+    os.set_blocking(process.stdout.fileno(), True)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        line = process.stdout.readline().decode()
+        if not line:
+            break
+        lines.append(line.strip())
+        if line.startswith(word):
+            break
+    return lines
+
+
+@contextlib.contextmanager
+def served(context, scenario, *arguments, last="http"):
+    """Starts it, and ends it, on a port that is free. `last`: the last address that it tells."""
+    command = [context.tagfield, "serve", scenario, "--http", "0", *arguments]
+    process = subprocess.Popen([str(word) for word in command], cwd=context.folder,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env=clean_environment())
+    addresses = dict(line.split(": ", 1) for line in lines_until(process, last) if ": " in line)
+    if last not in addresses:
+        process.kill()
+        raise RuntimeError(f"it did not start: {process.communicate()[1].decode()}")
+    try:
+        yield Served(process, addresses)
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+            try:
+                process.wait(timeout=20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                check(False, "it did not end")
+        process.stdout.close()
+        process.stderr.close()
