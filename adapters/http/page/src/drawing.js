@@ -43,6 +43,16 @@ export class Drawing {
     for (const layer of [this.tags, this.antennas, this.robots, this.estimates]) layer.update(changed);
   }
 
+  // Forgets cells beyond the floor that is drawn.
+  clip({x0, y0, cell, columns, margin_db: margins}) {
+    const {min, max} = this.stage.bounds;
+    for (let i = 0; i < margins.length; ++i) {
+      const x = x0 + ((i % columns) + 0.5) * cell;
+      const y = y0 + (Math.floor(i / columns) + 0.5) * cell;
+      if (x < min.x || x > max.x || y < min.y || y > max.y) margins[i] = null;
+    }
+  }
+
   // Fits the view to a world when it is first seen, not when a pallet is put into it.
   #scene() {
     const {world, stage} = this;

@@ -2,6 +2,7 @@
 
 const FIRST_WAIT_MS = 500;
 const LONGEST_WAIT_MS = 5000;
+const SETTLED_MS = 400;
 
 async function json(response) {
   const text = await response.text();
@@ -76,13 +77,26 @@ export class Live {
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
   }
 
+  // A world that stands still needs no drawing.
+  #isNews(frame) {
+    const {world} = this;
+    return frame.time !== world.time || frame.reads?.length || frame.tags?.length || frame.estimates?.length ||
+      frame.changed || (frame.robots?.length ?? 0) !== world.robots.size;
+  }
+
   #frame(frame) {
     const {world} = this;
-    const moves = frame.time !== world.time || frame.reads?.length || world.changed.size;
-    const says = frame.paused !== world.paused || frame.speed !== world.speed || frame.dropped !== world.dropped;
+    const isNews = this.#isNews(frame);
+    const says = frame.paused !== world.paused || frame.speed !== world.speed;
     if (frame.time < world.time - 1e-9) this.#fetchAll().catch(() => {});
     Object.assign(world, {time: frame.time, pace: frame.pace, paused: frame.paused, speed: frame.speed,
                           dropped: frame.dropped ?? 0});
+    if (isNews) this.#apply(frame);
+    else if (says) world.touch("time");
+  }
+
+  #apply(frame) {
+    const {world} = this;
     for (const [name, ...pose] of frame.robots ?? []) {
       world.robots.set(name, pose);
       world.changed.add("robots");
@@ -100,8 +114,7 @@ export class Live {
       world.changed.add("scan");
     }
     if (frame.changed) this.#refetch();
-    if (moves || world.changed.size) world.touch("time", "reads");
-    else if (says) world.touch("time");
+    world.touch("time", "reads");
   }
 
   async #refetch() {
@@ -122,5 +135,7 @@ export class Live {
     const status = await json(await fetch(`api/${path}`, {
       method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
     if (status?.time !== undefined) this.#status(status);
+    // A step goes on for a while; nothing else says when it has ended.
+    if (path === "step") setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);
   }
 }

@@ -34,6 +34,7 @@ class View {
     this.detail = new Detail(this.at, this.world, this.scale, {
       explained: (link) => this.drawing?.link.show(link),
       coverage: (coverage, height) => this.drawing?.coverage.show(coverage, height),
+      clip: (coverage) => this.drawing?.clip(coverage),
       close: () => this.deselect(),
       actions: (kind, name) => this.changes?.actions(kind, name) ?? null});
     this.theme = new Theme(this.at, (colors) => this.drawing?.setTheme(colors));

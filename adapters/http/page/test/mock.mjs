@@ -2,7 +2,7 @@
 // round, and as many synthetic tags as asked for. For the page's own tests and for working on it.
 //
 //   node mock.mjs PAGE.html RUN_FOLDER WORLD.sdf [--tags N] [--port P] [--recorded]
-//                 [--explain TAGFIELD SCENARIO]
+//                 [--explain TAGFIELD SCENARIO] [--modules DIR]
 //
 // The first line printed is "http: http://127.0.0.1:PORT". The link and the coverage come from the real
 // program where --explain names it; else explain answers 409.
@@ -10,10 +10,11 @@
 import {execFile} from "node:child_process";
 import {mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
 import http from "node:http";
+import {createRequire} from "node:module";
 import os from "node:os";
 import path from "node:path";
+import {fileURLToPath} from "node:url";
 import {promisify} from "node:util";
-import {WebSocketServer} from "ws";
 import {poseOf, readRun} from "./run.mjs";
 
 const FRAME_S = 0.05;
@@ -21,19 +22,22 @@ const SYNTHETIC_READS_S = 1000;  // Of all synthetic tags together, on the wall'
 const call = promisify(execFile);
 
 function parse(words) {
-  const given = {files: [], tags: 0, port: 0, recorded: false, explain: null};
+  const given = {files: [], tags: 0, port: 0, recorded: false, explain: null,
+                 modules: path.join(path.dirname(fileURLToPath(import.meta.url)), "..")};
   while (words.length) {
     const word = words.shift();
     if (word === "--tags") given.tags = Number(words.shift());
     else if (word === "--port") given.port = Number(words.shift());
     else if (word === "--recorded") given.recorded = true;
     else if (word === "--explain") given.explain = [words.shift(), words.shift()];
+    else if (word === "--modules") given.modules = words.shift();
     else given.files.push(word);
   }
   return given;
 }
 
 const given = parse(process.argv.slice(2));
+const {WebSocketServer} = createRequire(path.join(given.modules, "package.json"))("ws");
 const [pageFile, runFolder, sdf] = given.files;
 const run = readRun(runFolder, sdf);
 const synthetic = Array.from({length: given.tags}, (_, i) => ({

@@ -10,6 +10,8 @@ const CHART_S = 30;
 const CHART_MS = 150;
 const EXPLAIN_MS = 1000;
 const MOST_POINTS = 3000;  // Drawn in a chart [1].
+const LEAST_CELL_M = 0.25;
+const MOST_CELLS = 190;    // Of a side of the square, within the antenna's range, that the server computes.
 const PHASE = {title: "Phase [rad]", low: 0, high: 2 * Math.PI, ticks: [0, Math.PI, 2 * Math.PI],
                label: (value) => ["0", "π", "2π"][Math.round(value / Math.PI)]};
 
@@ -103,8 +105,11 @@ export class Detail {
       const request = ++this.request;
       setText(word, "Computing …");
       try {
-        const coverage = await get(`coverage?antenna=${encodeURIComponent(name)}&height=${Number(height.value)}&cell=0.25`);
+        const {range} = this.world.antennas[this.world.antennaIndex.get(name)];
+        const cell = Math.max(LEAST_CELL_M, Math.ceil((40 * Math.min(range, 100)) / MOST_CELLS) / 20);
+        const coverage = await get(`coverage?antenna=${encodeURIComponent(name)}&height=${Number(height.value)}&cell=${cell}`);
         if (request !== this.request) return;
+        this.hooks.clip(coverage);
         this.hooks.coverage(coverage, Number(height.value));
         const known = coverage.margin_db.filter((one) => one !== null);
         const read = known.filter((one) => one >= 0).length;
