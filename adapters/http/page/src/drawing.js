@@ -1,0 +1,76 @@
+// The world in three dimensions: all layers on one stage.
+
+import {Box3, Vector3} from "three";
+import {Antennas} from "./layers/antennas.js";
+import {Coverage} from "./layers/coverage.js";
+import {Estimates} from "./layers/estimates.js";
+import {Flashes} from "./layers/flashes.js";
+import {Ground} from "./layers/ground.js";
+import {Link} from "./layers/link.js";
+import {Robots} from "./layers/robots.js";
+import {Solids} from "./layers/solids.js";
+import {Tags} from "./layers/tags.js";
+import {Picking} from "./picking.js";
+import {Stage} from "./stage.js";
+
+export class Drawing {
+  // Throws where there is no WebGL.
+  constructor(canvas, world, scale) {
+    this.world = world;
+    this.stage = new Stage(canvas);
+    this.solids = new Solids(this.stage);
+    this.ground = new Ground(this.stage);
+    this.tags = new Tags(this.stage, world, scale);
+    this.antennas = new Antennas(this.stage, world);
+    this.flashes = new Flashes(this.stage, world);
+    this.robots = new Robots(this.stage, world);
+    this.estimates = new Estimates(this.stage, world);
+    this.link = new Link(this.stage);
+    this.coverage = new Coverage(this.stage);
+    this.picking = new Picking(this.stage, world, this.solids);
+    this.stage.layers.push(this.solids, this.tags, this.flashes);
+    this.fitted = "";
+  }
+
+  setTheme(colors) {
+    this.stage.setBackground(colors.background);
+    for (const layer of [this.solids, this.ground, this.tags, this.estimates, this.link]) layer.setTheme(colors);
+    this.world.touch("theme");
+  }
+
+  update(changed) {
+    if (changed.has("scene")) this.#scene();
+    for (const layer of [this.tags, this.antennas, this.robots, this.estimates]) layer.update(changed);
+  }
+
+  // Forgets cells beyond the floor that is drawn.
+  clip({x0, y0, cell, columns, margin_db: margins}) {
+    const {min, max} = this.stage.bounds;
+    for (let i = 0; i < margins.length; ++i) {
+      const x = x0 + ((i % columns) + 0.5) * cell;
+      const y = y0 + (Math.floor(i / columns) + 0.5) * cell;
+      if (x < min.x || x > max.x || y < min.y || y > max.y) margins[i] = null;
+    }
+  }
+
+  // Fits the view to a world when it is first seen, not when a pallet is put into it.
+  #scene() {
+    const {world, stage} = this;
+    if (!world.scene.name && !world.tags.length) return;
+    const bounds = this.solids.set(world.scene) ?? new Box3();
+    const p = new Vector3();
+    for (let i = 0; i < world.tags.length; ++i) bounds.expandByPoint(p.fromArray(world.position, 3 * i));
+    for (const {pose} of world.antennas) if (pose) bounds.expandByPoint(p.fromArray(pose));
+    for (const {points} of world.scene.paths) {
+      for (const [x, y, z] of points) bounds.expandByPoint(p.set(x, y, z ?? 0));
+    }
+    if (bounds.isEmpty()) bounds.set(new Vector3(-2, -2, 0), new Vector3(2, 2, 2));
+    bounds.expandByPoint(p.set(bounds.min.x, bounds.min.y, 0));
+    stage.bounds.copy(this.ground.set(world.scene, bounds));
+    if (this.fitted !== world.scene.name) {
+      this.fitted = world.scene.name;
+      stage.look("world");
+    }
+    stage.invalidate();
+  }
+}

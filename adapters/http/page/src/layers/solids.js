@@ -1,0 +1,194 @@
+// The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls and
+// roofs between camera and hall turn into glass, so that one can look in from outside.
+
+import {Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, EdgesGeometry,
+        Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial,
+        Quaternion, SphereGeometry, Vector3} from "three";
+import {isTransparent, solidColor} from "../colors.js";
+
+const FAR = 60;            // A plane or slab wider than this says nothing of the hall's size [m].
+const WALL_SHARE = 0.3;    // A wall is longer than this share of the world …
+const WALL_THICKNESS = 0.6;  // … and thinner than this [m].
+
+// Unit shapes with z as the axis, as in SDF.
+const SHAPES = {
+  box: () => new BoxGeometry(1, 1, 1),
+  cylinder: () => new CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2),
+  sphere: () => new SphereGeometry(1, 24, 16),
+};
+
+function scaleOf(solid) {
+  if (solid.box) return new Vector3(...solid.box);
+  if (solid.cylinder) return new Vector3(solid.cylinder[0], solid.cylinder[0], solid.cylinder[1]);
+  return new Vector3().setScalar(solid.sphere);
+}
+
+const shapeOf = (solid) => Object.keys(SHAPES).find((shape) => solid[shape] !== undefined);
+
+function poseMatrix(pose, scale = new Vector3(1, 1, 1)) {
+  return new Matrix4().compose(new Vector3(...pose.slice(0, 3)),
+                               new Quaternion(...pose.slice(3, 7)).normalize(), scale);
+}
+
+function meshGeometry({vertices, triangles}) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(vertices), 3));
+  geometry.setIndex(new BufferAttribute(new Uint32Array(triangles), 1));
+  return geometry;
+}
+
+// Obstacles stand on the floor; the server gives them apart from the solids, since they come and go.
+function obstacleSolid(obstacle) {
+  const [x, y] = obstacle.position;
+  const height = obstacle.height;
+  const pose = [x, y, height / 2, 0, 0, Math.sin(obstacle.yaw / 2), Math.cos(obstacle.yaw / 2)];
+  const solid = {name: obstacle.name, material: obstacle.material ?? "wood", pose};
+  if (obstacle.size && obstacle.size[0] > 0) solid.box = [...obstacle.size, height];
+  else solid.cylinder = [obstacle.radius, height];
+  return solid;
+}
+
+function boxOf(solid, meshes) {
+  if (solid.plane) return null;
+  const box = new Box3();
+  if (solid.mesh !== undefined) {
+    const {vertices} = meshes[solid.mesh];
+    box.setFromArray(vertices);
+    return box.applyMatrix4(poseMatrix(solid.pose));
+  }
+  const half = solid.box ? 0.5 : 1;
+  const z = solid.cylinder ? 0.5 : half;
+  box.set(new Vector3(-half, -half, -z), new Vector3(half, half, z));
+  return box.applyMatrix4(poseMatrix(solid.pose, scaleOf(solid)));
+}
+
+const isGround = (box) => {
+  const size = box.getSize(new Vector3());
+  return size.z < 0.6 && box.max.z < 0.05 && Math.min(size.x, size.y) > 4;
+};
+
+// "wall" and "roof" hide what is behind them.
+function hides(box, bounds) {
+  const size = box.getSize(new Vector3());
+  const whole = bounds.getSize(new Vector3());
+  if (size.z < WALL_THICKNESS && box.min.z > 1.8 && size.x * size.y > 0.25 * whole.x * whole.y) return true;
+  return Math.min(size.x, size.y) < WALL_THICKNESS && size.z > 1.2 &&
+    Math.max(size.x, size.y) > WALL_SHARE * Math.max(whole.x, whole.y);
+}
+
+export class Solids {
+  constructor(stage) {
+    this.stage = stage;
+    this.group = new Group();
+    stage.scene.add(this.group);
+    this.screens = [];
+    this.inside = new Vector3();
+    this.edgeColor = new Color("#000000");
+  }
+
+  setTheme({edge}) {
+    this.edgeColor.set(edge);
+    this.group.traverse((object) => {
+      if (object.isLineSegments) object.material.color.copy(this.edgeColor);
+    });
+  }
+
+  #clear() {
+    this.group.traverse((object) => {
+      object.geometry?.dispose();
+      object.material?.dispose();
+      if (object.isInstancedMesh) object.dispose();
+    });
+    this.group.clear();
+    this.screens = [];
+  }
+
+  // Draws all; returns what they fill (without endless floors), or null.
+  set(scene) {
+    this.#clear();
+    const solids = [...scene.solids, ...scene.obstacles.map(obstacleSolid)].filter((one) => one.pose);
+    const boxes = solids.map((solid) => boxOf(solid, scene.meshes));
+    const bounds = new Box3();
+    boxes.forEach((box) => {
+      const size = box?.getSize(new Vector3());
+      if (box && !isGround(box) && Math.max(size.x, size.y) < FAR) bounds.union(box);
+    });
+    const kept = [];
+    solids.forEach((solid, i) => {
+      if (!boxes[i] || isGround(boxes[i])) return;
+      if (hides(boxes[i], bounds)) this.#screen(solid, boxes[i], scene);
+      else kept.push(solid);
+    });
+    for (const shape of Object.keys(SHAPES)) {
+      for (const glass of [false, true]) {
+        this.#instances(shape, glass, kept.filter(
+          (one) => shapeOf(one) === shape && isTransparent(one) === glass));
+      }
+    }
+    this.#edges(kept.filter((one) => one.box));
+    for (const solid of kept) if (solid.mesh !== undefined) this.group.add(this.#single(solid, scene));
+    return bounds.isEmpty() ? null : bounds;
+  }
+
+  #instances(shape, glass, solids) {
+    if (!solids.length) return;
+    const material = new MeshLambertMaterial({transparent: glass, opacity: glass ? 0.35 : 1,
+                                              polygonOffset: true, polygonOffsetFactor: 1,
+                                              polygonOffsetUnits: 1});
+    const mesh = new InstancedMesh(SHAPES[shape](), material, solids.length);
+    solids.forEach((solid, i) => {
+      mesh.setMatrixAt(i, poseMatrix(solid.pose, scaleOf(solid)));
+      mesh.setColorAt(i, new Color(solidColor(solid)));
+    });
+    mesh.computeBoundingSphere();
+    this.group.add(mesh);
+  }
+
+  // The edges of all boxes as one set of lines.
+  #edges(solids) {
+    const unit = new EdgesGeometry(SHAPES.box()).getAttribute("position");
+    const points = new Float32Array(solids.length * unit.count * 3);
+    const p = new Vector3();
+    solids.forEach((solid, i) => {
+      const X_WB = poseMatrix(solid.pose, scaleOf(solid));
+      for (let k = 0; k < unit.count; ++k) {
+        p.fromBufferAttribute(unit, k).applyMatrix4(X_WB).toArray(points, 3 * (i * unit.count + k));
+      }
+    });
+    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
+    this.group.add(new LineSegments(geometry, new LineBasicMaterial({
+      color: this.edgeColor, transparent: true, opacity: 0.28})));
+  }
+
+  #single(solid, scene) {
+    const shape = shapeOf(solid);
+    const geometry = shape ? SHAPES[shape]() : meshGeometry(scene.meshes[solid.mesh]);
+    const glass = isTransparent(solid);
+    const material = new MeshLambertMaterial({color: solidColor(solid), flatShading: !shape,
+                                              transparent: glass, opacity: glass ? 0.35 : 1});
+    const mesh = new Mesh(geometry, material);
+    mesh.applyMatrix4(poseMatrix(solid.pose, shape ? scaleOf(solid) : undefined));
+    return mesh;
+  }
+
+  #screen(solid, box, scene) {
+    const mesh = this.#single(solid, scene);
+    this.group.add(mesh);
+    this.screens.push({mesh, center: box.getCenter(new Vector3()), size: box.getSize(new Vector3())});
+  }
+
+  frame() {
+    const eye = this.stage.camera.position;
+    const inside = this.stage.bounds.getCenter(this.inside);
+    for (const {mesh, center, size} of this.screens) {
+      const axis = size.z < WALL_THICKNESS ? "z" : size.x < size.y ? "x" : "y";
+      const between = (eye[axis] - center[axis]) * (center[axis] - inside[axis]) > 0;
+      if (mesh.material.transparent === between) continue;
+      mesh.material.transparent = between;
+      mesh.material.opacity = between ? 0.1 : 1;
+      mesh.material.depthWrite = !between;
+      mesh.material.needsUpdate = true;
+    }
+    return false;
+  }
+}

@@ -1,0 +1,141 @@
+// A server that goes on: fetches the world, follows its frames, sends commands, comes back by itself.
+
+const FIRST_WAIT_MS = 500;
+const LONGEST_WAIT_MS = 5000;
+const SETTLED_MS = 400;
+
+async function json(response) {
+  const text = await response.text();
+  let value = null;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    // Not ours: the status says what there is to say.
+  }
+  if (!response.ok) throw new Error(value?.error ?? `the server answers ${response.status} ${response.statusText}`);
+  if (value === null) throw new Error("the server's answer is no JSON");
+  return value;
+}
+
+export const get = async (path) => json(await fetch(`api/${path}`, {cache: "no-store"}));
+
+export class Live {
+  // say(state, word): "connecting", "connected" or "away", for the status line.
+  constructor(world, say) {
+    this.world = world;
+    this.say = say;
+    this.wait = FIRST_WAIT_MS;
+    this.token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
+  }
+
+  // Follows first and fetches then, so that no change falls between the two.
+  start() {
+    this.say("connecting", "connecting …");
+    const address = new URL("api/live", location.href);
+    address.protocol = address.protocol.replace("http", "ws");
+    address.hash = "";
+    this.loaded = false;
+    const socket = new WebSocket(address);
+    socket.onopen = () => this.#opened(socket);
+    socket.onmessage = (event) => this.loaded && this.#frame(JSON.parse(event.data));
+    socket.onclose = () => this.#again();
+  }
+
+  async #opened(socket) {
+    try {
+      await this.#fetchAll();
+    } catch {
+      socket.close();
+      return;
+    }
+    this.loaded = true;
+    this.wait = FIRST_WAIT_MS;
+    this.say("connected", "");
+  }
+
+  async #fetchAll() {
+    const [scene, antennas, tags, status] =
+      await Promise.all(["scene", "antennas", "tags", "status"].map(get));
+    this.world.reset();
+    this.world.setScene(scene);
+    this.world.setAntennas(antennas.antennas);
+    this.world.setTags(tags.tags);
+    this.world.reselect();
+    this.#status(status);
+  }
+
+  #status(status) {
+    Object.assign(this.world, {time: status.time, speed: status.speed, pace: status.pace,
+                               paused: status.paused, version: status.version});
+    this.world.touch("time");
+  }
+
+  #again() {
+    this.loaded = false;
+    this.say("away", `The server is away; trying again every ${LONGEST_WAIT_MS / 1000} s at least`);
+    setTimeout(() => this.start(), this.wait);
+    this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
+  }
+
+  // A world that stands still needs no drawing.
+  #isNews(frame) {
+    const {world} = this;
+    return frame.time !== world.time || frame.reads?.length || frame.tags?.length || frame.estimates?.length ||
+      frame.changed || (frame.robots?.length ?? 0) !== world.robots.size;
+  }
+
+  #frame(frame) {
+    const {world} = this;
+    const isNews = this.#isNews(frame);
+    const says = frame.paused !== world.paused || frame.speed !== world.speed;
+    if (frame.time < world.time - 1e-9) this.#fetchAll().catch(() => {});
+    Object.assign(world, {time: frame.time, pace: frame.pace, paused: frame.paused, speed: frame.speed,
+                          dropped: frame.dropped ?? 0});
+    if (isNews) this.#apply(frame);
+    else if (says) world.touch("time");
+  }
+
+  #apply(frame) {
+    const {world} = this;
+    for (const [name, ...pose] of frame.robots ?? []) {
+      world.robots.set(name, pose);
+      world.changed.add("robots");
+    }
+    for (const [name, ...pose] of frame.antennas ?? []) world.moveAntenna(name, pose);
+    for (const [id, x, y, z] of frame.tags ?? []) world.moveTag(id, x, y, z);
+    for (const [tag, antenna, rssi, phase, , t, count] of frame.reads ?? []) {
+      world.addRead(tag, antenna, rssi, phase, t, count ?? 1);
+    }
+    for (const [tag, x, y, z, covariance] of frame.estimates ?? []) {
+      world.setEstimate(tag, x, y, z, covariance);
+    }
+    if (frame.scan !== undefined && (frame.scan || world.scan)) {
+      world.scan = frame.scan;
+      world.changed.add("scan");
+    }
+    if (frame.changed) this.#refetch();
+    world.touch("time", "reads");
+  }
+
+  async #refetch() {
+    try {
+      const [scene, antennas, tags] = await Promise.all(["scene", "antennas", "tags"].map(get));
+      this.world.setScene(scene);
+      this.world.setAntennas(antennas.antennas);
+      this.world.setTags(tags.tags);
+      this.world.touch("reads", "selection");
+    } catch {
+      // The socket's end will say that the server is away.
+    }
+  }
+
+  async send(method, path, body) {
+    const headers = body === undefined ? {} : {"Content-Type": "application/json"};
+    if (this.token) headers.Authorization = `Bearer ${this.token}`;
+    const status = await json(await fetch(`api/${path}`, {
+      method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
+    if (status?.time !== undefined) this.#status(status);
+    // A step goes on for a while; nothing else says when it has ended.
+    if (path === "step") setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);
+  }
+}

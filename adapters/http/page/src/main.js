@@ -1,0 +1,241 @@
+// One page for a live world, a recorded run that a server holds, and one that lies in the page itself.
+
+import {buildFrame} from "./ui/frame.js";
+import {Changes} from "./ui/changes.js";
+import {Detail} from "./ui/detail.js";
+import {Legend} from "./ui/legend.js";
+import {Lists} from "./ui/lists.js";
+import {TimeBar} from "./ui/time.js";
+import {Drawing} from "./drawing.js";
+import {listenToKeys} from "./keys.js";
+import {Live, get} from "./live.js";
+import {Recording} from "./recording.js";
+import {Scale} from "./scale.js";
+import {Theme} from "./theme.js";
+import {World} from "./world.js";
+import {setText} from "./dom.js";
+
+const CLICK_PX = 5;      // A press that moves further turns the view.
+const PANEL_MS = 200;
+const AGAIN_MS = 2000;
+const NO_WEBGL = "This browser does not draw in three dimensions here: it has no WebGL, or it is switched off. " +
+  "The lists of tags and antennas work all the same.";
+
+class View {
+  constructor(host) {
+    this.at = buildFrame(host);
+    this.world = new World();
+    this.scale = new Scale();
+    this.legend = new Legend(this.at, this.scale);
+    this.legend.draw();
+    this.drawing = this.#drawing();
+    this.stage = this.drawing?.stage ?? null;
+    this.lists = new Lists(this.at, this.world, this.scale, (kind, index) => this.select(kind, index));
+    this.detail = new Detail(this.at, this.world, this.scale, {
+      explained: (link) => this.drawing?.link.show(link),
+      coverage: (coverage, height) => this.drawing?.coverage.show(coverage, height),
+      clip: (coverage) => this.drawing?.clip(coverage),
+      close: () => this.deselect(),
+      actions: (kind, name) => this.changes?.actions(kind, name) ?? null});
+    this.theme = new Theme(this.at, (colors) => this.drawing?.setTheme(colors));
+    this.world.listeners.push(() => this.#ask());
+    this.stage?.before.push((elapsed) => this.#frame(elapsed));
+    this.#buttons();
+    listenToKeys(host.hasAttribute("data-whole-page") ? document : host, {
+      at: this.at, lists: this.lists, stage: this.stage, timeBar: () => this.time, look: (name) => this.look(name),
+      deselect: () => this.deselect()});
+  }
+
+  #drawing() {
+    const probe = document.createElement("canvas").getContext("webgl2");
+    try {
+      if (!probe) throw new Error("no WebGL 2");
+      probe.getExtension("WEBGL_lose_context")?.loseContext();
+      return new Drawing(this.at.canvas, this.world, this.scale);
+    } catch {
+      this.at.noWebgl.hidden = false;
+      setText(this.at.noWebgl, NO_WEBGL);
+      this.at.canvas.hidden = this.at.views.hidden = this.at.beams.hidden = this.at.legend.hidden = true;
+      return null;
+    }
+  }
+
+  say(state, word) {
+    this.at.status.dataset.state = state;
+    setText(this.at.status, word);
+  }
+
+  #ask() {
+    if (this.stage) {
+      this.stage.invalidate();
+    } else if (!this.asked) {
+      this.asked = requestAnimationFrame((now) => {
+        this.asked = 0;
+        this.#frame(Math.min((now - (this.before ?? now)) / 1000, 0.25));
+        this.before = now;
+      });
+    }
+  }
+
+  // All that changed since the last frame, once.
+  #frame(elapsed) {
+    const {world} = this;
+    if (this.recording && !world.paused) this.recording.advance(elapsed);
+    if (!world.changed.size) return;
+    const changed = world.changed;
+    world.changed = new Set();
+    if (changed.has("reads") || changed.has("tags-list")) world.survey();
+    if (changed.has("scene")) this.#names();
+    this.#widen();
+    this.drawing?.update(changed);
+    this.time?.update(changed);
+    this.changes?.update(changed);
+    const now = performance.now();
+    const late = [this.lists.update(changed, now), this.detail.update(changed, now)].some(Boolean);
+    if (late && !this.panelTimer) {
+      this.panelTimer = setTimeout(() => {
+        this.panelTimer = 0;
+        world.touch("panels");
+      }, PANEL_MS);
+    }
+    if (changed.has("selection")) this.#insets();
+    if (this.stage) this.at.views.lastChild.hidden = !this.drawing.robots.place();
+    if (this.recording && !world.paused) this.#ask();
+  }
+
+  #names() {
+    const {name, description} = this.world.scene;
+    setText(this.at.name, name || "Tagfield");
+    this.at.name.title = description ?? "";
+    if (this.at.host.hasAttribute("data-whole-page")) document.title = name ? `${name} – Tagfield` : "Tagfield";
+  }
+
+  // Colours mean the same for a whole recorded run; a live one's range grows with what is read.
+  #widen() {
+    if (this.recording) return;
+    let grew = false;
+    for (const rssi of this.world.strength) if (rssi === rssi) grew = this.scale.widen(rssi) || grew;
+    if (grew) this.legend.draw();
+  }
+
+  select(kind, index) {
+    this.at.panels.removeAttribute("data-closed");
+    this.world.select(kind, index);
+  }
+
+  deselect() {
+    if (!this.world.selection) return false;
+    const {kind, index} = this.world.selection;
+    this.world.select(null);
+    this.lists.rows.find((row) => row.kind === kind && row.index === index)?.button.focus();
+    return true;
+  }
+
+  look(name) {
+    if (!this.stage) return;
+    const follows = name === "follow" && Boolean(this.drawing.robots.place());
+    if (follows) this.stage.follows(() => this.drawing.robots.place());
+    else if (name !== "follow") this.stage.look(name);
+    for (const button of this.at.views.children) {
+      if (button.dataset.view === "follow") button.setAttribute("aria-pressed", String(follows));
+    }
+  }
+
+  #insets() {
+    const wide = this.at.host.clientWidth > 700;
+    this.stage?.setInsets({left: wide ? this.at.lists.offsetWidth : 0, top: 0, bottom: wide ? 0 : 14,
+                           right: wide && !this.at.detail.hidden ? this.at.detail.offsetWidth : 0});
+  }
+
+  #buttons() {
+    const {at} = this;
+    for (const button of at.views.children) button.addEventListener("click", () => this.look(button.dataset.view));
+    at.beams.addEventListener("click", () => {
+      const on = at.beams.getAttribute("aria-pressed") !== "true";
+      at.beams.setAttribute("aria-pressed", String(on));
+      this.drawing.antennas.showBeams(on);
+      this.stage.invalidate();
+    });
+    at.handle.addEventListener("click", () => {
+      const closed = at.panels.toggleAttribute("data-closed");
+      at.handle.setAttribute("aria-expanded", String(!closed));
+    });
+    if (!this.stage) return;
+    new ResizeObserver(() => this.#insets()).observe(at.view);
+    at.canvas.addEventListener("pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
+    at.canvas.addEventListener("click", (event) => this.#click(event));
+  }
+
+  #click(event) {
+    const [x, y] = this.pressed ?? [event.clientX, event.clientY];
+    if (Math.hypot(event.clientX - x, event.clientY - y) > CLICK_PX) return;
+    const box = this.at.canvas.getBoundingClientRect();
+    const at = [event.clientX - box.left, event.clientY - box.top];
+    if (this.picked) {
+      this.picked(this.drawing.picking.place(...at));
+      return;
+    }
+    const found = this.drawing.picking.nearest(...at, event.pointerType === "touch");
+    if (found) this.select(found.kind, found.index);
+    else this.deselect();
+  }
+
+  // The next click's place in the world, or null where there is none or Escape was pressed.
+  pickPlace(word) {
+    if (!this.stage) return Promise.resolve(null);
+    this.picked?.(null);
+    setText(this.at.pick, `${word} (Escape: never mind)`);
+    this.at.pick.hidden = false;
+    return new Promise((resolve) => {
+      const end = (place) => {
+        this.picked = null;
+        this.at.pick.hidden = true;
+        document.removeEventListener("keydown", escape);
+        resolve(place);
+      };
+      const escape = (event) => event.key === "Escape" && end(null);
+      document.addEventListener("keydown", escape);
+      this.picked = end;
+    });
+  }
+
+  showRecording(run) {
+    this.recording = new Recording(this.world, run);
+    this.scale.fit(run.reads.rssi);
+    this.legend.draw();
+    this.time = new TimeBar(this.at, this.world, this.recording, null);
+    this.say("recorded", "recorded run");
+    this.world.touch("time");
+  }
+
+  showLive() {
+    const live = new Live(this.world, (state, word) => this.say(state, word));
+    const command = (method, path, body) => live.send(method, path, body);
+    this.changes = new Changes(this.world, command, (word) => this.pickPlace(word));
+    this.lists.addTab("changes", "Change", this.changes.element);
+    this.time = new TimeBar(this.at, this.world, null, (...words) =>
+      command(...words).then(() => this.say("connected", ""), (error) => this.say("refused", error.message)));
+    live.start();
+  }
+
+  // Asks the server which of both it is, for as long as it takes.
+  async start() {
+    const embedded = document.getElementById("tagfield-run");
+    if (embedded) {
+      this.showRecording(JSON.parse(embedded.textContent));
+      return;
+    }
+    this.say("connecting", "connecting …");
+    try {
+      if ((await get("status")).mode === "recorded") this.showRecording(await get("run"));
+      else this.showLive();
+    } catch {
+      this.say("away", "The server does not answer; trying again");
+      setTimeout(() => this.start(), AGAIN_MS);
+    }
+  }
+}
+
+const host = document.getElementById("tagfield-view");
+host.tagfield = new View(host);  // For tests and the browser's console.
+host.tagfield.start();

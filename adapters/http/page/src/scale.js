@@ -1,0 +1,31 @@
+// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is read.
+
+const STEP_DB = 10;
+
+export class Scale {
+  constructor() {
+    this.low = -80;
+    this.high = -40;
+  }
+
+  // A run's own range, without its rarest hundredth at either end.
+  fit(rssi) {
+    if (!rssi.length) return;
+    const sorted = Float32Array.from(rssi).sort();
+    const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
+    this.low = STEP_DB * Math.floor(at(0.01) / STEP_DB);
+    this.high = Math.max(STEP_DB * Math.ceil(at(0.99) / STEP_DB), this.low + 2 * STEP_DB);
+  }
+
+  // True where the range grew.
+  widen(rssi) {
+    const [low, high] = [this.low, this.high];
+    if (rssi < low && rssi > -130) this.low = STEP_DB * Math.floor(rssi / STEP_DB);
+    if (rssi > high && rssi < 40) this.high = STEP_DB * Math.ceil(rssi / STEP_DB);
+    return low !== this.low || high !== this.high;
+  }
+
+  share(rssi) {
+    return (rssi - this.low) / (this.high - this.low);
+  }
+}
