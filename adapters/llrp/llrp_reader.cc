@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/llrp/rf_modes.h"
 #include "tagfield/base/error.h"
-#include "tagfield/gen2/tag_epc.h"
-#include "tagfield/reader/radio_model.h"
 
 namespace tagfield::llrp {
 namespace {
@@ -52,13 +49,6 @@ void write_ok(ByteWriter& writer, const std::string& text = "") {
 }
 
 std::uint32_t id_in(const Message& message) { return ByteReader(message.body).u32(); }
-
-/// Q for so many tags: as many slots.
-int q_for(std::uint16_t tags) {
-  int q = 0;
-  while (q < 15 && (1U << static_cast<unsigned>(q)) < tags) ++q;
-  return q;
-}
 
 template <class Entries>
 void require_room(const Entries& entries, std::size_t most, const char* what) {
@@ -201,231 +191,16 @@ void LlrpReader::on_custom(LiveWorld& /*world*/, const Message& message) {
 }
 
 void LlrpReader::get_config(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
-  ByteReader reader(message.body);
-  const std::uint16_t antenna = reader.u16();
-  const std::uint8_t requested = reader.u8();
-  if (requested > 11) throw Fault(Status::kFieldError, "the requested data must be from 0 to 11");
-  if (antenna > ports_.antennas.size()) {
-    throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", antenna));
-  }
-  const auto is_asked = [&](std::uint8_t part) { return requested == 0 || requested == part; };
-  const auto for_each_antenna = [&](const std::function<void(std::uint16_t)>& write) {
-    for (std::size_t i = 1; i <= ports_.antennas.size(); ++i) {
-      if (antenna == 0 || antenna == i) write(static_cast<std::uint16_t>(i));
-    }
-  };
+  ByteWriter told;
+  write_configuration(configuration_, name_, ports_, ByteReader(message.body), told);
   write_ok(out);
-  if (is_asked(1)) {
-    out.parameter(218, [&] {
-      out.u8(1);
-      const Words id = tagfield::epc_of_id(name_);
-      out.u16(static_cast<std::uint16_t>(id.size() * 2));
-      for (const std::uint16_t word : id) out.u16(word);
-    });
-  }
-  if (is_asked(2)) {
-    for_each_antenna([&](std::uint16_t id) {
-      out.parameter(221, [&] {
-        out.flag(!ports_.antennas[id - 1U].is_faulty);
-        out.u16(id);
-        const RadioModel* const model = physical(ports_.antennas[id - 1U].spec.parameters);
-        const double gain_dbi = model == nullptr ? 0.0 : model->antenna.gain_dbi;
-        out.s16(static_cast<std::int16_t>(std::lround(gain_dbi * 100.0)));
-      });
-    });
-  }
-  if (is_asked(3)) {
-    for_each_antenna([&](std::uint16_t id) {
-      const AntennaSetting setting = setting_of({}, id);
-      const std::vector<double> powers = powers_of(ports_);
-      const AntennaParameters& parameters = ports_.antennas[id - 1U].spec.parameters;
-      const RadioModel* const model = physical(parameters);
-      const double own_dbm = model == nullptr ? powers.front() : model->transmit_power_dbm;
-      out.parameter(kAntennaConfiguration, [&] {
-        out.u16(id);
-        out.parameter(223, [&] { out.u16(1); });
-        out.parameter(224, [&] {
-          out.u16(hops(ports_) ? 1 : 0);
-          out.u16(setting.channel_index.value_or(hops(ports_) ? 0 : 1));
-          out.u16(setting.power_index.value_or(power_index_of(powers, own_dbm)));
-        });
-        out.parameter(330, [&] {
-          out.u8(0);
-          out.parameter(335, [&] {
-            out.u16(setting.mode_index.value_or(1000));
-            out.u16(0);
-          });
-          out.parameter(336, [&] {
-            out.u8(static_cast<std::uint8_t>(setting.session.value_or(0) << 6U));
-            out.u16(setting.tag_population.value_or(16));
-            out.u32(0);
-          });
-        });
-      });
-    });
-  }
-  if (is_asked(5)) {
-    out.parameter(kReaderEventNotificationSpec, [&] {
-      for (std::uint16_t kind = 0; kind <= 8; ++kind) {
-        out.parameter(245, [&] {
-          out.u16(kind);
-          out.flag(configuration_.events.count(kind) > 0);
-        });
-      }
-    });
-  }
-  if (is_asked(4)) write_report_spec(configuration_.report, out);
-  if (is_asked(6)) {
-    out.parameter(kAccessReportSpec, [&] { out.u8(configuration_.access_report); });
-  }
-  if (is_asked(7)) out.parameter(217, [&] { out.u32(0); });
-  if (is_asked(8)) {
-    out.parameter(kKeepaliveSpec, [&] {
-      const auto ms =
-          std::chrono::duration_cast<std::chrono::milliseconds>(configuration_.keepalive);
-      out.u8(ms.count() > 0 ? 1 : 0);
-      out.u32(static_cast<std::uint32_t>(ms.count()));
-    });
-  }
-  if (is_asked(11)) {
-    out.parameter(kEventsAndReports, [&] { out.flag(configuration_.holds_reports); });
-  }
+  out.bytes(told.written());
 }
 
 void LlrpReader::set_config(LiveWorld& world, const Message& message, ByteWriter& out) {
-  ByteReader reader(message.body);
-  const bool resets = (reader.u8() & 0x80U) != 0;
-  Configuration told = resets ? Configuration{} : configuration_;
-  for (const Parameter& parameter : parameters_of(reader)) {
-    ByteReader content = parameter.content;
-    switch (parameter.type) {
-      case kReaderEventNotificationSpec:
-        for (const Parameter& state : parameters_of(content)) {
-          if (state.type != 245) continue;
-          ByteReader value = state.content;
-          const std::uint16_t kind = value.u16();
-          if ((value.u8() & 0x80U) != 0) {
-            told.events.insert(kind);
-          } else {
-            told.events.erase(kind);
-          }
-        }
-        break;
-      case kAntennaConfiguration:
-        read_antenna_setting(content, told.antennas);
-        break;
-      case kRoReportSpec:
-        told.report = report_spec_of(content);
-        break;
-      case kAccessReportSpec:
-        told.access_report = content.u8();
-        break;
-      case kKeepaliveSpec: {
-        const bool is_periodic = content.u8() == 1;
-        const std::chrono::milliseconds every(content.u32());
-        told.keepalive = is_periodic ? Duration(every) : Duration{};
-        break;
-      }
-      case kEventsAndReports:
-        told.holds_reports = (content.u8() & 0x80U) != 0;
-        break;
-      case kCustomParameter:
-        break;  // Of vendors' settings none changes what is simulated.
-      default:
-        throw Fault(Status::kUnsupportedParameter,
-                    fmt::format("parameter {} can't be set here", parameter.type));
-    }
-  }
-  configuration_ = told;
+  configuration_ = configured(configuration_, ByteReader(message.body));
   kept_alive_ = world.now();
   write_ok(out);
-}
-
-AntennaSetting LlrpReader::setting_of(const AiSpec& spec, std::uint16_t antenna) const {
-  AntennaSetting setting;
-  for (const AntennaSettings* settings : {&configuration_.antennas, &spec.settings}) {
-    for (const std::uint16_t id : {std::uint16_t{0}, antenna}) {
-      const auto found = settings->find(id);
-      if (found != settings->end()) merge(found->second, setting);
-    }
-  }
-  return setting;
-}
-
-/// What the world's reader is to do for the AISpec. Throws Fault where that is not possible.
-ReaderDuty LlrpReader::duty_of(const Ports& ports, const AiSpec& spec) const {
-  std::vector<std::uint16_t> ids = spec.antennas;
-  if (std::find(ids.begin(), ids.end(), 0) != ids.end()) {
-    ids.clear();
-    for (std::size_t i = 1; i <= ports.antennas.size(); ++i) {
-      ids.push_back(static_cast<std::uint16_t>(i));
-    }
-  }
-  ReaderDuty duty;
-  const std::vector<double> powers = powers_of(ports);
-  for (const std::uint16_t id : ids) {
-    if (id > ports.antennas.size()) {
-      throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", id));
-    }
-    AntennaDuty one{ports.antennas[id - 1U].spec.parameters.name, std::nullopt};
-    if (const auto index = setting_of(spec, id).power_index) {
-      if (*index == 0 || *index > powers.size()) {
-        throw Fault(Status::kFieldError, fmt::format("there is no transmit power {}", *index));
-      }
-      if (powers.size() > 1) one.transmit_power_dbm = powers[*index - 1U];
-    }
-    duty.antennas.push_back(std::move(one));
-  }
-  if (ids.empty()) return duty;
-  const AntennaSetting setting = setting_of(spec, ids.front());
-  if (setting.session) duty.session = static_cast<Session>(*setting.session);
-  if (setting.tag_population) duty.start_q = q_for(*setting.tag_population);
-  if (setting.asks_for_b) duty.target = *setting.asks_for_b ? Target::kB : Target::kA;
-  switch (setting.search_mode.value_or(0)) {
-    case 1:
-      duty.target = Target::kA;
-      break;
-    case 2:
-      duty.target = Target::kAlternate;
-      break;
-    case 3:
-      duty.target = Target::kA;
-      duty.session = Session::kS1;
-      break;
-    default:
-      break;
-  }
-  if (setting.mode_index) {
-    const RfMode* const mode = find_mode(*setting.mode_index);
-    if (mode == nullptr) {
-      throw Fault(Status::kFieldError, fmt::format("there is no RF mode {}", *setting.mode_index));
-    }
-    duty.link = mode->link;
-    const RadioModel* const model = physical(ports.antennas[ids.front() - 1U].spec.parameters);
-    if (duty.link && model != nullptr && model->gen2) {
-      duty.link->epc_bits = model->gen2->link.epc_bits;
-    }
-  }
-  const std::vector<double> channels = channels_of(ports);
-  std::vector<std::uint16_t> wanted = setting.fixed_channels;
-  if (wanted.empty() && !hops(ports) && channels.size() > 1 &&
-      setting.channel_index.value_or(0) > 0) {
-    wanted = {*setting.channel_index};
-  }
-  if (!wanted.empty()) {
-    const RadioModel* const model = physical(ports.antennas[ids.front() - 1U].spec.parameters);
-    ChannelPlan plan = model != nullptr ? model->plan : fixed_plan(channels.front());
-    plan.carriers_hz.clear();
-    std::sort(wanted.begin(), wanted.end());
-    for (const std::uint16_t channel : wanted) {
-      if (channel == 0 || channel > channels.size()) {
-        throw Fault(Status::kFieldError, fmt::format("there is no channel {}", channel));
-      }
-      plan.carriers_hz.push_back(channels[channel - 1U]);
-    }
-    duty.plan = std::move(plan);
-  }
-  return duty;
 }
 
 void LlrpReader::tell_warnings(const std::vector<std::string>& warnings) {
@@ -436,7 +211,7 @@ void LlrpReader::tell_warnings(const std::vector<std::string>& warnings) {
 
 /// Throws Fault where the AISpec can't be carried out.
 void LlrpReader::check_duty(const LiveWorld& /*world*/, const AiSpec& spec) {
-  const ReaderDuty duty = duty_of(ports_, spec);
+  const ReaderDuty duty = duty_of(configuration_, ports_, spec);
   std::vector<std::string> warnings;
   try {
     for (const AntennaDuty& one : duty.antennas) {
@@ -543,6 +318,7 @@ void LlrpReader::start(LiveWorld& world, RoEntry& entry) {
     end(world, entry.spec.id);
   }
   entry.state = State::kActive;
+  const bool has_duration = entry.spec.stop == StopAt::kDuration;
   running_ = Running{entry.spec.id,
                      now_,
                      0,
@@ -550,7 +326,8 @@ void LlrpReader::start(LiveWorld& world, RoEntry& entry) {
                      {},
                      now_,
                      {},
-                     0,
+                     has_duration ? now_ + entry.spec.duration : Time::max(),
+                     {},
                      ReportGathering(entry.spec.report.value_or(configuration_.report))};
   tell_event(kRoSpecEvents, [&](ByteWriter& out) {
     out.parameter(249, [&] {
@@ -567,11 +344,11 @@ void LlrpReader::begin_ai_spec(LiveWorld& world) {
   const AiSpec& spec = ro_spec(running.id).spec.specs[running.ai];
   running.ai_began = running.last_new = now_;
   running.seen.clear();
-  running.inventory_spec = spec.inventory_spec;
-  running.filters =
-      setting_of(spec, spec.antennas.front()).filters.value_or(std::vector<TagFilter>{});
+  running.ai_spec = spec;
+  running.filters = setting_of(configuration_, spec.settings, spec.antennas.front())
+                        .filters.value_or(std::vector<TagFilter>{});
   try {
-    tell_warnings(world.set_duty(name_, duty_of(ports_, spec)));
+    tell_warnings(world.set_duty(name_, duty_of(configuration_, ports_, spec)));
   } catch (const std::exception& error) {
     // Antennas may have been taken out of the world since it was added.
     tell_warnings({fmt::format("ROSpec {} can't go on: {}", running.id, error.what())});
@@ -626,14 +403,13 @@ void LlrpReader::end(LiveWorld& world, std::uint32_t preempted_by) {
   });
 }
 
-bool LlrpReader::is_ai_spec_over(Time now) const {
-  const Running& running = *running_;
-  const AiSpec& spec = ro_specs_.at(running.id).spec.specs[running.ai];
-  if (spec.stop == StopAt::kDuration) return now - running.ai_began >= spec.duration;
+bool LlrpReader::is_ai_spec_over(const Running& running, Time at) {
+  const AiSpec& spec = running.ai_spec;
+  if (spec.stop == StopAt::kDuration) return at - running.ai_began >= spec.duration;
   if (spec.stop != StopAt::kTagObservation) return false;
-  if (spec.timeout > Duration::zero() && now - running.ai_began >= spec.timeout) return true;
+  if (spec.timeout > Duration::zero() && at - running.ai_began >= spec.timeout) return true;
   if (spec.observation == 0) return running.seen.size() >= spec.tags;
-  return spec.quiet > Duration::zero() && now - running.last_new >= spec.quiet;
+  return spec.quiet > Duration::zero() && at - running.last_new >= spec.quiet;
 }
 
 void LlrpReader::start_those_due(LiveWorld& world, Time now) {
@@ -693,10 +469,9 @@ void LlrpReader::on_step(LiveWorld& world, Time now) {
   }
   killed_.clear();
   if (running_) {
-    const RoSpec& spec = ro_spec(running_->id).spec;
-    if (spec.stop == StopAt::kDuration && now - running_->began >= spec.duration) {
+    if (now >= running_->ends) {
       end(world);
-    } else if (is_ai_spec_over(now)) {
+    } else if (is_ai_spec_over(*running_, now)) {
       end_ai_spec(world);
     }
   }
@@ -728,7 +503,7 @@ TagReport LlrpReader::report_of(const TagRead& read, const Running& running,
   report.crc = tag.crc();
   report.ro_spec = running.id;
   report.spec_index = static_cast<std::uint16_t>(running.ai + 1);
-  report.inventory_spec = running.inventory_spec;
+  report.inventory_spec = running.ai_spec.inventory_spec;
   report.antenna = ports_.id_of(read.antenna);
   report.channel = static_cast<std::uint16_t>(channel - channels.begin() + 1);
   report.peak_rssi_dbm = read.rssi_dbm;
@@ -743,6 +518,8 @@ void LlrpReader::on_read(const TagRead& read) {
   Running* const running = running_at(read.stamp);
   MemoryBanks& tag = tags_->of(read.tag);
   if (running == nullptr || tag.is_killed() || !is_selected(running->filters, tag)) return;
+  // It ended within a step: the reader is silent from then on.
+  if (read.stamp >= running->ends || is_ai_spec_over(*running, read.stamp)) return;
   if (running->seen.insert(read.tag).second) running->last_new = read.stamp;
   TagReport report = report_of(read, *running, tag);
   operate(read, tag, report);

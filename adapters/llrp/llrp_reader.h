@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "adapters/llrp/capabilities.h"
+#include "adapters/llrp/reader_configuration.h"
 #include "adapters/llrp/reports.h"
 #include "adapters/llrp/specs.h"
 #include "adapters/llrp/tag_store.h"
@@ -77,17 +78,9 @@ class LlrpReader {
     std::set<std::string> seen;  ///< In this AISpec.
     Time last_new;
     std::vector<TagFilter> filters;
-    std::uint16_t inventory_spec = 0;
+    Time ends = Time::max();  ///< By the ROSpec's duration.
+    AiSpec ai_spec;
     ReportGathering gathering;
-  };
-  /// What SET_READER_CONFIG sets.
-  struct Configuration {
-    AntennaSettings antennas;
-    ReportSpec report;
-    std::set<std::uint16_t> events;  ///< That are told.
-    Duration keepalive{};            ///< 0 for none.
-    bool holds_reports = false;
-    std::uint8_t access_report = 0;
   };
   using Handler = void (LlrpReader::*)(LiveWorld&, const Message&, ByteWriter&);
 
@@ -111,15 +104,13 @@ class LlrpReader {
   void be_silent(LiveWorld& world);
   void begin_ai_spec(LiveWorld& world);
   void end_ai_spec(LiveWorld& world);
-  [[nodiscard]] bool is_ai_spec_over(Time now) const;
   void start_those_due(LiveWorld& world, Time now);
-  [[nodiscard]] AntennaSetting setting_of(const AiSpec& spec, std::uint16_t antenna) const;
-  [[nodiscard]] ReaderDuty duty_of(const Ports& ports, const AiSpec& spec) const;
   void check_duty(const LiveWorld& world, const AiSpec& spec);
   void tell_warnings(const std::vector<std::string>& warnings);
   void watch_antennas(const LiveWorld& world);
   void tell_line_state();
 
+  static bool is_ai_spec_over(const Running& running, Time at);
   Running* running_at(Time stamp);
   [[nodiscard]] TagReport report_of(const TagRead& read, const Running& running,
                                     const MemoryBanks& tag) const;
@@ -146,7 +137,7 @@ class LlrpReader {
   std::optional<Time> kept_alive_;
   bool has_warned_of_buffer_ = false;
 
-  Configuration configuration_;
+  ReaderConfiguration configuration_;
   std::map<std::uint32_t, RoEntry> ro_specs_;
   std::map<std::uint32_t, AccessEntry> access_specs_;
   std::optional<Running> running_;

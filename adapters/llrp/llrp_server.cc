@@ -47,9 +47,9 @@ struct Endpoint {
 };
 
 /// A client's connection. The network's thread reads and writes; the world's thread sends.
-class Session final : public ClientLine, public std::enable_shared_from_this<Session> {
+class ClientSession final : public ClientLine, public std::enable_shared_from_this<ClientSession> {
  public:
-  Session(std::shared_ptr<Endpoint> endpoint, asio::io_context& io, tcp::socket socket)
+  ClientSession(std::shared_ptr<Endpoint> endpoint, asio::io_context& io, tcp::socket socket)
       : endpoint_(std::move(endpoint)), io_(io), socket_(std::move(socket)), timer_(io), gap_(io) {}
 
   void begin() {
@@ -327,7 +327,7 @@ class LlrpServer::Impl {
           if (endpoint->has_client) {
             turn_away(std::move(socket), static_cast<std::uint64_t>(options_.epoch_us));
           } else {
-            std::make_shared<Session>(endpoint, io_, std::move(socket))->begin();
+            std::make_shared<ClientSession>(endpoint, io_, std::move(socket))->begin();
           }
           accept(endpoint);
         });

@@ -10,7 +10,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/scenario_arguments.h"
-#include "tagfield/base/utc.h"
+#include "apps/tagfield/start_time.h"
 #include "tagfield/planning/moment.h"
 
 namespace tagfield {
@@ -20,7 +20,7 @@ struct ServeArguments {
   ScenarioArguments of_scenario;
   std::optional<std::uint16_t> http;
   std::optional<std::uint16_t> llrp;
-  std::string start = "2020-01-01T00:00:00Z";
+  std::string start;
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
@@ -51,17 +51,6 @@ void require_token(ServeArguments& arguments) {
              arguments.listen, arguments.token);
 }
 
-/// UTC at the simulated time 0, since 1970.
-Time start_of(const std::string& text) {
-  try {
-    const Time start = utc_from_text(text);
-    if (start >= Time{}) return start;
-  } catch (const Error& error) {
-    throw Error(fmt::format("--start {}: {}", text, error.what()));
-  }
-  throw Error(fmt::format("--start {}: expected a time from 1970 on", text));
-}
-
 void warn(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
 
 std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
@@ -70,7 +59,7 @@ std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
   options.address = arguments.listen;
   options.port = *arguments.llrp;
   options.epoch_us = std::chrono::duration_cast<std::chrono::microseconds>(
-                         start_of(arguments.start).time_since_epoch())
+                         start_time("serve", arguments.start, Time{}).time_since_epoch())
                          .count();
   options.warn = warn;
   return std::make_shared<llrp::LlrpServer>(options);
@@ -102,7 +91,7 @@ int serve(ServeArguments arguments) {
   options.is_paused = arguments.is_paused;
   // Readers that wait for a client read when it tells them to.
   options.readers_start = !arguments.llrp;
-  const auto feed = std::make_shared<http::LiveFeed>(start_of(arguments.start));
+  const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));
   const auto llrp = llrp_server(arguments);
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
@@ -152,8 +141,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
                    "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
                    "Readers then read when a client tells them to")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
-  command->add_option("--start", arguments->start,
-                      "Time of the world's clock at first (default 2020-01-01T00:00:00Z)");
+  add_start_option(*command, arguments->start);
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "
                       "machine alone)");

@@ -90,5 +90,4 @@ await ask("GET_ACCESSSPECS");
 await new Promise((done) => setTimeout(done, 1500));
 const gone = new Promise((done) => reader.once("disconnect", done));
 await Promise.race([ask("CLOSE_CONNECTION"), gone]);
-console.log(JSON.stringify(found));
-process.exit(0);
+process.stdout.write(JSON.stringify(found), () => process.exit(0));
