@@ -1,4 +1,5 @@
-// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is read.
+// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is
+// read.
 
 const STEP_DB = 10;
 
