@@ -152,6 +152,7 @@ export class Live {
       `api/${path}`,
       {method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
     if (status?.time !== undefined) this.#status(status);
+    this.world.touch("commanded");
     // A step goes on for a while; nothing else says when it has ended.
     if (path === "step")
       setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);

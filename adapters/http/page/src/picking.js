@@ -48,7 +48,9 @@ export class Picking {
     this.pixel.set((2 * x) / width - 1, 1 - (2 * y) / height);
     this.ray.setFromCamera(this.pixel, this.stage.camera);
     const hits = this.ray.intersectObject(this.solids.group, true)
-                   .filter((hit) => hit.object.isMesh && hit.object.material.depthWrite);
+                   .filter(
+                     (hit) => hit.object.isMesh && hit.object.material.depthWrite &&
+                       !hit.object.userData.isHull);
     const floor = this.ray.ray.intersectPlane(new Plane(new Vector3(0, 0, 1), 0), new Vector3());
     const hit = hits[0]?.point ?? floor;
     return hit ? hit.toArray() : null;

@@ -1,6 +1,9 @@
 // Camera, light and the loop: a frame is drawn only when something asked for one.
 
-import {AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer,} from "three";
+import {
+  AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3,
+  WebGLRenderer
+} from "three";
 import {OrbitControls} from "three/addons/controls/OrbitControls.js";
 
 const FIELD_OF_VIEW_DEG = 45;
@@ -131,7 +134,7 @@ export class Stage {
     }
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(back, distance);
-    this.camera.near = Math.max(0.02, size / 2000);
+    this.camera.near = Math.max(0.02, size / 600);
     this.camera.far = 60 * size + 100;
     this.camera.updateProjectionMatrix();
     this.controls.update();

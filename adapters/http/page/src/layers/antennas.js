@@ -1,7 +1,11 @@
 // Antennas: a plate that looks along its boresight, the half-power part of its beam or the paper's
 // sphere of range, and the trail of one that moves.
 
-import {AdditiveBlending, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DoubleSide, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, NormalBlending, ShaderMaterial, SphereGeometry,} from "three";
+import {
+  AdditiveBlending, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DoubleSide,
+  EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshLambertMaterial, NormalBlending, ShaderMaterial, SphereGeometry
+} from "three";
 
 import {antennaColor} from "../colors.js";
 

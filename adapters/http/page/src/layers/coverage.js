@@ -1,6 +1,8 @@
 // Where an antenna would read a tag, as a coloured layer at one height.
 
-import {DataTexture, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace,} from "three";
+import {
+  DataTexture, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace
+} from "three";
 
 import {marginColor} from "../colors.js";
 

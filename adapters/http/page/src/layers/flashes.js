@@ -1,6 +1,8 @@
 // Reads as lines between antenna and tag that fade; the fading is the shader's work.
 
-import {BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineSegments, ShaderMaterial,} from "three";
+import {
+  BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineSegments, ShaderMaterial
+} from "three";
 
 import {antennaColor} from "../colors.js";
 
@@ -16,7 +18,8 @@ varying vec4 vColor;
 void main() {
   float age = (uNow - aBorn) / ${FADE_S.toFixed(2)};
   vColor = vec4(aColor, 0.75 * clamp(1.0 - age, 0.0, 1.0));
-  gl_Position = age > 1.0 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * viewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+  if (age > 1.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 const FRAGMENT = `
 varying vec4 vColor;

@@ -1,6 +1,9 @@
 // Floor, metre grid, map and the robots' paths.
 
-import {Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3,} from "three";
+import {
+  Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments,
+  Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3
+} from "three";
 
 // Lines each `step` metres, but for those at multiples of `skip`.
 function gridLines({min, max}, step, skip, height) {

@@ -1,6 +1,8 @@
 // The paths of one link, as `explain` gives them: the direct way, reflections, diffraction.
 
-import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial,} from "three";
+import {
+  BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial
+} from "three";
 
 const MOST = 12;
 const FAINTEST_DB = -40;  // A path this far below the direct way is drawn faintest.

@@ -1,6 +1,10 @@
 // Robots: a simple body half a metre wide with its heading, and what its laser sees.
 
-import {BoxGeometry, BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Vector3,} from "three";
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage,
+  EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial,
+  Points, PointsMaterial, Quaternion, Vector3
+} from "three";
 
 const WIDTH_M = 0.5;
 const HEIGHT_M = 0.25;

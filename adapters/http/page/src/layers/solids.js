@@ -1,11 +1,17 @@
 // The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls
 // and roofs between camera and hall turn into glass, so that one can look in from outside.
 
-import {Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, EdgesGeometry, Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Vector3,} from "three";
+import {
+  Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide,
+  EdgesGeometry, Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshLambertMaterial, Quaternion, SphereGeometry, Vector3
+} from "three";
 
 import {isTransparent, solidColor} from "../colors.js";
 
 const FAR = 60;              // A plane or slab wider than this says nothing of the hall's size [m].
+const HULL_SHARE = 0.8;      // A mesh wider than this share of the world both ways is its hull.
+const MOST_EDGES = 5000;     // Triangles of a mesh whose edges are drawn [1].
 const WALL_SHARE = 0.3;      // A wall is longer than this share of the world …
 const WALL_THICKNESS = 0.6;  // … and thinner than this [m].
 
@@ -80,6 +86,34 @@ function hides(box, bounds) {
     Math.max(size.x, size.y) > WALL_SHARE * Math.max(whole.x, whole.y));
 }
 
+// A mesh that is the whole hall: its walls are one solid.
+function isHull(solid, box, bounds) {
+  if (solid.mesh === undefined) return false;
+  const size = box.getSize(new Vector3());
+  const whole = bounds.getSize(new Vector3());
+  return size.x > HULL_SHARE * whole.x && size.y > HULL_SHARE * whole.y && size.z > 1.2;
+}
+
+// Leaves one pixel in 17 of faces that have the camera on their outer side, of roofs too.
+function openTowardsCamera(material, center) {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.uCenter = {value: center};
+    shader.vertexShader = shader.vertexShader.replace("void main() {", `
+varying vec3 vPlace;
+void main() {
+  vPlace = (modelMatrix * vec4(position, 1.0)).xyz;`);
+    shader.fragmentShader = shader.fragmentShader.replace("void main() {", `
+uniform vec3 uCenter;
+varying vec3 vPlace;
+void main() {
+  vec3 face = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
+  vec3 outwards = face * sign(dot(face, vPlace - uCenter));
+  bool floorLike = abs(face.z) > 0.7 && vPlace.z < uCenter.z;
+  if (!floorLike && dot(cameraPosition - vPlace, outwards) > 0.0 &&
+      mod(floor(gl_FragCoord.x) + 4.0 * floor(gl_FragCoord.y), 17.0) >= 1.0) discard;`);
+  };
+}
+
 export class Solids {
   constructor(stage) {
     this.stage = stage;
@@ -134,8 +168,10 @@ export class Solids {
       }
     }
     this.#edges(kept.filter((one) => one.box));
-    for (const solid of kept)
-      if (solid.mesh !== undefined) this.group.add(this.#single(solid, scene));
+    solids.forEach((solid, i) => {
+      if (kept.includes(solid) && solid.mesh !== undefined)
+        this.#mesh(solid, boxes[i], bounds, scene);
+    });
     return bounds.isEmpty() ? null : bounds;
   }
 
@@ -186,6 +222,20 @@ export class Solids {
     const mesh = new Mesh(geometry, material);
     mesh.applyMatrix4(poseMatrix(solid.pose, shape ? scaleOf(solid) : undefined));
     return mesh;
+  }
+
+  #mesh(solid, box, bounds, scene) {
+    const mesh = this.#single(solid, scene);
+    this.group.add(mesh);
+    if (isHull(solid, box, bounds)) {
+      mesh.material.side = DoubleSide;
+      mesh.userData.isHull = true;
+      openTowardsCamera(mesh.material, bounds.getCenter(new Vector3()));
+    } else if (scene.meshes[solid.mesh].triangles.length < 3 * MOST_EDGES) {
+      mesh.add(new LineSegments(
+        new EdgesGeometry(mesh.geometry, 30),
+        new LineBasicMaterial({color: this.edgeColor, transparent: true, opacity: 0.28})));
+    }
   }
 
   #screen(solid, box, scene) {

@@ -2,7 +2,10 @@
 // those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring
 // where read before, grey where never.
 
-import {Color, GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh, PlaneGeometry, ShaderMaterial, Vector2,} from "three";
+import {
+  Color, GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh,
+  PlaneGeometry, ShaderMaterial, Vector2
+} from "three";
 
 import {rssiColor} from "../colors.js";
 
@@ -34,7 +37,8 @@ void main() {
   gl_Position = aKind < uFrom || aKind > uTo ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * at;
   gl_Position.xy += position.xy * 4.0 * px / uViewport * gl_Position.w;
   // A little nearer than the face that it sticks to.
-  gl_Position.z -= 0.0006 * gl_Position.w;
+  vec4 nearer = projectionMatrix * (at + vec4(0.0, 0.0, 0.04, 0.0));
+  gl_Position.z = nearer.z / nearer.w * gl_Position.w;
 }`;
 
 const FRAGMENT = `
@@ -57,7 +61,8 @@ void main() {
   else if (kind < 1.5) color.a *= mix(0.12, 1.0, rim);
   else { color.a = mix(color.a, 1.0, rim); color.rgb *= mix(1.0, 0.78, rim); }
   color.a *= inside;
-  float ring = selected ? smoothstep(0.78 - soft, 0.78, r) * (1.0 - smoothstep(1.0 - soft, 1.0, r)) : 0.0;
+  float ring = smoothstep(0.78 - soft, 0.78, r) * (1.0 - smoothstep(1.0 - soft, 1.0, r));
+  if (!selected) ring = 0.0;
   color = mix(color, vec4(uInk, 1.0), ring);
   color.a *= uOpacity;
   if (color.a < 0.01) discard;
@@ -80,7 +85,7 @@ export class Tags {
     this.uniforms = uniforms;
     // Those behind something first, then those in sight, those read of late on top.
     this.meshes = [
-      [GreaterDepth, 0.3, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]
+      [GreaterDepth, 0.45, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]
     ].map(([depthFunc, opacity, from, to], i) => {
       const material = new ShaderMaterial({
         vertexShader: VERTEX,

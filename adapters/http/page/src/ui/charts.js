@@ -20,7 +20,7 @@ function ticks(low, high, most) {
   return all;
 }
 
-// points: flat array of time, value, antenna. axis: {title, low, high, label?(value), ticks?: […]}
+// points: flat array of time, value, antenna. axis: {title, low, high, label?(value), ticks?}
 export function drawChart(canvas, points, from, to, axis, style) {
   const ratio = Math.min(devicePixelRatio, 2);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];

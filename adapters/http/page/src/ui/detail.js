@@ -29,7 +29,8 @@ export class Detail {
   // element|null}
   constructor(at, world, scale, hooks) {
     Object.assign(
-      this, {at, world, scale, hooks, shown: "", lastChart: 0, lastExplain: 0, request: 0});
+      this, {at, world, scale, hooks, shown: "", request: 0});
+    this.#forget();
   }
 
   #style() {
@@ -60,7 +61,7 @@ export class Detail {
     if (name === this.shown) return;
     this.shown = name;
     ++this.request;
-    this.lastExplain = this.lastChart = 0;
+    this.#forget();
     this.hooks.explained(null);
     this.hooks.coverage(null);
     this.at.detail.hidden = !selection;
@@ -74,12 +75,13 @@ export class Detail {
     this.charts =
       [h("canvas", {class: "chart", role: "img"}), h("canvas", {class: "chart", role: "img"})];
     this.keys = h("div", {class: "keys"});
+    this.keysText = "";
     this.why = h("div", {});
     this.choice = h("select", {
       "aria-label": "Antenna of the link",
       onchange: () => {
         this.chosen = this.choice.value;
-        this.lastExplain = 0;
+        this.#forget();
         this.world.touch("time");
       }
     });
@@ -186,18 +188,39 @@ export class Detail {
     ];
   }
 
+  // Charts and explanation are due at once.
+  #forget() {
+    this.lastExplain = this.lastChart = -Infinity;
+    this.explainedAt = NaN;
+  }
+
+  // True where something is still due.
   update(changed, now) {
     const {selection} = this.world;
     if (changed.has("selection") || changed.has("tags-list") || changed.has("antennas"))
       this.show();
     if (!selection) return false;
+    if (changed.has("scene") || changed.has("antennas") || changed.has("tags-list") ||
+        changed.has("commanded"))
+      this.explainedAt = NaN;
     if (now - this.lastChart < CHART_MS && !changed.has("selection")) return true;
     this.lastChart = now;
-    if (selection.kind === "tag")
-      this.#refreshTag(selection.index, now);
-    else
+    if (selection.kind === "antenna") {
       this.#refreshAntenna(selection.index);
-    return false;
+      return false;
+    }
+    this.#refreshTag(selection.index);
+    return this.world.live && this.explainedAt !== this.world.time &&
+      !this.#explainIfTime(selection.index, now);
+  }
+
+  // At most once a second.
+  #explainIfTime(index, now) {
+    if (now - this.lastExplain < EXPLAIN_MS) return false;
+    this.lastExplain = now;
+    this.explainedAt = this.world.time;
+    this.#explain(index);
+    return true;
   }
 
   #refreshAntenna(index) {
@@ -208,7 +231,7 @@ export class Detail {
     this.actions?.refresh();
   }
 
-  #refreshTag(index, now) {
+  #refreshTag(index) {
     const {world} = this;
     const p = world.position.subarray(3 * index, 3 * index + 3);
     const strength = world.strength[index];
@@ -221,12 +244,6 @@ export class Detail {
       Number.isNaN(strength) ? "not read of late" : `${fixed(strength)} dBm`);
     setText(this.values.estimate, this.#estimate(index, p));
     this.#drawCharts(index);
-    if (
-      world.live && now - this.lastExplain >= EXPLAIN_MS &&
-      !(world.paused && this.lastExplain && this.explainedAt === world.time)) {
-      this.lastExplain = now;
-      this.#explain(index);
-    }
   }
 
   #estimate(index, p) {
@@ -315,12 +332,10 @@ export class Detail {
     }
     this.choice.value = name;
     const request = this.request;
-    const time = world.time;
     try {
       const link = await get(`explain?antenna=${encodeURIComponent(name)}&tag=${
         encodeURIComponent(world.tags[index].id)}`);
       if (request !== this.request) return;
-      this.explainedAt = time;
       this.why.replaceChildren(...budget(link));
       this.hooks.explained(link);
     } catch (error) {

@@ -30,7 +30,8 @@ export function buildFrame(host) {
         tabindex: "0",
         role: "application",
         "aria-label":
-          "The world in three dimensions. Arrows turn it, plus and minus zoom; the lists hold the same tags and antennas."
+          "The world in three dimensions. Arrows turn it, plus and minus zoom; " +
+            "the lists hold the same tags and antennas."
       })),
     keep("noWebgl", h("p", {class: "no-webgl", hidden: true})),
     keep("label", h("p", {class: "label", "aria-hidden": "true", hidden: true})),
