@@ -13,13 +13,15 @@ import time
 import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
-from common import Skip, check, clean_environment, run  # noqa: E402 pylint: disable=wrong-import-position
+from common import Skip, check, clean_environment, run  # noqa: E402
 
 CHROMIUM = "/usr/bin/chromium"
 CHROMEDRIVER = "/usr/bin/chromedriver"
 SOFTWARE_WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NO_WEBGL = ("--disable-gpu", "--disable-3d-apis")
-PAGE = "const view = document.getElementById('tagfield-view').tagfield, at = view.at, world = view.world;"
+PAGE = """const view = document.getElementById('tagfield-view').tagfield;
+const {at, world} = view;"""
+WEBGL = "return !!document.createElement('canvas').getContext('webgl2')"
 READY = "!!document.getElementById('tagfield-view')?.tagfield?.world.tags.length"
 
 
@@ -40,7 +42,8 @@ def decode_png(data):
     raw, rows, above = zlib.decompress(packed), [], bytearray(width * size)
     for y in range(height):
         start = y * (width * size + 1)
-        line = unfiltered(raw[start], bytearray(raw[start + 1:start + 1 + width * size]), above, size)
+        line = unfiltered(raw[start], bytearray(raw[start + 1:start + 1 + width * size]), above,
+                          size)
         rows.append([tuple(line[x:x + 3]) for x in range(0, len(line), size)])
         above = line
     return rows
@@ -126,13 +129,14 @@ class Browser:
 
     def project(self, place):
         """Pixel of a point of frame W [m]."""
-        return self.ask("(() => { const [x, y] = view.stage.project(...arguments[0]); "
-                        "const box = at.canvas.getBoundingClientRect(); "
-                        "return [x + box.left, y + box.top]; })()".replace("arguments[0]", json.dumps(list(place))))
+        x, y = self.ask(f"view.stage.project(...{json.dumps(list(place))})")
+        left, top = self.ask("(({left, top}) => [left, top])(at.canvas.getBoundingClientRect())")
+        return [x + left, y + top]
 
     def click(self, x, y):
         for kind in ("mousePressed", "mouseReleased"):
-            self.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            self.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left",
+                         clickCount=1)
 
     def press(self, *keys):
         from selenium.webdriver import ActionChains
@@ -155,7 +159,7 @@ class Browser:
         check(False, "the page goes on drawing")
 
     def complaints(self):
-        """Warnings and errors of the console; not that the server refused something, which it may."""
+        """Warnings and errors of the console; not that the server refused something."""
         return [entry["message"] for entry in self.driver.get_log("browser")
                 if entry["level"] in ("WARNING", "SEVERE") and "(Conflict)" not in entry["message"]]
 
@@ -181,7 +185,8 @@ def browser(flags=SOFTWARE_WEBGL):
     for program in (CHROMIUM, CHROMEDRIVER):
         if not shutil.which(program):
             raise Skip(f"{program} is not installed")
-    with tempfile.TemporaryDirectory(prefix="tagfield-chromium-", ignore_cleanup_errors=True) as profile:
+    with tempfile.TemporaryDirectory(prefix="tagfield-chromium-",
+                                     ignore_cleanup_errors=True) as profile:
         one = Browser(flags, profile)
         try:
             one.screen()
@@ -192,7 +197,7 @@ def browser(flags=SOFTWARE_WEBGL):
 
 def webgl_or_skip(one):
     one.driver.get("about:blank")
-    if not one.driver.execute_script("return !!document.createElement('canvas').getContext('webgl2')"):
+    if not one.driver.execute_script(WEBGL):
         raise Skip("Chromium draws no WebGL here")
 
 
@@ -207,7 +212,8 @@ class Bundle:
         self.source = context.source / "adapters" / "http" / "page"
         self.page = context.folder / "page.html"
         self.viewer = context.folder / "viewer.html"
-        made = run([self.source / "make", "npm", "node", self.modules, self.page], cwd=context.folder)
+        made = run([self.source / "make", "npm", "node", self.modules, self.page],
+                   cwd=context.folder)
         if made.code != 0 or not self.page.stat().st_size:
             raise Skip(made.out.strip() or made.err.strip())
         self.build(self.page, self.viewer)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """The world in the browser, in a real headless Chromium with WebGL in software.
 
-    page_live_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR [--screenshots DIR] [CASE…]
+    page_live_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
+                      [--screenshots DIR] [CASE…]
 
 The page is bundled with npm's packages and shown by a mock server that goes round a real run
 (adapters/http/page/test/mock.mjs); the cases named real_… take 'tagfield serve' instead. Skipped
@@ -21,7 +22,8 @@ import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
 from browser import (NO_WEBGL, Bundle, browser, mock, webgl_or_skip)  # noqa: E402
-from common import (Skip, case, check, check_between, check_equal, check_in, check_near,  # noqa: E402
+from common import (Skip, case, check, check_between, check_equal, check_in, check_near,
+                     # noqa: E402
                     main, position, read_csv)
 from served import served  # noqa: E402
 
@@ -29,6 +31,25 @@ SCENARIO = "warehouse_physics"
 LEAST_CONTRAST = 4.5  # WCAG 2.1, success criterion 1.4.3, for text.
 LARGEST_PAGE = 900_000
 _shared = {}
+
+# What the page is asked for, in JavaScript.
+CONTROLS = """[...at.root.querySelectorAll('button, input, select')]
+  .filter((one) => one.offsetParent)"""
+NAMELESS = """[...at.root.querySelectorAll('button, input, select, canvas')].filter((one) =>
+  !(one.getAttribute('aria-label') || one.textContent.trim() || one.placeholder ||
+    (one.id && at.root.querySelector(`label[for='${one.id}']`)))).map((one) => one.outerHTML)"""
+OUT_OF_SIGHT = f"""{CONTROLS}.filter((one) => {{
+  const box = one.getBoundingClientRect();
+  return box.left < -1 || box.right > 391;
+}}).map((one) => one.outerHTML)"""
+SMALL_BUTTONS = f"""{CONTROLS}.filter((one) => one.matches('button') && one.offsetHeight < 24)
+  .map((one) => one.textContent)"""
+BUDGET_ROWS = """[...at.detail.querySelector('table').querySelectorAll('tr')].map((row) =>
+  [row.querySelector('th').textContent, row.querySelector('.number').textContent])"""
+TEXT_COLORS = """[...new Set(
+  [...at.root.querySelectorAll('h1, h2, h3, p, dt, dd, th, td, label, span, .clock')]
+  .filter((one) => one.offsetParent && one.textContent && !one.closest('button, .pick'))
+  .map((one) => getComputedStyle(one).color))]"""
 
 
 class Shared:
@@ -120,7 +141,8 @@ def scene_is_drawn(context, one, address, shared):
     color = mean_color(one.pixels(px - 1, py - 1, 3, 3))
     # Metal is a bluish grey (125, 139, 153): light changes its brightness alone.
     for k, part in enumerate((125, 139, 153)):
-        check_near(color[k] / sum(color), part / (125 + 139 + 153), 0.02, f"share {k} of a rack's colour {color}")
+        check_near(color[k] / sum(color), part / (125 + 139 + 153), 0.02,
+                   f"share {k} of a rack's colour {color}")
     pallet = next(solid for name, solid in solids.items() if name.startswith("obstacles::column"))
     px, py = one.project([*pallet["pose"][:2], 2 * pallet["pose"][2]])
     wood = mean_color(one.pixels(px - 1, py - 1, 3, 3))
@@ -128,7 +150,8 @@ def scene_is_drawn(context, one, address, shared):
     background = one.pixels(1270, 60, 1, 1)[0][0]
     rows = one.pixels(280, 60, 980, 600)
     other = sum(color != background for row in rows[::8] for color in row[::8])
-    check_between(other / sum(len(row[::8]) for row in rows[::8]), 0.3, 0.95, "the share of the canvas with something on it")
+    check_between(other / sum(len(row[::8]) for row in rows[::8]), 0.3, 0.95,
+                  "the share of the canvas with something on it")
 
 
 @with_page()
@@ -136,10 +159,13 @@ def nothing_is_asked_of_others(context, one, address, shared):
     one.wait("world.time > 1", "time goes on")
     select(one, "tag", "tag1")
     asked = one.requests()
-    check(any(url.startswith("ws://") for url in asked), "no WebSocket: the test looked in the wrong place")
+    check(any(url.startswith("ws://") for url in asked),
+          "no WebSocket: the test looked in the wrong place")
     for url in asked:
-        check(url.startswith((address, address.replace("http", "ws"), "data:", "blob:")), f"asks for {url[:120]}")
-    check_between(shared.bundle.page.stat().st_size, 100_000, LARGEST_PAGE, "the page's size [bytes]")
+        check(url.startswith((address, address.replace("http", "ws"), "data:", "blob:")),
+              f"asks for {url[:120]}")
+    check_between(shared.bundle.page.stat().st_size, 100_000, LARGEST_PAGE,
+                  "the page's size [bytes]")
     again = context.folder / "again.html"
     shared.bundle.build(again)
     check(again.read_bytes() == shared.bundle.page.read_bytes(), "built twice, the page differs")
@@ -167,7 +193,8 @@ def tag_is_picked_by_a_click(context, one, address, shared):
     one.still()
     for tag in get(address, "tags")["tags"][2:5]:
         one.click(*one.project(tag["position"]))
-        one.wait(f"at.detail.innerText.startsWith('Tag {tag['id']}')", f"the panel of {tag['id']} is open")
+        one.wait(f"at.detail.innerText.startsWith('Tag {tag['id']}')",
+                 f"the panel of {tag['id']} is open")
         place = ", ".join(f"{value:.2f}".replace("-", "−") for value in tag["position"])
         check_in(f"({place}) m", one.text("detail"), "the panel")
     one.wait("at.detail.querySelectorAll('table').length === 3", "the link budget is there")
@@ -182,14 +209,16 @@ def budget_adds_up(context, one, address, shared):
     select(one, "tag", "tag4")
     one.wait("at.detail.querySelector('table')", "the link budget is there")
     name, t = one.ask("[at.detail.querySelector('select').value, world.time]")
-    link = json.loads(context.run_well("explain", context.shipped(SCENARIO), "--json", "--antenna", name,
+    link = json.loads(context.run_well("explain", context.shipped(SCENARIO), "--json", "--antenna",
+                                       name,
                                        "--tag", "tag4", "--time", t).out)
-    rows = one.ask("[...at.detail.querySelector('table').querySelectorAll('tr')].map((row) => "
-                   "[row.querySelector('th').textContent, row.querySelector('.number').textContent])")
+    rows = one.ask(BUDGET_ROWS)
     values = [float(text.replace("−", "-").split()[0]) for _, text in rows]
     lines = len(link["to_tag"])
-    check_equal([what for what, _ in rows[:lines]], [line["what"] for line in link["to_tag"]], "the lines")
-    check_near(values[lines], sum(values[:lines]), 0.05 * (lines + 1), "the sum of the lines, each to 0.1 dB")
+    check_equal([what for what, _ in rows[:lines]], [line["what"] for line in link["to_tag"]],
+                "the lines")
+    check_near(values[lines], sum(values[:lines]), 0.05 * (lines + 1),
+               "the sum of the lines, each to 0.1 dB")
     check_near(values[lines], link["tag_dbm"], 0.051, "the power at the chip")
     check_near(values[-1], link["tag_dbm"] - link["tag_sensitivity_dbm"], 0.051, "the margin")
     check_in(link["verdict"], one.text("detail"), "the panel")
@@ -250,7 +279,8 @@ def colors_are_those_of_the_reads(context, one, address, shared):
     check(len(strongest) > 5, "hardly a tag is read then: another time must be taken")
     one.wait("world.changed.size === 0", "all is drawn")
     for tag, rssi in strongest.items():
-        check_near(one.ask(f"world.strength[world.tagIndex.get('{tag}')]"), rssi, 1e-3, f"RSSI of {tag}")
+        check_near(one.ask(f"world.strength[world.tagIndex.get('{tag}')]"), rssi, 1e-3,
+                   f"RSSI of {tag}")
 
 
 @case
@@ -263,10 +293,12 @@ def server_goes_and_comes_back(context):
         one.wait("at.status.textContent === '' && world.tags.length === 10", "it is connected")
         select(one, "tag", "tag7")
     one.wait("at.status.textContent.includes('away')", "the page says that the server is away")
-    with mock(context, shared.bundle, shared.run, "--tags", "5", port=int(address.rsplit(":", 1)[1])):
+    with mock(context, shared.bundle, shared.run, "--tags", "5",
+              port=int(address.rsplit(":", 1)[1])):
         one.wait("at.status.textContent === '' && world.tags.length === 15", "all was fetched anew")
         one.wait("world.time > 0.2", "frames come again")
-        check_equal(one.ask("world.selectedName()"), {"kind": "tag", "name": "tag7"}, "what is selected")
+        check_equal(one.ask("world.selectedName()"), {"kind": "tag", "name": "tag7"},
+                    "what is selected")
 
 
 @case
@@ -290,7 +322,8 @@ def keyboard_does_it_all(context, one, address, shared):
     one.press("tag10")
     one.wait("at.lists.innerText.includes('1 tag\\n')", "the search finds one")
     one.press("\ue004", "\ue004")  # Tab, over the order, to the list's only button.
-    check_equal(one.ask("at.root.activeElement.innerText.split('\\n')[0]"), "tag10", "what has the focus")
+    check_equal(one.ask("at.root.activeElement.innerText.split('\\n')[0]"), "tag10",
+                "what has the focus")
     outline = one.ask("getComputedStyle(at.root.activeElement).outlineStyle")
     check_equal(outline, "solid", "the outline of what has the focus")
     one.press("\ue007")  # Enter.
@@ -315,34 +348,33 @@ def keyboard_does_it_all(context, one, address, shared):
 @with_page()
 def all_that_can_be_pressed_has_a_name(context, one, address, shared):
     select(one, "antenna", "left")
-    nameless = one.ask("[...at.root.querySelectorAll('button, input, select, canvas')].filter((one) => "
-                       "!(one.getAttribute('aria-label') || one.textContent.trim() || one.placeholder || "
-                       "(one.id && at.root.querySelector(`label[for='${one.id}']`)))).map((one) => one.outerHTML)")
+    nameless = one.ask(NAMELESS)
     check_equal(nameless, [], "controls without a name")
-    check_equal(one.ask("at.status.getAttribute('aria-live')"), "polite", "the status line's aria-live")
+    check_equal(one.ask("at.status.getAttribute('aria-live')"), "polite",
+                "the status line's aria-live")
 
 
 @with_page()
 def phone_has_room(context, one, address, shared):
     one.screen(390, 844, mobile=True)
-    for what in ("view.deselect()", "view.select('tag', 0)", "view.deselect(); view.lists.show('changes')"):
+    for what in ("view.deselect()", "view.select('tag', 0)",
+                 "view.deselect(); view.lists.show('changes')"):
         one.do(what)
         one.driver.execute_async_script("setTimeout(arguments[0], 700)")
         width, inner = one.ask("[document.scrollingElement.scrollWidth, window.innerWidth]")
         check(width <= inner == 390, f"{what}: {width} px wide in a window of {inner} px")
-        outside = one.ask("[...at.root.querySelectorAll('button, input, select')].filter((one) => one.offsetParent)"
-                          ".filter((one) => { const box = one.getBoundingClientRect();"
-                          " return box.left < -1 || box.right > 391; }).map((one) => one.outerHTML)")
+        outside = one.ask(OUT_OF_SIGHT)
         check_equal(outside, [], f"{what}: controls out of sight")
-        check_between(one.ask("at.canvas.clientHeight"), 250, 700, f"{what}: the height of what is drawn [px]")
-        small = one.ask("[...at.root.querySelectorAll('button')].filter((one) => one.offsetParent && "
-                        "one.offsetHeight < 24).map((one) => one.textContent)")
+        check_between(one.ask("at.canvas.clientHeight"), 250, 700,
+                      f"{what}: the height of what is drawn [px]")
+        small = one.ask(SMALL_BUTTONS)
         check_equal(small, [], f"{what}: buttons of less than 24 px")
 
 
 def luminance(color):
     """Relative luminance of (r, g, b) of 0 to 255 (WCAG 2.1)."""
-    linear = [part / 255 / 12.92 if part <= 10.3 else ((part / 255 + 0.055) / 1.055) ** 2.4 for part in color]
+    linear = [part / 255 / 12.92 if part <= 10.3 else ((part / 255 + 0.055) / 1.055) ** 2.4
+              for part in color]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
@@ -365,13 +397,13 @@ def light_and_dark_are_legible(context, one, address, shared):
         panel = css_color(one.ask("getComputedStyle(at.lists).backgroundColor"))
         check((luminance(panel) < 0.1) == (theme == "dark"), f"{theme}: panels of {panel}")
         px, py = 1270 - 380, 60
-        check((luminance(one.pixels(px, py, 1, 1)[0][0]) < 0.1) == (theme == "dark"), f"{theme}: the drawing's background")
-        colors = one.ask("[...new Set([...at.root.querySelectorAll('h1,h2,h3,p,dt,dd,th,td,label,span,.clock')]"
-                         ".filter((one) => one.offsetParent && one.textContent && !one.closest('button,.pick'))"
-                         ".map((one) => getComputedStyle(one).color))]")
+        check((luminance(one.pixels(px, py, 1, 1)[0][0]) < 0.1) == (theme == "dark"),
+              f"{theme}: the drawing's background")
+        colors = one.ask(TEXT_COLORS)
         check(len(colors) >= 2, f"only {colors}: the test looked in the wrong place")
         for color in colors:
-            check(contrast(css_color(color), panel) >= LEAST_CONTRAST, f"{theme}: text of {color} on {panel} is too faint")
+            check(contrast(css_color(color), panel) >= LEAST_CONTRAST,
+                  f"{theme}: text of {color} on {panel} is too faint")
     one.press_button("view", "Light")
     check_equal(one.ask("at.view.dataset.theme"), "light", "the theme after the switch")
     one.do("localStorage.clear()")
@@ -386,11 +418,14 @@ def changes_reach_the_world(context, one, address, shared):
     one.wait("world.tags.length === 11", "the tag is there")
     one.do("view.lists.show('tags')")
     one.wait("at.lists.innerText.includes('<img')", "its name is text")
-    check(one.ask("!window.hacked && !at.root.querySelector('img')"), "a tag's name was taken for HTML")
-    one.do("view.lists.show('changes'); at.root.getElementById('new-tag').value = arguments[0]", "tag1")
+    check(one.ask("!window.hacked && !at.root.querySelector('img')"),
+          "a tag's name was taken for HTML")
+    one.do("view.lists.show('changes'); at.root.getElementById('new-tag').value = arguments[0]",
+           "tag1")
     one.press_button("lists", "Add tag")
     one.wait("view.changes.error.textContent", "a refusal is said")
-    check_equal(one.text("lists").strip().split("\n")[-1], 'tags: there is a "tag1" already', "the refusal")
+    check_equal(one.text("lists").strip().split("\n")[-1], 'tags: there is a "tag1" already',
+                "the refusal")
     one.press_button("lists", "Put it there")
     one.wait("world.scene.obstacles.length === 1", "the pallet is there")
     select(one, "antenna", "right")
@@ -406,10 +441,11 @@ def place_is_taken_from_a_click(context, one, address, shared):
     one.press_button("views", "Top")
     one.do("view.time.toggle(); view.lists.show('changes')")
     one.still()
-    one.do("[...at.lists.querySelectorAll('button')].find((one) => one.textContent === 'Click a place').click()")
+    one.press_button("lists", "Click a place")
     one.click(*one.project([2.0, -7.0, 0.0]))
     x, y, z = (float(one.ask(f"at.root.getElementById('new-tag-{axis}').value")) for axis in "xyz")
-    check(math.dist((x, y, z), (2, -7, 0)) < 0.06, f"the place clicked is ({x}, {y}, {z}), expected (2, −7, 0)")
+    check(math.dist((x, y, z), (2, -7, 0)) < 0.06,
+          f"the place clicked is ({x}, {y}, {z}), expected (2, −7, 0)")
 
 
 @with_page("--tags", "10000")
@@ -430,14 +466,16 @@ def report_holds_the_same_view(context):
     one.screen()
     with mock(context, shared.bundle, shared.run, "--recorded") as address:
         run = json.dumps(get(address, "run")).replace("<", "\\u003c")
-    page = context.write("report.html", "<!doctype html><meta charset=utf-8><title>Report</title><h1>A report</h1>"
-                         f'<script type="application/json" id="tagfield-run">{run}</script>'
-                         f"{shared.bundle.viewer.read_text(encoding='utf-8')}<p id=after>after it</p>")
+    viewer = shared.bundle.viewer.read_text(encoding="utf-8")
+    page = context.write("report.html", f"""<!doctype html><meta charset=utf-8><title>Report</title>
+<h1>A report</h1><script type="application/json" id="tagfield-run">{run}</script>
+{viewer}<p id=after>after it</p>""")
     one.open(page.as_uri())
     one.wait("view.stage.frames > 0", "a frame was drawn")
     one.do("view.recording.seek(40)")
     one.wait("world.time === 40", "40 s")
-    check_equal([url for url in one.requests() if not url.startswith(("data:", "blob:", page.as_uri()))], [], "requests")
+    own = ("data:", "blob:", page.as_uri())
+    check_equal([url for url in one.requests() if not url.startswith(own)], [], "requests")
     height, body = one.ask("[at.view.offsetHeight, getComputedStyle(document.body).margin]")
     check_equal((height, body), (600, "8px"), "the view's height, and the report's own margin")
     check(not one.complaints(), "the console has complaints")

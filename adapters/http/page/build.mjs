@@ -1,9 +1,10 @@
-// Bundles the page: one file of HTML with script and style inside, which asks the network for nothing.
+// Bundles the page: one file of HTML with script and style inside, which asks the network for
+// nothing.
 //
 //   node build.mjs OUT.html [VIEWER.html] [--modules DIR]
 //
-// OUT.html is the page that the server hands out. VIEWER.html is the fragment that report.html embeds:
-// an element and the same script, which shows the run in <script type="application/json"
+// OUT.html is the page that the server hands out. VIEWER.html is the fragment that report.html
+// embeds: an element and the same script, which shows the run in <script type="application/json"
 // id="tagfield-run">. DIR holds node_modules (default: beside this file).
 
 import {createHash} from "node:crypto";
@@ -18,8 +19,10 @@ function parse(words) {
   const outputs = [];
   let modules = HERE;
   for (let i = 0; i < words.length; ++i) {
-    if (words[i] === "--modules" && i + 1 < words.length) modules = path.resolve(words[++i]);
-    else outputs.push(words[i]);
+    if (words[i] === "--modules" && i + 1 < words.length)
+      modules = path.resolve(words[++i]);
+    else
+      outputs.push(words[i]);
   }
   if (outputs.length < 1 || outputs.length > 2 || outputs.some((word) => word.startsWith("-"))) {
     console.error("usage: node build.mjs OUT.html [VIEWER.html] [--modules DIR]");
@@ -42,9 +45,11 @@ async function bundle(modules) {
     loader: {".css": "text"},
     nodePaths: [path.join(modules, "node_modules")],
     legalComments: "inline",
-    logLevel: "warning",
+    logLevel: "warning"
   });
-  return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+  return result.outputFiles[0]
+    .text.replaceAll("</script", "<\\/script")
+    .replaceAll("<!--", "<\\!--");
 }
 
 // By a function, since "$" in the script must not be taken for a pattern.

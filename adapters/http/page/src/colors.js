@@ -1,11 +1,24 @@
-// Colours of what is drawn: materials, RSSI as in the seed paper's Figs. 13 and 14, margins, antennas.
+// Colours of what is drawn: materials, RSSI as in the seed paper's Figs. 13 and 14, margins,
+// antennas.
 
 const MATERIALS = {
-  metal: "#7d8b99", wood: "#b08352", plywood: "#c09a68", chipboard: "#c9a878", cardboard: "#c8a06a",
-  concrete: "#a9a8a2", brick: "#a8604c", marble: "#c9c6c0", glass: "#8fc7d8", plasterboard: "#d8d2c4",
-  ceiling_board: "#d5d5cf", floorboard: "#a97d50", water: "#5b93c9", plastic: "#6f9fb5",
+  metal: "#7d8b99",
+  wood: "#b08352",
+  plywood: "#c09a68",
+  chipboard: "#c9a878",
+  cardboard: "#c8a06a",
+  concrete: "#a9a8a2",
+  brick: "#a8604c",
+  marble: "#c9c6c0",
+  glass: "#8fc7d8",
+  plasterboard: "#d8d2c4",
+  ceiling_board: "#d5d5cf",
+  floorboard: "#a97d50",
+  water: "#5b93c9",
+  plastic: "#6f9fb5"
 };
-const ANTENNAS = ["#2f7ed8", "#d9662b", "#1c9c6b", "#a855c9", "#c2a413", "#d64583", "#16a3b8", "#8a6d4b"];
+const ANTENNAS =
+  ["#2f7ed8", "#d9662b", "#1c9c6b", "#a855c9", "#c2a413", "#d64583", "#16a3b8", "#8a6d4b"];
 const RSSI_STOPS = [[43, 95, 227], [22, 165, 201], [34, 166, 82], [224, 172, 20], [222, 47, 38]];
 const LEAST_OPACITY = 0.35;
 
@@ -39,19 +52,20 @@ export function rssiColor(u, out, at) {
 export function rssiCss(u) {
   const c = [0, 0, 0, 0];
   rssiColor(u, c, 0);
-  return `rgb(${c.slice(0, 3).map((part) => Math.round(255 * part)).join(" ")} / ${c[3].toFixed(2)})`;
+  return `rgb(${c.slice(0, 3).map((part) => Math.round(255 * part)).join(" ")} / ${
+    c[3].toFixed(2)})`;
 }
 
 // Steps of the coverage's legend: margin [dB] from which on, its colour as [r, g, b, a] in bytes.
 export const MARGINS = [
   [-Infinity, [120, 60, 120, 110], "not read"],
   [-3, [196, 84, 96, 130], "−3 to 0 dB: just not read"],
-  [0, [244, 190, 60, 165], "0 to 3 dB: at the edge"],
-  [3, [150, 200, 80, 165], "3 to 10 dB"],
-  [10, [40, 160, 120, 165], "over 10 dB"],
+  [0, [244, 190, 60, 165], "0 to 3 dB: at the edge"], [3, [150, 200, 80, 165], "3 to 10 dB"],
+  [10, [40, 160, 120, 165], "over 10 dB"]
 ];
 
 export function marginColor(margin) {
-  for (let i = MARGINS.length - 1; i >= 0; --i) if (margin >= MARGINS[i][0]) return MARGINS[i][1];
+  for (let i = MARGINS.length - 1; i >= 0; --i)
+    if (margin >= MARGINS[i][0]) return MARGINS[i][1];
   return MARGINS[0][1];
 }

@@ -1,6 +1,7 @@
 // The world in three dimensions: all layers on one stage.
 
 import {Box3, Vector3} from "three";
+
 import {Antennas} from "./layers/antennas.js";
 import {Coverage} from "./layers/coverage.js";
 import {Estimates} from "./layers/estimates.js";
@@ -29,23 +30,26 @@ export class Drawing {
     this.coverage = new Coverage(this.stage);
     this.picking = new Picking(this.stage, world, this.solids);
     this.stage.layers.push(this.solids, this.tags, this.flashes);
+    this.filled = new Box3();  // What stands in the world, without the floor round it.
     this.fitted = "";
   }
 
   setTheme(colors) {
     this.stage.setBackground(colors.background);
-    for (const layer of [this.solids, this.ground, this.tags, this.estimates, this.link]) layer.setTheme(colors);
+    for (const layer of [this.solids, this.ground, this.tags, this.estimates, this.link])
+      layer.setTheme(colors);
     this.world.touch("theme");
   }
 
   update(changed) {
     if (changed.has("scene")) this.#scene();
-    for (const layer of [this.tags, this.antennas, this.robots, this.estimates]) layer.update(changed);
+    for (const layer of [this.tags, this.antennas, this.robots, this.estimates])
+      layer.update(changed);
   }
 
-  // Forgets cells beyond the floor that is drawn.
+  // Forgets cells beyond what stands in the world.
   clip({x0, y0, cell, columns, margin_db: margins}) {
-    const {min, max} = this.stage.bounds;
+    const {min, max} = this.filled;
     for (let i = 0; i < margins.length; ++i) {
       const x = x0 + ((i % columns) + 0.5) * cell;
       const y = y0 + (Math.floor(i / columns) + 0.5) * cell;
@@ -59,13 +63,16 @@ export class Drawing {
     if (!world.scene.name && !world.tags.length) return;
     const bounds = this.solids.set(world.scene) ?? new Box3();
     const p = new Vector3();
-    for (let i = 0; i < world.tags.length; ++i) bounds.expandByPoint(p.fromArray(world.position, 3 * i));
-    for (const {pose} of world.antennas) if (pose) bounds.expandByPoint(p.fromArray(pose));
+    for (let i = 0; i < world.tags.length; ++i)
+      bounds.expandByPoint(p.fromArray(world.position, 3 * i));
+    for (const {pose} of world.antennas)
+      if (pose) bounds.expandByPoint(p.fromArray(pose));
     for (const {points} of world.scene.paths) {
       for (const [x, y, z] of points) bounds.expandByPoint(p.set(x, y, z ?? 0));
     }
     if (bounds.isEmpty()) bounds.set(new Vector3(-2, -2, 0), new Vector3(2, 2, 2));
     bounds.expandByPoint(p.set(bounds.min.x, bounds.min.y, 0));
+    this.filled.copy(bounds);
     stage.bounds.copy(this.ground.set(world.scene, bounds));
     if (this.fitted !== world.scene.name) {
       this.fitted = world.scene.name;

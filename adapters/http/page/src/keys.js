@@ -1,10 +1,23 @@
-// The keyboard: time, views and search everywhere, turning and zooming while the drawing has the focus.
+// The keyboard: time, views and search everywhere, turning and zooming while the drawing has the
+// focus.
 
 const TURN_RAD = 0.12;
 const ZOOM = 1.12;
-const VIEWS = {1: "world", 2: "top", 3: "side", 4: "follow"};
-const TURNS = {ArrowLeft: [-TURN_RAD, 0, 1], ArrowRight: [TURN_RAD, 0, 1], ArrowUp: [0, -TURN_RAD, 1],
-               ArrowDown: [0, TURN_RAD, 1], "+": [0, 0, 1 / ZOOM], "=": [0, 0, 1 / ZOOM], "-": [0, 0, ZOOM]};
+const VIEWS = {
+  1: "world",
+  2: "top",
+  3: "side",
+  4: "follow"
+};
+const TURNS = {
+  ArrowLeft: [-TURN_RAD, 0, 1],
+  ArrowRight: [TURN_RAD, 0, 1],
+  ArrowUp: [0, -TURN_RAD, 1],
+  ArrowDown: [0, TURN_RAD, 1],
+  "+": [0, 0, 1 / ZOOM],
+  "=": [0, 0, 1 / ZOOM],
+  "-": [0, 0, ZOOM]
+};
 
 // view: {at, timeBar(), lists, look(name), stage | null, deselect()}
 export function listenToKeys(target, view) {
@@ -17,7 +30,7 @@ export function listenToKeys(target, view) {
 
 function press(event, focused, view) {
   if (event.key === "Escape") return view.deselect();
-  const writes = focused && (focused.matches("input, select, textarea"));
+  const writes = focused && focused.matches("input, select, textarea");
   if (writes) return false;
   if (focused === view.at.canvas && view.stage && TURNS[event.key]) {
     view.stage.orbit(...TURNS[event.key]);
@@ -33,10 +46,15 @@ function press(event, focused, view) {
   }
   const time = view.timeBar();
   if (!time) return false;
-  if (event.key === " " && !focused?.matches("button")) time.toggle();
-  else if (event.key === ".") time.stepOn();
-  else if (event.key === "ArrowRight" && time.recording) time.stepOn(event.shiftKey ? 10 : 1);
-  else if (event.key === "ArrowLeft" && time.recording) time.stepOn(event.shiftKey ? -10 : -1);
-  else return false;
+  if (event.key === " " && !focused?.matches("button"))
+    time.toggle();
+  else if (event.key === ".")
+    time.stepOn();
+  else if (event.key === "ArrowRight" && time.recording)
+    time.stepOn(event.shiftKey ? 10 : 1);
+  else if (event.key === "ArrowLeft" && time.recording)
+    time.stepOn(event.shiftKey ? -10 : -1);
+  else
+    return false;
   return true;
 }

@@ -1,4 +1,5 @@
-// A server that goes on: fetches the world, follows its frames, sends commands, comes back by itself.
+// A server that goes on: fetches the world, follows its frames, sends commands, comes back by
+// itself.
 
 const FIRST_WAIT_MS = 500;
 const LONGEST_WAIT_MS = 5000;
@@ -12,7 +13,8 @@ async function json(response) {
   } catch {
     // Not ours: the status says what there is to say.
   }
-  if (!response.ok) throw new Error(value?.error ?? `the server answers ${response.status} ${response.statusText}`);
+  if (!response.ok)
+    throw new Error(value?.error ?? `the server answers ${response.status} ${response.statusText}`);
   if (value === null) throw new Error("the server's answer is no JSON");
   return value;
 }
@@ -65,8 +67,13 @@ export class Live {
   }
 
   #status(status) {
-    Object.assign(this.world, {time: status.time, speed: status.speed, pace: status.pace,
-                               paused: status.paused, version: status.version});
+    Object.assign(this.world, {
+      time: status.time,
+      speed: status.speed,
+      pace: status.pace,
+      paused: status.paused,
+      version: status.version
+    });
     this.world.touch("time");
   }
 
@@ -80,8 +87,10 @@ export class Live {
   // A world that stands still needs no drawing.
   #isNews(frame) {
     const {world} = this;
-    return frame.time !== world.time || frame.reads?.length || frame.tags?.length || frame.estimates?.length ||
-      frame.changed || (frame.robots?.length ?? 0) !== world.robots.size;
+    return (
+      frame.time !== world.time || frame.reads?.length || frame.tags?.length ||
+      frame.estimates?.length || frame.changed ||
+      (frame.robots?.length ?? 0) !== world.robots.size);
   }
 
   #frame(frame) {
@@ -89,10 +98,17 @@ export class Live {
     const isNews = this.#isNews(frame);
     const says = frame.paused !== world.paused || frame.speed !== world.speed;
     if (frame.time < world.time - 1e-9) this.#fetchAll().catch(() => {});
-    Object.assign(world, {time: frame.time, pace: frame.pace, paused: frame.paused, speed: frame.speed,
-                          dropped: frame.dropped ?? 0});
-    if (isNews) this.#apply(frame);
-    else if (says) world.touch("time");
+    Object.assign(world, {
+      time: frame.time,
+      pace: frame.pace,
+      paused: frame.paused,
+      speed: frame.speed,
+      dropped: frame.dropped ?? 0
+    });
+    if (isNews)
+      this.#apply(frame);
+    else if (says)
+      world.touch("time");
   }
 
   #apply(frame) {
@@ -132,10 +148,13 @@ export class Live {
   async send(method, path, body) {
     const headers = body === undefined ? {} : {"Content-Type": "application/json"};
     if (this.token) headers.Authorization = `Bearer ${this.token}`;
-    const status = await json(await fetch(`api/${path}`, {
-      method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
+    const status = await json(await fetch(
+      `api/${path}`,
+      {method, headers, body: body === undefined ? undefined : JSON.stringify(body)}));
     if (status?.time !== undefined) this.#status(status);
+    this.world.touch("commanded");
     // A step goes on for a while; nothing else says when it has ended.
-    if (path === "step") setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);
+    if (path === "step")
+      setTimeout(() => get("status").then((one) => this.#status(one), () => {}), SETTLED_MS);
   }
 }

@@ -1,24 +1,26 @@
-// One page for a live world, a recorded run that a server holds, and one that lies in the page itself.
+// One page for a live world, a recorded run that a server holds, and one that lies in the page
+// itself.
 
-import {buildFrame} from "./ui/frame.js";
-import {Changes} from "./ui/changes.js";
-import {Detail} from "./ui/detail.js";
-import {Legend} from "./ui/legend.js";
-import {Lists} from "./ui/lists.js";
-import {TimeBar} from "./ui/time.js";
+import {setText} from "./dom.js";
 import {Drawing} from "./drawing.js";
 import {listenToKeys} from "./keys.js";
-import {Live, get} from "./live.js";
+import {get, Live} from "./live.js";
 import {Recording} from "./recording.js";
 import {Scale} from "./scale.js";
 import {Theme} from "./theme.js";
+import {Changes} from "./ui/changes.js";
+import {Detail} from "./ui/detail.js";
+import {buildFrame} from "./ui/frame.js";
+import {Legend} from "./ui/legend.js";
+import {Lists} from "./ui/lists.js";
+import {TimeBar} from "./ui/time.js";
 import {World} from "./world.js";
-import {setText} from "./dom.js";
 
-const CLICK_PX = 5;      // A press that moves further turns the view.
+const CLICK_PX = 5;  // A press that moves further turns the view.
 const PANEL_MS = 200;
 const AGAIN_MS = 2000;
-const NO_WEBGL = "This browser does not draw in three dimensions here: it has no WebGL, or it is switched off. " +
+const NO_WEBGL =
+  "This browser does not draw in three dimensions here: it has no WebGL, or it is switched off. " +
   "The lists of tags and antennas work all the same.";
 
 class View {
@@ -26,24 +28,31 @@ class View {
     this.at = buildFrame(host);
     this.world = new World();
     this.scale = new Scale();
-    this.legend = new Legend(this.at, this.scale);
+    this.legend = new Legend(this.at, this.scale, this.world);
     this.legend.draw();
     this.drawing = this.#drawing();
     this.stage = this.drawing?.stage ?? null;
-    this.lists = new Lists(this.at, this.world, this.scale, (kind, index) => this.select(kind, index));
+    this.lists =
+      new Lists(this.at, this.world, this.scale, (kind, index) => this.select(kind, index));
     this.detail = new Detail(this.at, this.world, this.scale, {
       explained: (link) => this.drawing?.link.show(link),
       coverage: (coverage, height) => this.drawing?.coverage.show(coverage, height),
       clip: (coverage) => this.drawing?.clip(coverage),
       close: () => this.deselect(),
-      actions: (kind, name) => this.changes?.actions(kind, name) ?? null});
+      actions: (kind, name) => this.changes?.actions(kind, name) ?? null
+    });
     this.theme = new Theme(this.at, (colors) => this.drawing?.setTheme(colors));
     this.world.listeners.push(() => this.#ask());
     this.stage?.before.push((elapsed) => this.#frame(elapsed));
     this.#buttons();
     listenToKeys(host.hasAttribute("data-whole-page") ? document : host, {
-      at: this.at, lists: this.lists, stage: this.stage, timeBar: () => this.time, look: (name) => this.look(name),
-      deselect: () => this.deselect()});
+      at: this.at,
+      lists: this.lists,
+      stage: this.stage,
+      timeBar: () => this.time,
+      look: (name) => this.look(name),
+      deselect: () => this.deselect()
+    });
   }
 
   #drawing() {
@@ -55,7 +64,8 @@ class View {
     } catch {
       this.at.noWebgl.hidden = false;
       setText(this.at.noWebgl, NO_WEBGL);
-      this.at.canvas.hidden = this.at.views.hidden = this.at.beams.hidden = this.at.legend.hidden = true;
+      this.at.canvas.hidden = this.at.views.hidden = this.at.beams.hidden = this.at.legend.hidden =
+        true;
       return null;
     }
   }
@@ -82,10 +92,10 @@ class View {
     const {world} = this;
     if (this.recording && !world.paused) this.recording.advance(elapsed);
     if (!world.changed.size) return;
-    const changed = world.changed;
-    world.changed = new Set();
+    const changed = world.takeChanges();
     if (changed.has("reads") || changed.has("tags-list")) world.survey();
     if (changed.has("scene")) this.#names();
+    if (changed.has("estimates")) this.legend.draw();
     this.#widen();
     this.drawing?.update(changed);
     this.time?.update(changed);
@@ -107,14 +117,16 @@ class View {
     const {name, description} = this.world.scene;
     setText(this.at.name, name || "Tagfield");
     this.at.name.title = description ?? "";
-    if (this.at.host.hasAttribute("data-whole-page")) document.title = name ? `${name} – Tagfield` : "Tagfield";
+    if (this.at.host.hasAttribute("data-whole-page"))
+      document.title = name ? `${name} – Tagfield` : "Tagfield";
   }
 
   // Colours mean the same for a whole recorded run; a live one's range grows with what is read.
   #widen() {
     if (this.recording) return;
     let grew = false;
-    for (const rssi of this.world.strength) if (rssi === rssi) grew = this.scale.widen(rssi) || grew;
+    for (const rssi of this.world.strength)
+      if (rssi === rssi) grew = this.scale.widen(rssi) || grew;
     if (grew) this.legend.draw();
   }
 
@@ -134,8 +146,10 @@ class View {
   look(name) {
     if (!this.stage) return;
     const follows = name === "follow" && Boolean(this.drawing.robots.place());
-    if (follows) this.stage.follows(() => this.drawing.robots.place());
-    else if (name !== "follow") this.stage.look(name);
+    if (follows)
+      this.stage.follows(() => this.drawing.robots.place());
+    else if (name !== "follow")
+      this.stage.look(name);
     for (const button of this.at.views.children) {
       if (button.dataset.view === "follow") button.setAttribute("aria-pressed", String(follows));
     }
@@ -143,13 +157,18 @@ class View {
 
   #insets() {
     const wide = this.at.host.clientWidth > 700;
-    this.stage?.setInsets({left: wide ? this.at.lists.offsetWidth : 0, top: 0, bottom: wide ? 0 : 14,
-                           right: wide && !this.at.detail.hidden ? this.at.detail.offsetWidth : 0});
+    this.stage?.setInsets({
+      left: wide ? this.at.lists.offsetWidth : 0,
+      top: 0,
+      bottom: wide ? 0 : 14,
+      right: wide && !this.at.detail.hidden ? this.at.detail.offsetWidth : 0
+    });
   }
 
   #buttons() {
     const {at} = this;
-    for (const button of at.views.children) button.addEventListener("click", () => this.look(button.dataset.view));
+    for (const button of at.views.children)
+      button.addEventListener("click", () => this.look(button.dataset.view));
     at.beams.addEventListener("click", () => {
       const on = at.beams.getAttribute("aria-pressed") !== "true";
       at.beams.setAttribute("aria-pressed", String(on));
@@ -162,8 +181,27 @@ class View {
     });
     if (!this.stage) return;
     new ResizeObserver(() => this.#insets()).observe(at.view);
-    at.canvas.addEventListener("pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
+    at.canvas.addEventListener(
+      "pointerdown", (event) => (this.pressed = [event.clientX, event.clientY]));
     at.canvas.addEventListener("click", (event) => this.#click(event));
+    at.canvas.addEventListener("pointermove", (event) => this.#hover(event));
+    at.canvas.addEventListener("pointerleave", () => (at.label.hidden = true));
+  }
+
+  // The name of what is under the mouse; a finger covers it anyway.
+  #hover(event) {
+    const {label} = this.at;
+    const at = [event.offsetX, event.offsetY];
+    const found = event.pointerType === "mouse" && !event.buttons ?
+      this.drawing.picking.nearest(...at, false) :
+      null;
+    label.hidden = !found;
+    if (!found) return;
+    setText(
+      label,
+      found.kind === "tag" ? this.world.tags[found.index].id :
+                             this.world.antennas[found.index].name);
+    label.style.transform = `translate(${at[0] + 14}px, ${at[1] - 10}px)`;
   }
 
   #click(event) {
@@ -176,8 +214,10 @@ class View {
       return;
     }
     const found = this.drawing.picking.nearest(...at, event.pointerType === "touch");
-    if (found) this.select(found.kind, found.index);
-    else this.deselect();
+    if (found)
+      this.select(found.kind, found.index);
+    else
+      this.deselect();
   }
 
   // The next click's place in the world, or null where there is none or Escape was pressed.
@@ -213,8 +253,10 @@ class View {
     const command = (method, path, body) => live.send(method, path, body);
     this.changes = new Changes(this.world, command, (word) => this.pickPlace(word));
     this.lists.addTab("changes", "Change", this.changes.element);
-    this.time = new TimeBar(this.at, this.world, null, (...words) =>
-      command(...words).then(() => this.say("connected", ""), (error) => this.say("refused", error.message)));
+    this.time = new TimeBar(
+      this.at, this.world, null,
+      (...words) => command(...words).then(
+        () => this.say("connected", ""), (error) => this.say("refused", error.message)));
     live.start();
   }
 
@@ -227,8 +269,10 @@ class View {
     }
     this.say("connecting", "connecting …");
     try {
-      if ((await get("status")).mode === "recorded") this.showRecording(await get("run"));
-      else this.showLive();
+      if ((await get("status")).mode === "recorded")
+        this.showRecording(await get("run"));
+      else
+        this.showLive();
     } catch {
       this.say("away", "The server does not answer; trying again");
       setTimeout(() => this.start(), AGAIN_MS);

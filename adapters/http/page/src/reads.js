@@ -1,8 +1,14 @@
-// Reads in the order in which they came, in columns. A live log drops its older half when it is full;
-// a recorded one holds the whole run and shows it up to `end`.
+// Reads in the order in which they came, in columns. A live log drops its older half when it is
+// full; a recorded one holds the whole run and shows it up to `end`.
 
-const FIELDS = {t: Float64Array, tag: Int32Array, antenna: Int16Array, rssi: Float32Array,
-                phase: Float32Array, count: Uint16Array};
+const FIELDS = {
+  t: Float64Array,
+  tag: Int32Array,
+  antenna: Int16Array,
+  rssi: Float32Array,
+  phase: Float32Array,
+  count: Uint16Array
+};
 
 export class ReadLog {
   constructor(capacity) {
@@ -42,8 +48,10 @@ export class ReadLog {
     let high = end;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.t[middle] <= time) low = middle + 1;
-      else high = middle;
+      if (this.t[middle] <= time)
+        low = middle + 1;
+      else
+        high = middle;
     }
     return low;
   }

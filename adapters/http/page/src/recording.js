@@ -7,8 +7,10 @@ function indexAt(times, t) {
   let high = times.length - 1;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if (times[middle] <= t) low = middle;
-    else high = middle - 1;
+    if (times[middle] <= t)
+      low = middle;
+    else
+      high = middle - 1;
   }
   return low;
 }

@@ -1,6 +1,9 @@
-// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is read.
+// The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is
+// read.
 
 const STEP_DB = 10;
+const LEAST_DBM = -90;  // No reader hears less; one such read must not squeeze all others together.
+const MOST_DBM = 0;
 
 export class Scale {
   constructor() {
@@ -20,8 +23,8 @@ export class Scale {
   // True where the range grew.
   widen(rssi) {
     const [low, high] = [this.low, this.high];
-    if (rssi < low && rssi > -130) this.low = STEP_DB * Math.floor(rssi / STEP_DB);
-    if (rssi > high && rssi < 40) this.high = STEP_DB * Math.ceil(rssi / STEP_DB);
+    if (rssi < low) this.low = Math.max(STEP_DB * Math.floor(rssi / STEP_DB), LEAST_DBM);
+    if (rssi > high) this.high = Math.min(STEP_DB * Math.ceil(rssi / STEP_DB), MOST_DBM);
     return low !== this.low || high !== this.high;
   }
 

@@ -1,12 +1,18 @@
 // Camera, light and the loop: a frame is drawn only when something asked for one.
 
-import {AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3,
-        WebGLRenderer} from "three";
+import {
+  AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3,
+  WebGLRenderer
+} from "three";
 import {OrbitControls} from "three/addons/controls/OrbitControls.js";
 
 const FIELD_OF_VIEW_DEG = 45;
 const FOLLOWED_FROM_M = 8;
-const VIEWS = {world: [-0.55, -0.9, 0.85], top: [0, -1e-4, 1], side: [0, -1, 0.12]};
+const VIEWS = {
+  world: [-0.55, -0.9, 0.85],
+  top: [0, -1e-4, 1],
+  side: [0, -1, 0.12]
+};
 
 function light(scene) {
   const sun = new DirectionalLight("#ffffff", 2);
@@ -18,7 +24,8 @@ export class Stage {
   // Throws where there is no WebGL.
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({canvas, antialias: true, powerPreference: "high-performance"});
+    this.renderer =
+      new WebGLRenderer({canvas, antialias: true, powerPreference: "high-performance"});
     this.scene = new Scene();
     this.scene.background = new Color();
     light(this.scene);
@@ -35,7 +42,8 @@ export class Stage {
     this.before = [];  // Called before each frame with the time since the last one [s].
     this.insets = {left: 0, right: 0, top: 0, bottom: 0};
     this.follow = null;
-    this.view = "";  // The named view for as long as nobody has turned it; it is fitted anew to a new size.
+    this.view =
+      "";  // The named view for as long as nobody has turned it; it is fitted anew to a new size.
     this.asked = 0;
     this.frames = 0;
     this.last = 0;
@@ -115,28 +123,32 @@ export class Stage {
     const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     const half = Math.tan((FIELD_OF_VIEW_DEG * Math.PI) / 360);
     const tanY = half * Math.max(1 - (this.insets.top + this.insets.bottom) / height, 0.3);
-    const tanX = half * this.camera.aspect * Math.max(1 - (this.insets.left + this.insets.right) / width, 0.3);
+    const tanX =
+      half * this.camera.aspect * Math.max(1 - (this.insets.left + this.insets.right) / width, 0.3);
     let distance = size;
     for (let i = 0; i < 6; ++i) {
       const [x0, x1, y0, y1] = this.#seen(target, back, right, up, distance);
-      target.addScaledVector(right, ((x0 + x1) / 2) * distance).addScaledVector(up, ((y0 + y1) / 2) * distance);
+      target.addScaledVector(right, ((x0 + x1) / 2) * distance)
+        .addScaledVector(up, ((y0 + y1) / 2) * distance);
       distance *= 1.03 * Math.max((x1 - x0) / (2 * tanX), (y1 - y0) / (2 * tanY));
     }
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(back, distance);
-    this.camera.near = Math.max(0.02, size / 2000);
+    this.camera.near = Math.max(0.02, size / 600);
     this.camera.far = 60 * size + 100;
     this.camera.updateProjectionMatrix();
     this.controls.update();
   }
 
-  // Tangents of the angles between which the corners of the bounds are seen: left, right, low, high.
+  // Tangents of the angles between which the corners of the bounds are seen: left, right, low,
+  // high.
   #seen(target, back, right, up, distance) {
     const all = [Infinity, -Infinity, Infinity, -Infinity];
     const p = new Vector3();
     for (let corner = 0; corner < 8; ++corner) {
       const {min, max} = this.bounds;
-      p.set(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(target);
+      p.set(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z)
+        .sub(target);
       const depth = Math.max(distance - p.dot(back), 0.1 * distance);
       const [x, y] = [p.dot(right) / depth, p.dot(up) / depth];
       all[0] = Math.min(all[0], x);
@@ -167,9 +179,10 @@ export class Stage {
     const length = back.length() * zoom;
     const theta = Math.atan2(back.y, back.x) + azimuth;
     const phi = Math.min(Math.max(Math.acos(back.z / back.length()) + polar, 0.01), 0.52 * Math.PI);
-    camera.position.copy(controls.target).add(new Vector3(
-      length * Math.sin(phi) * Math.cos(theta), length * Math.sin(phi) * Math.sin(theta),
-      length * Math.cos(phi)));
+    camera.position.copy(controls.target)
+      .add(new Vector3(
+        length * Math.sin(phi) * Math.cos(theta), length * Math.sin(phi) * Math.sin(theta),
+        length * Math.cos(phi)));
     controls.update();
     this.invalidate();
   }

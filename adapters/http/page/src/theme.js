@@ -1,10 +1,28 @@
 // Light and dark: as the system has it, until the switch says otherwise.
 
 const COLORS = {
-  light: {background: "#e4e9ee", floor: "#f6f7f8", grid: "#b4bdc7", edge: "#1d2731", unread: "#7b858f", ink: "#101820",
-          path: "#66788a", blocked: "#c2255c", estimate: "#6b21a8"},
-  dark: {background: "#14181d", floor: "#20262d", grid: "#46515d", edge: "#000000", unread: "#8f99a3", ink: "#ffffff",
-         path: "#8b9bab", blocked: "#ff7aa8", estimate: "#d8b4fe"},
+  light: {
+    background: "#e4e9ee",
+    floor: "#f6f7f8",
+    grid: "#b4bdc7",
+    edge: "#1d2731",
+    unread: "#7b858f",
+    ink: "#101820",
+    path: "#66788a",
+    blocked: "#c2255c",
+    estimate: "#6b21a8"
+  },
+  dark: {
+    background: "#14181d",
+    floor: "#20262d",
+    grid: "#46515d",
+    edge: "#000000",
+    unread: "#8f99a3",
+    ink: "#ffffff",
+    path: "#8b9bab",
+    blocked: "#ff7aa8",
+    estimate: "#d8b4fe"
+  }
 };
 const KEY = "tagfield-theme";
 

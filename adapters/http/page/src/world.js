@@ -1,12 +1,12 @@
 // What is known of the world at one moment, wherever it came from: a server that goes on, or a
-// recorded run. Tags and antennas keep their index for as long as the page is open; one that is gone
-// is marked as absent, so that reads of it still point to something.
+// recorded run. Tags and antennas keep their index for as long as the page is open; one that is
+// gone is marked as absent, so that reads of it still point to something.
 
 import {ReadLog} from "./reads.js";
 
 const LIVE_READS = 1 << 18;
-const TRAIL = 2000;  // Places of a moving antenna that are kept [1].
-const RECENT_S = 2;  // A tag counts as read for this long [simulated s] …
+const TRAIL = 2000;         // Places of a moving antenna that are kept [1].
+const RECENT_S = 2;         // A tag counts as read for this long [simulated s] …
 const RECENT_REAL_S = 0.5;  // … or for this long on the wall's clock, whichever is longer.
 
 function grown(array, length) {
@@ -18,7 +18,8 @@ function grown(array, length) {
 
 export class World {
   constructor() {
-    this.scene = {name: "", description: "", solids: [], meshes: [], obstacles: [], map: null, paths: []};
+    this.scene =
+      {name: "", description: "", solids: [], meshes: [], obstacles: [], map: null, paths: []};
     this.live = true;
     this.time = 0;
     this.speed = 1;
@@ -29,6 +30,7 @@ export class World {
     this.onlyAntenna = -1;  // Reads of this antenna alone colour the tags; -1: of all.
     this.newReads = [];     // Tag and antenna in turn, of reads not flashed yet.
     this.changed = new Set();
+    this.taken = new Set();
     this.listeners = [];
     this.#clear();
   }
@@ -37,12 +39,13 @@ export class World {
     this.tags = [];  // {id, moves, present}
     this.tagIndex = new Map();
     this.position = new Float32Array(0);  // 3 a tag [m, frame W]
-    this.strength = new Float32Array(0);  // Strongest RSSI of late [dBm], NaN where not read of late
+    this.strength =
+      new Float32Array(0);  // Strongest RSSI of late [dBm], NaN where not read of late
     this.lastRssi = new Float32Array(0);  // Last RSSI ever [dBm], NaN where never read
     this.tagRate = new Float32Array(0);   // Reads a second
     this.antennas = [];  // As the server gives them, and pose, present, trail, rate, inSight
     this.antennaIndex = new Map();
-    this.robots = new Map();  // name → [x, y, z, qx, qy, qz, qw]
+    this.robots = new Map();     // name → [x, y, z, qx, qy, qz, qw]
     this.estimates = new Map();  // tag's index → {position, covariance}
     this.scan = null;
     this.log = new ReadLog(this.live ? LIVE_READS : 0);
@@ -58,13 +61,21 @@ export class World {
     for (const listener of this.listeners) listener();
   }
 
+  // What changed since the last call.
+  takeChanges() {
+    [this.changed, this.taken] = [this.taken, this.changed];
+    this.changed.clear();
+    return this.taken;
+  }
+
   reset() {
     const selected = this.selectedName();
     this.#clear();
     this.selection = null;
     this.wanted = selected;
-    this.touch("scene", "antennas", "tags", "robots", "tags-list", "reads",
-               "estimates", "scan", "selection");
+    this.touch(
+      "scene", "antennas", "tags", "robots", "tags-list", "reads", "estimates", "scan",
+      "selection");
   }
 
   selectedName() {
@@ -116,7 +127,8 @@ export class World {
         this.tagIndex.set(given.id, index);
         this.tags.push({id: given.id});
       }
-      Object.assign(this.tags[index], {moves: given.moves, rotation: given.rotation, present: true});
+      Object.assign(
+        this.tags[index], {moves: given.moves, rotation: given.rotation, present: true});
     }
     this.#grow();
     for (const given of list) this.position.set(given.position, 3 * this.tagIndex.get(given.id));
@@ -149,7 +161,8 @@ export class World {
     if (!this.live) return;
     const {trail} = antenna;
     const last = trail.length - 3;
-    const way = last < 0 ? Infinity :
+    const way = last < 0 ?
+      Infinity :
       Math.hypot(pose[0] - trail[last], pose[1] - trail[last + 1], pose[2] - trail[last + 2]);
     if (way < 0.02) return;
     trail.push(pose[0], pose[1], pose[2]);

@@ -1,20 +1,22 @@
-// A server that speaks the page's contract without the simulator: the reads of a real run, going round and
-// round, and as many synthetic tags as asked for. For the page's own tests and for working on it.
+// A server that speaks the page's contract without the simulator: the reads of a real run, going
+// round and round, and as many synthetic tags as asked for. For the page's own tests and for
+// working on it.
 //
 //   node mock.mjs PAGE.html RUN_FOLDER WORLD.sdf [--tags N] [--port P] [--recorded]
 //                 [--explain TAGFIELD SCENARIO] [--modules DIR]
 //
-// The first line printed is "http: http://127.0.0.1:PORT". The link and the coverage come from the real
-// program where --explain names it; else explain answers 409.
+// The first line printed is "http: http://127.0.0.1:PORT". The link and the coverage come from the
+// real program where --explain names it; else explain answers 409.
 
 import {execFile} from "node:child_process";
-import {mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import http from "node:http";
 import {createRequire} from "node:module";
 import os from "node:os";
 import path from "node:path";
 import {fileURLToPath} from "node:url";
 import {promisify} from "node:util";
+
 import {poseOf, readRun} from "./run.mjs";
 
 const FRAME_S = 0.05;
@@ -22,16 +24,28 @@ const SYNTHETIC_READS_S = 1000;  // Of all synthetic tags together, on the wall'
 const call = promisify(execFile);
 
 function parse(words) {
-  const given = {files: [], tags: 0, port: 0, recorded: false, explain: null,
-                 modules: path.join(path.dirname(fileURLToPath(import.meta.url)), "..")};
+  const given = {
+    files: [],
+    tags: 0,
+    port: 0,
+    recorded: false,
+    explain: null,
+    modules: path.join(path.dirname(fileURLToPath(import.meta.url)), "..")
+  };
   while (words.length) {
     const word = words.shift();
-    if (word === "--tags") given.tags = Number(words.shift());
-    else if (word === "--port") given.port = Number(words.shift());
-    else if (word === "--recorded") given.recorded = true;
-    else if (word === "--explain") given.explain = [words.shift(), words.shift()];
-    else if (word === "--modules") given.modules = words.shift();
-    else given.files.push(word);
+    if (word === "--tags")
+      given.tags = Number(words.shift());
+    else if (word === "--port")
+      given.port = Number(words.shift());
+    else if (word === "--recorded")
+      given.recorded = true;
+    else if (word === "--explain")
+      given.explain = [words.shift(), words.shift()];
+    else if (word === "--modules")
+      given.modules = words.shift();
+    else
+      given.files.push(word);
   }
   return given;
 }
@@ -40,13 +54,29 @@ const given = parse(process.argv.slice(2));
 const {WebSocketServer} = createRequire(path.join(given.modules, "package.json"))("ws");
 const [pageFile, runFolder, sdf] = given.files;
 const run = readRun(runFolder, sdf);
-const synthetic = Array.from({length: given.tags}, (_, i) => ({
-  id: `case_${i + 1}`, rotation: [0, 0, 0, 1], moves: false,
-  position: [-7.6 + 15.2 * ((i * 0.754877666) % 1), -9.6 + 19.2 * ((i * 0.569840291) % 1), 0.2 + 2.6 * ((i * 0.362) % 1)]}));
+const synthetic = Array.from(
+  {length: given.tags}, (_, i) => ({
+                          id: `case_${i + 1}`,
+                          rotation: [0, 0, 0, 1],
+                          moves: false,
+                          position: [
+                            -7.6 + 15.2 * ((i * 0.754877666) % 1),
+                            -9.6 + 19.2 * ((i * 0.569840291) % 1), 0.2 + 2.6 * ((i * 0.362) % 1)
+                          ]
+                        }));
 run.tags.push(...synthetic);
 
-const world = {time: 0, paused: false, speed: 1, tags: run.tags.map((tag) => ({...tag})),
-               antennas: run.antennas.map((one) => ({...one})), obstacles: [], reads: 0, changed: false, moved: []};
+const world = {
+  time: 0,
+  paused: false,
+  speed: 1,
+  tags: run.tags.map((tag) => ({...tag})),
+  antennas: run.antennas.map((one) => ({...one})),
+  obstacles: [],
+  reads: 0,
+  changed: false,
+  moved: []
+};
 const sockets = new Set();
 const lap = run.duration[1];
 
@@ -56,9 +86,11 @@ function poseAt(track) {
   return track.pose[Math.max(i, 0)];
 }
 
-const latestPoses = (tracks) => Object.entries(tracks).map(([name, track]) => [name, ...poseAt(track)]);
+const latestPoses = (tracks) =>
+  Object.entries(tracks).map(([name, track]) => [name, ...poseAt(track)]);
 
-// As a real server sums up: the last read of a tag by an antenna since the last frame, and how many.
+// As a real server sums up: the last read of a tag by an antenna since the last frame, and how
+// many.
 function readsBetween(from, to) {
   const last = new Map();
   const add = (tag, antenna, rssi, phase, t) => {
@@ -71,7 +103,8 @@ function readsBetween(from, to) {
   for (let i = 0; i < run.reads.t.length; ++i) {
     const t = start + run.reads.t[i];
     const [tag, antenna] = [run.tags[run.reads.tag[i]].id, run.antennas[run.reads.antenna[i]].name];
-    if (t > from && t <= to && on.has(antenna) && there.has(tag)) add(tag, antenna, run.reads.rssi[i], run.reads.phase[i], t);
+    if (t > from && t <= to && on.has(antenna) && there.has(tag))
+      add(tag, antenna, run.reads.rssi[i], run.reads.phase[i], t);
   }
   const n = synthetic.length ? Math.round(SYNTHETIC_READS_S * FRAME_S) : 0;
   for (let k = 0; k < n; ++k) {
@@ -79,7 +112,8 @@ function readsBetween(from, to) {
     const antenna = run.antennas[k % run.antennas.length];
     const p = poseAt(run.antenna_poses[antenna.name]);
     const d = Math.hypot(...tag.position.map((value, j) => value - p[j]));
-    if (d < 9) add(tag.id, antenna.name, -32 - 40 * Math.log10(d + 0.5), (21.7 * 2 * d) % (2 * Math.PI), to);
+    if (d < 9)
+      add(tag.id, antenna.name, -32 - 40 * Math.log10(d + 0.5), (21.7 * 2 * d) % (2 * Math.PI), to);
   }
   return [...last.values()];
 }
@@ -93,7 +127,12 @@ function scanAt(pose) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     return Math.min(c > 0 ? (8 - x) / c : (-8 - x) / c, s > 0 ? (10 - y) / s : (-10 - y) / s);
   });
-  return {origin: [x, y, 0.35, ...pose.slice(3)], angle_min: -Math.PI / 2, angle_step: Math.PI / n, ranges};
+  return {
+    origin: [x, y, 0.35, ...pose.slice(3)],
+    angle_min: -Math.PI / 2,
+    angle_step: Math.PI / n,
+    ranges
+  };
 }
 
 function advance(seconds) {
@@ -102,19 +141,40 @@ function advance(seconds) {
   const reads = seconds ? readsBetween(before, world.time) : [];
   world.reads += reads.reduce((sum, read) => sum + read[6], 0);
   const robots = latestPoses(run.robot_poses);
-  const frame = {time: world.time, pace: world.paused ? 0 : world.speed, paused: world.paused, speed: world.speed, robots,
-                 antennas: latestPoses(run.antenna_poses), tags: world.moved, reads, scan: robots.length ? scanAt(robots[0].slice(1)) : null,
-                 estimates: Math.floor(world.time) > Math.floor(before) ? run.estimates : [], dropped: 0};
+  const frame = {
+    time: world.time,
+    pace: world.paused ? 0 : world.speed,
+    paused: world.paused,
+    speed: world.speed,
+    robots,
+    antennas: latestPoses(run.antenna_poses),
+    tags: world.moved,
+    reads,
+    scan: robots.length ? scanAt(robots[0].slice(1)) : null,
+    estimates: Math.floor(world.time) > Math.floor(before) ? run.estimates : [],
+    dropped: 0
+  };
   if (world.changed) frame.changed = true;
   world.changed = false;
   world.moved = [];
   const text = JSON.stringify(frame);
-  for (const socket of sockets) if (socket.bufferedAmount < 1 << 20) socket.send(text);
+  for (const socket of sockets)
+    if (socket.bufferedAmount < 1 << 20) socket.send(text);
 }
 
-const status = () => ({name: run.scene.name, time: world.time, speed: world.speed, pace: world.speed, paused: world.paused,
-                       reads: world.reads, tags: world.tags.length, antennas: world.antennas.length, version: "mock",
-                       mode: given.recorded ? "recorded" : "live", duration: given.recorded ? lap : null});
+const status = () => ({
+  name: run.scene.name,
+  time: world.time,
+  speed: world.speed,
+  pace: world.speed,
+  paused: world.paused,
+  reads: world.reads,
+  tags: world.tags.length,
+  antennas: world.antennas.length,
+  version: "mock",
+  mode: given.recorded ? "recorded" : "live",
+  duration: given.recorded ? lap : null
+});
 
 class Refused extends Error {
   constructor(code, text) {
@@ -135,8 +195,13 @@ async function explain(query) {
   if (antenna.faulty) throw new Refused(409, `antenna "${antenna.name}" is off`);
   if (!given.explain) throw new Refused(409, "this mock has no simulator");
   const [tagfield, scenario] = given.explain;
-  const {stdout} = await call(tagfield, ["explain", scenario, "--json", "--antenna", query.get("antenna"), "--tag",
-                                         query.get("tag"), "--time", String(world.time % lap)], {maxBuffer: 1 << 24});
+  const {stdout} = await call(
+    tagfield,
+    [
+      "explain", scenario, "--json", "--antenna", query.get("antenna"), "--tag", query.get("tag"),
+      "--time", String(world.time % lap)
+    ],
+    {maxBuffer: 1 << 24});
   return JSON.parse(stdout);
 }
 
@@ -146,13 +211,27 @@ async function coverage(query) {
   const folder = mkdtempSync(path.join(os.tmpdir(), "tagfield-mock-"));
   const cell = Number(query.get("cell"));
   try {
-    await call(tagfield, ["coverage", scenario, "--antenna", query.get("antenna"), "--height", query.get("height"), "--step",
-                          String(cell), "--time", String(world.time % lap), "--out", path.join(folder, "coverage")]);
-    const file = readdirSync(path.join(folder, "coverage")).find((name) => /^coverage_[\d.]+m\.csv$/.test(name));
-    const rows = readFileSync(path.join(folder, "coverage", file), "utf8").trim().split("\n").slice(1).map((line) => line.split(","));
+    await call(tagfield, [
+      "coverage", scenario, "--antenna", query.get("antenna"), "--height", query.get("height"),
+      "--step", String(cell), "--time", String(world.time % lap), "--out",
+      path.join(folder, "coverage")
+    ]);
+    const file = readdirSync(path.join(folder, "coverage"))
+                   .find((name) => /^coverage_[\d.]+m\.csv$/.test(name));
+    const rows = readFileSync(path.join(folder, "coverage", file), "utf8")
+                   .trim()
+                   .split("\n")
+                   .slice(1)
+                   .map((line) => line.split(","));
     const columns = rows.filter((row) => row[1] === rows[0][1]).length;
-    return {x0: Number(rows[0][0]) - cell / 2, y0: Number(rows[0][1]) - cell / 2, cell, columns, rows: rows.length / columns,
-            margin_db: rows.map((row) => (row[4] === "" ? null : Number(row[4])))};
+    return {
+      x0: Number(rows[0][0]) - cell / 2,
+      y0: Number(rows[0][1]) - cell / 2,
+      cell,
+      columns,
+      rows: rows.length / columns,
+      margin_db: rows.map((row) => (row[4] === "" ? null : Number(row[4])))
+    };
   } finally {
     rmSync(folder, {recursive: true});
   }
@@ -166,23 +245,41 @@ function place(position, n) {
 }
 
 function change(method, [kind, name, verb], body) {
-  const [list, key] = {tags: [world.tags, "id"], antennas: [world.antennas, "name"], obstacles: [world.obstacles, "name"]}[kind];
+  const [list, key] = {
+    tags: [world.tags, "id"],
+    antennas: [world.antennas, "name"],
+    obstacles: [world.obstacles, "name"]
+  }[kind];
   world.changed = true;
   if (method === "DELETE") {
     list.splice(find(list, key, name), 1);
   } else if (!name) {
-    if (list.some((one) => one[key] === body[key])) throw new Refused(409, `${kind}: there is a "${body[key]}" already`);
-    if (kind === "tags") list.push({id: body.id, position: place(body.position, 3), rotation: [0, 0, 0, 1], moves: false});
-    if (kind === "antennas") list.push({...list[find(list, "name", body.like)], name: body.name, pose: poseOf(body.pose)});
+    if (list.some((one) => one[key] === body[key]))
+      throw new Refused(409, `${kind}: there is a "${body[key]}" already`);
+    if (kind === "tags")
+      list.push(
+        {id: body.id, position: place(body.position, 3), rotation: [0, 0, 0, 1], moves: false});
+    if (kind === "antennas")
+      list.push({...list[find(list, "name", body.like)], name: body.name, pose: poseOf(body.pose)});
     if (kind === "obstacles") {
-      list.push({name: body.name, position: place(body.position, 2), size: body.size ?? [0, 0], radius: body.radius ?? 0,
-                 yaw: ((body.yaw_deg ?? 0) * Math.PI) / 180, height: body.height, material: body.material});
+      list.push({
+        name: body.name,
+        position: place(body.position, 2),
+        size: body.size ?? [0, 0],
+        radius: body.radius ?? 0,
+        yaw: ((body.yaw_deg ?? 0) * Math.PI) / 180,
+        height: body.height,
+        material: body.material
+      });
     }
   } else {
     const one = list[find(list, key, name)];
-    if (verb === "move" && kind === "tags") one.position = place(body.position, 3);
-    else if (verb === "disconnect" || verb === "connect") one.faulty = verb === "disconnect";
-    else if (verb !== "detune") throw new Refused(404, `no such command: ${verb}`);
+    if (verb === "move" && kind === "tags")
+      one.position = place(body.position, 3);
+    else if (verb === "disconnect" || verb === "connect")
+      one.faulty = verb === "disconnect";
+    else if (verb !== "detune")
+      throw new Refused(404, `no such command: ${verb}`);
   }
 }
 
@@ -198,11 +295,16 @@ async function answer(method, words, query, body) {
     if (what === "coverage") return coverage(query);
     throw new Refused(404, `no such address: /api/${what}`);
   }
-  if (["pause", "resume"].includes(what)) world.paused = what === "pause";
-  else if (what === "speed") world.speed = body.speed || 100;
-  else if (what === "step") advance(body.seconds);
-  else if (["tags", "antennas", "obstacles"].includes(words[0])) change(method, words, body);
-  else throw new Refused(404, `no such command: ${what}`);
+  if (["pause", "resume"].includes(what))
+    world.paused = what === "pause";
+  else if (what === "speed")
+    world.speed = body.speed || 100;
+  else if (what === "step")
+    advance(body.seconds);
+  else if (["tags", "antennas", "obstacles"].includes(words[0]))
+    change(method, words, body);
+  else
+    throw new Refused(404, `no such command: ${what}`);
   return status();
 }
 
@@ -210,14 +312,16 @@ const server = http.createServer(async (request, response) => {
   const url = new URL(request.url, "http://mock");
   const words = url.pathname.split("/").slice(1).map(decodeURIComponent);
   if (words[0] !== "api") {
-    response.writeHead(url.pathname === "/" ? 200 : 404, {"Content-Type": "text/html; charset=utf-8"});
+    response.writeHead(
+      url.pathname === "/" ? 200 : 404, {"Content-Type": "text/html; charset=utf-8"});
     response.end(url.pathname === "/" ? readFileSync(pageFile) : "");
     return;
   }
   let text = "";
   for await (const chunk of request) text += chunk;
   try {
-    const body = await answer(request.method, words.slice(1), url.searchParams, text ? JSON.parse(text) : {});
+    const body =
+      await answer(request.method, words.slice(1), url.searchParams, text ? JSON.parse(text) : {});
     response.writeHead(200, {"Content-Type": "application/json"}).end(JSON.stringify(body));
   } catch (error) {
     response.writeHead(error.code > 0 ? error.code : 500, {"Content-Type": "application/json"});
@@ -230,4 +334,5 @@ new WebSocketServer({server, path: "/api/live"}).on("connection", (socket) => {
   socket.on("close", () => sockets.delete(socket));
 });
 setInterval(() => advance(world.paused ? 0 : FRAME_S * world.speed), 1000 * FRAME_S);
-server.listen(given.port, "127.0.0.1", () => console.log(`http: http://127.0.0.1:${server.address().port}`));
+server.listen(
+  given.port, "127.0.0.1", () => console.log(`http: http://127.0.0.1:${server.address().port}`));

@@ -17,14 +17,19 @@ const POSE = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
 // [x, y, z, roll, pitch, yaw] → [x, y, z, qx, qy, qz, qw]
 export function poseOf([x, y, z, roll = 0, pitch = 0, yaw = 0]) {
-  const [cr, sr, cp, sp, cy, sy] = [roll, pitch, yaw].flatMap((a) => [Math.cos(a / 2), Math.sin(a / 2)]);
-  return [x, y, z, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy,
-          cr * cp * cy + sr * sp * sy];
+  const [cr, sr, cp, sp, cy, sy] =
+    [roll, pitch, yaw].flatMap((a) => [Math.cos(a / 2), Math.sin(a / 2)]);
+  return [
+    x, y, z, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy,
+    cr * cp * cy + sr * sp * sy
+  ];
 }
 
-// Collisions of an SDF whose models and links are turned about z alone, as this project's own worlds are.
+// Collisions of an SDF whose models and links are turned about z alone, as this project's own
+// worlds are.
 export function solidsOf(sdf, materials) {
-  const text = readFileSync(sdf, "utf8").replace(/<!--[^]*?-->/g, "").replace(/<visual[^]*?<\/visual>/g, "");
+  const text =
+    readFileSync(sdf, "utf8").replace(/<!--[^]*?-->/g, "").replace(/<visual[^]*?<\/visual>/g, "");
   const solids = [];
   const scopes = [];
   const list = (words) => words.trim().split(/\s+/).map(Number);
@@ -52,16 +57,20 @@ function measure(solid, tag, content, list) {
   if (tag === "plane") solid.plane = [1, 1];
   if (tag === "size") solid[solid.box ? "box" : "plane"] = list(content);
   if (tag === "normal") solid.normal = list(content);
-  if (tag === "radius") solid.cylinder ? (solid.cylinder[0] = Number(content)) : (solid.sphere = Number(content));
+  if (tag === "radius")
+    solid.cylinder ? (solid.cylinder[0] = Number(content)) : (solid.sphere = Number(content));
   if (tag === "length") solid.cylinder[1] = Number(content);
 }
 
 function finished(scopes, solid, materials) {
-  const pose = scopes.reduce(([x, y, z, , , yaw], {pose: p}) => [
-    x + Math.cos(yaw) * p[0] - Math.sin(yaw) * p[1], y + Math.sin(yaw) * p[0] + Math.cos(yaw) * p[1], z + p[2],
-    0, 0, yaw + p[5]], [0, 0, 0, 0, 0, 0]);
+  const pose = scopes.reduce(
+    ([x, y, z, , , yaw], {pose: p}) =>
+      [x + Math.cos(yaw) * p[0] - Math.sin(yaw) * p[1],
+       y + Math.sin(yaw) * p[0] + Math.cos(yaw) * p[1], z + p[2], 0, 0, yaw + p[5]],
+    [0, 0, 0, 0, 0, 0]);
   const named = scopes.map((scope) => scope.name);
-  const material = Object.entries(materials).find(([name]) => named.some((one) => one.includes(name)))?.[1] ?? "";
+  const material =
+    Object.entries(materials).find(([name]) => named.some((one) => one.includes(name)))?.[1] ?? "";
   return {name: named.join("::"), material, pose: poseOf(pose), ...solid};
 }
 
@@ -82,8 +91,13 @@ function tracks(rows, key, fields, column, every) {
 export function panelBeam() {
   const theta = Array.from({length: 37}, (_, i) => (i * Math.PI) / 36);
   const phi = Array.from({length: 24}, (_, i) => (i * Math.PI) / 12);
-  return {theta, phi, gain_db: theta.map((angle) => phi.map(
-    () => (angle < Math.PI / 2 ? Math.max(20 * Math.log10(Math.cos(angle)), -20) : -20)))};
+  return {
+    theta,
+    phi,
+    gain_db: theta.map(
+      (angle) => phi.map(
+        () => (angle < Math.PI / 2 ? Math.max(20 * Math.log10(Math.cos(angle)), -20) : -20)))
+  };
 }
 
 export function readRun(folder, sdf) {
@@ -92,24 +106,65 @@ export function readRun(folder, sdf) {
   const robotFile = file("truth/robot_poses.csv");
   const robotPoses = existsSync(robotFile) ? tracks(csv(robotFile), "robot", POSE, "pose", 3) : {};
   const tags = csv(file("truth/tags.csv")).map((row) => ({
-    id: row.tag, position: numbers(row, ["x_m", "y_m", "z_m"]), rotation: [0, 0, 0, 1], moves: false}));
+                                                 id: row.tag,
+                                                 position: numbers(row, ["x_m", "y_m", "z_m"]),
+                                                 rotation: [0, 0, 0, 1],
+                                                 moves: false
+                                               }));
   const antennas = Object.entries(antennaPoses).map(([name, {pose}], i) => ({
-    name, reader: "reader_1", port: i + 1, on: true, faulty: false, robot: Object.keys(robotPoses)[0] ?? "",
-    pose: pose[0], model: "physical", range: 7, frequency: 866.3e6, power_dbm: 29.7, beam: panelBeam()}));
+                                                      name,
+                                                      reader: "reader_1",
+                                                      port: i + 1,
+                                                      on: true,
+                                                      faulty: false,
+                                                      robot: Object.keys(robotPoses)[0] ?? "",
+                                                      pose: pose[0],
+                                                      model: "physical",
+                                                      range: 7,
+                                                      frequency: 866.3e6,
+                                                      power_dbm: 29.7,
+                                                      beam: panelBeam()
+                                                    }));
   const tagIndex = new Map(tags.map(({id}, i) => [id, i]));
   const antennaIndex = new Map(antennas.map(({name}, i) => [name, i]));
   const rows = csv(file("reads.csv"));
   const robot = Object.values(robotPoses)[0]?.pose ?? [];
   return {
-    scene: {name: path.basename(folder), description: "A real run, for the page's tests", meshes: [], obstacles: [], map: null,
-            solids: solidsOf(sdf, {racks: "metal", boxes: "cardboard", walls: "concrete", ground_plane: "concrete", obstacles: "wood"}),
-            paths: robot.length ? [{name: "robot", points: robot.filter((_, i) => i % 5 === 0).map((p) => p.slice(0, 3))}] : []},
-    antennas, tags, antenna_poses: antennaPoses, robot_poses: robotPoses, tag_positions: {},
+    scene: {
+      name: path.basename(folder),
+      description: "A real run, for the page's tests",
+      meshes: [],
+      obstacles: [],
+      map: null,
+      solids: solidsOf(sdf, {
+        racks: "metal",
+        boxes: "cardboard",
+        walls: "concrete",
+        ground_plane: "concrete",
+        obstacles: "wood"
+      }),
+      paths: robot.length ?
+        [{name: "robot", points: robot.filter((_, i) => i % 5 === 0).map((p) => p.slice(0, 3))}] :
+        []
+    },
+    antennas,
+    tags,
+    antenna_poses: antennaPoses,
+    robot_poses: robotPoses,
+    tag_positions: {},
     duration: [0, Number(rows.at(-1).stamp_s)],
-    reads: {t: rows.map((row) => Number(row.stamp_s)), tag: rows.map((row) => tagIndex.get(row.tag)),
-            antenna: rows.map((row) => antennaIndex.get(row.antenna)), rssi: rows.map((row) => Number(row.rssi_dbm)),
-            phase: rows.map((row) => Number(row.phase_rad))},
-    estimates: csv(file("estimates.csv")).filter((row) => row.verdict === "located").map((row) => [
-      row.tag, ...numbers(row, ["x_m", "y_m", "z_m"]), numbers(row, ["cov_xx", "cov_xy", "cov_yy"])]),
+    reads: {
+      t: rows.map((row) => Number(row.stamp_s)),
+      tag: rows.map((row) => tagIndex.get(row.tag)),
+      antenna: rows.map((row) => antennaIndex.get(row.antenna)),
+      rssi: rows.map((row) => Number(row.rssi_dbm)),
+      phase: rows.map((row) => Number(row.phase_rad))
+    },
+    estimates: csv(file("estimates.csv"))
+                 .filter((row) => row.verdict === "located")
+                 .map(
+                   (row) =>
+                     [row.tag, ...numbers(row, ["x_m", "y_m", "z_m"]),
+                      numbers(row, ["cov_xx", "cov_xy", "cov_yy"])])
   };
 }

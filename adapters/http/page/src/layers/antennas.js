@@ -1,9 +1,12 @@
 // Antennas: a plate that looks along its boresight, the half-power part of its beam or the paper's
 // sphere of range, and the trail of one that moves.
 
-import {AdditiveBlending, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DoubleSide,
-        EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
-        MeshLambertMaterial, NormalBlending, ShaderMaterial, SphereGeometry} from "three";
+import {
+  AdditiveBlending, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, DoubleSide,
+  EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshLambertMaterial, NormalBlending, ShaderMaterial, SphereGeometry
+} from "three";
+
 import {antennaColor} from "../colors.js";
 
 const HALF_POWER_DB = -3;
@@ -39,9 +42,13 @@ function bracket(values, x) {
 function gainAt(beam, theta, phi) {
   const [i, u] = bracket(beam.theta, theta);
   const last = beam.phi[beam.phi.length - 1];
-  const [j, v] = bracket(beam.phi, phi > last ? phi - 2 * Math.PI < beam.phi[0] ? last : phi : phi);
-  const at = (a, b) => beam.gain_db[Math.min(a, beam.theta.length - 1)][Math.min(b, beam.phi.length - 1)];
-  return (1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) + u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1));
+  const [j, v] =
+    bracket(beam.phi, phi > last ? (phi - 2 * Math.PI < beam.phi[0] ? last : phi) : phi);
+  const at = (a, b) =>
+    beam.gain_db[Math.min(a, beam.theta.length - 1)][Math.min(b, beam.phi.length - 1)];
+  return (
+    (1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
+    u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1)));
 }
 
 // Where the gain has fallen to half, going outwards from boresight [rad].
@@ -52,7 +59,8 @@ function halfPowerAngle(beam, phi) {
   return Math.PI;
 }
 
-// r = L·sqrt(gain) in all directions of at least half the peak's power; closed by rays to the antenna.
+// r = L·sqrt(gain) in all directions of at least half the peak's power; closed by rays to the
+// antenna.
 function beamGeometry(beam) {
   const points = [0, 0, 0];
   const indices = [];
@@ -62,13 +70,16 @@ function beamGeometry(beam) {
     for (let k = 0; k <= POLARS; ++k) {
       const theta = (widest * k) / POLARS;
       const r = BEAM_LENGTH_M * 10 ** (Math.min(gainAt(beam, theta, phi), 0) / 20);
-      points.push(r * Math.cos(theta), r * Math.sin(theta) * Math.cos(phi), r * Math.sin(theta) * Math.sin(phi));
+      points.push(
+        r * Math.cos(theta), r * Math.sin(theta) * Math.cos(phi),
+        r * Math.sin(theta) * Math.sin(phi));
     }
   }
   const at = (a, k) => 1 + a * (POLARS + 1) + k;
   for (let a = 0; a < AZIMUTHS; ++a) {
     for (let k = 0; k < POLARS; ++k) {
-      indices.push(at(a, k), at(a + 1, k), at(a, k + 1), at(a + 1, k), at(a + 1, k + 1), at(a, k + 1));
+      indices.push(
+        at(a, k), at(a + 1, k), at(a, k + 1), at(a + 1, k), at(a + 1, k + 1), at(a, k + 1));
     }
     indices.push(0, at(a, POLARS), at(a + 1, POLARS));
   }
@@ -92,13 +103,20 @@ function beamLines(geometry) {
       push(1 + a * (POLARS + 1) + POLARS);
     }
   }
-  return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+  return new BufferGeometry().setAttribute(
+    "position", new BufferAttribute(new Float32Array(points), 3));
 }
 
 function shell(geometry, color, opacity) {
-  const mesh = new Mesh(geometry, new ShaderMaterial({
-    vertexShader: SHELL_VERTEX, fragmentShader: SHELL_FRAGMENT, transparent: true, depthWrite: false,
-    side: DoubleSide, uniforms: {uColor: {value: new Color().setStyle(color, "")}, uOpacity: {value: opacity}}}));
+  const mesh = new Mesh(
+    geometry, new ShaderMaterial({
+      vertexShader: SHELL_VERTEX,
+      fragmentShader: SHELL_FRAGMENT,
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+      uniforms: {uColor: {value: new Color().setStyle(color, "")}, uOpacity: {value: opacity}}
+    }));
   mesh.renderOrder = 10;
   return mesh;
 }
@@ -106,9 +124,11 @@ function shell(geometry, color, opacity) {
 function body(color) {
   const group = new Group();
   const plate = new BoxGeometry(0.04, 0.26, 0.26);
-  group.add(new Mesh(plate, new MeshLambertMaterial({color})),
-            new LineSegments(new EdgesGeometry(plate), new LineBasicMaterial({color: "#000000"})));
-  const arrow = new Mesh(new ConeGeometry(0.06, 0.16, 12).rotateZ(-Math.PI / 2), new MeshLambertMaterial({color}));
+  group.add(
+    new Mesh(plate, new MeshLambertMaterial({color})),
+    new LineSegments(new EdgesGeometry(plate), new LineBasicMaterial({color: "#000000"})));
+  const arrow = new Mesh(
+    new ConeGeometry(0.06, 0.16, 12).rotateZ(-Math.PI / 2), new MeshLambertMaterial({color}));
   arrow.position.x = 0.16;
   group.add(arrow);
   return group;
@@ -146,14 +166,17 @@ export class Antennas {
     if (antenna.beam) {
       const geometry = beamGeometry(antenna.beam);
       beam = new Group();
-      beam.add(shell(geometry, color, 0.3), new LineSegments(beamLines(geometry), new LineBasicMaterial({
-        color, transparent: true, opacity: 0.55})));
+      beam.add(
+        shell(geometry, color, 0.3),
+        new LineSegments(
+          beamLines(geometry), new LineBasicMaterial({color, transparent: true, opacity: 0.55})));
     } else if (antenna.range > 0) {
       beam = shell(new SphereGeometry(antenna.range, 48, 32), color, 0.35);
     }
     if (beam) group.add(beam);
     group.visible = antenna.present;
-    const trail = new Line(new BufferGeometry(), new LineBasicMaterial({color, transparent: true, opacity: 0.7}));
+    const trail = new Line(
+      new BufferGeometry(), new LineBasicMaterial({color, transparent: true, opacity: 0.7}));
     trail.frustumCulled = false;
     this.stage.scene.add(group, trail);
     return {group, beam, trail, drawn: -1};
@@ -192,8 +215,8 @@ export class Antennas {
     this.items.forEach((item, i) => {
       if (!item.beam) return;
       const antenna = this.world.antennas[i];
-      item.beam.visible = this.beams && antenna.present && !antenna.faulty && antenna.on !== false &&
-        (chosen < 0 || chosen === i);
+      item.beam.visible = this.beams && antenna.present && !antenna.faulty &&
+        antenna.on !== false && (chosen < 0 || chosen === i);
     });
   }
 

@@ -1,6 +1,9 @@
 // Where an antenna would read a tag, as a coloured layer at one height.
 
-import {DataTexture, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace} from "three";
+import {
+  DataTexture, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace
+} from "three";
+
 import {marginColor} from "../colors.js";
 
 export class Coverage {
@@ -30,8 +33,9 @@ export class Coverage {
     texture.colorSpace = SRGBColorSpace;
     texture.magFilter = texture.minFilter = NearestFilter;
     texture.needsUpdate = true;
-    this.mesh = new Mesh(new PlaneGeometry(columns * cell, rows * cell),
-                         new MeshBasicMaterial({map: texture, transparent: true, depthWrite: false}));
+    this.mesh = new Mesh(
+      new PlaneGeometry(columns * cell, rows * cell),
+      new MeshBasicMaterial({map: texture, transparent: true, depthWrite: false}));
     this.mesh.position.set(x0 + (columns * cell) / 2, y0 + (rows * cell) / 2, height + 0.01);
     this.mesh.renderOrder = 5;
     this.stage.scene.add(this.mesh);

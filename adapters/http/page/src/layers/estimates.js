@@ -10,8 +10,11 @@ const CROSS_M = 0.06;
 export function ellipse([cxx, cxy, cyy]) {
   const mean = (cxx + cyy) / 2;
   const root = Math.hypot((cxx - cyy) / 2, cxy);
-  return {a: CHI_95 * Math.sqrt(Math.max(mean + root, 0)), b: CHI_95 * Math.sqrt(Math.max(mean - root, 0)),
-          heading: 0.5 * Math.atan2(2 * cxy, cxx - cyy)};
+  return {
+    a: CHI_95 * Math.sqrt(Math.max(mean + root, 0)),
+    b: CHI_95 * Math.sqrt(Math.max(mean - root, 0)),
+    heading: 0.5 * Math.atan2(2 * cxy, cxx - cyy)
+  };
 }
 
 function pushEllipse(points, [x, y, z], covariance) {
@@ -31,7 +34,8 @@ function pushEllipse(points, [x, y, z], covariance) {
 export class Estimates {
   constructor(stage, world) {
     this.world = world;
-    this.lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({depthTest: false, transparent: true}));
+    this.lines = new LineSegments(
+      new BufferGeometry(), new LineBasicMaterial({depthTest: false, transparent: true}));
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 25;
     stage.scene.add(this.lines);
@@ -46,10 +50,12 @@ export class Estimates {
     const points = [];
     for (const [tag, {position, covariance}] of this.world.estimates) {
       const [x, y, z] = position;
-      points.push(x - CROSS_M, y, z, x + CROSS_M, y, z, x, y - CROSS_M, z, x, y + CROSS_M, z,
-                  x, y, z - CROSS_M, x, y, z + CROSS_M);
+      points.push(
+        x - CROSS_M, y, z, x + CROSS_M, y, z, x, y - CROSS_M, z, x, y + CROSS_M, z, x, y,
+        z - CROSS_M, x, y, z + CROSS_M);
       if (covariance) pushEllipse(points, position, covariance);
-      if (this.world.tags[tag].present) points.push(x, y, z, ...this.world.position.subarray(3 * tag, 3 * tag + 3));
+      if (this.world.tags[tag].present)
+        points.push(x, y, z, ...this.world.position.subarray(3 * tag, 3 * tag + 3));
     }
     this.lines.geometry.dispose();
     this.lines.geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));

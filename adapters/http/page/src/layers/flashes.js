@@ -1,6 +1,9 @@
 // Reads as lines between antenna and tag that fade; the fading is the shader's work.
 
-import {BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, ShaderMaterial, Color} from "three";
+import {
+  BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineSegments, ShaderMaterial
+} from "three";
+
 import {antennaColor} from "../colors.js";
 
 const LINES = 2000;
@@ -15,7 +18,8 @@ varying vec4 vColor;
 void main() {
   float age = (uNow - aBorn) / ${FADE_S.toFixed(2)};
   vColor = vec4(aColor, 0.75 * clamp(1.0 - age, 0.0, 1.0));
-  gl_Position = age > 1.0 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * viewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+  if (age > 1.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 const FRAGMENT = `
 varying vec4 vColor;
@@ -28,7 +32,8 @@ export class Flashes {
     this.next = 0;
     this.until = 0;
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
-    const make = (size) => new BufferAttribute(new Float32Array(2 * LINES * size), size).setUsage(DynamicDrawUsage);
+    const make = (size) =>
+      new BufferAttribute(new Float32Array(2 * LINES * size), size).setUsage(DynamicDrawUsage);
     this.place = make(3);
     this.color = make(3);
     this.born = make(1);
@@ -38,8 +43,12 @@ export class Flashes {
     geometry.setAttribute("aBorn", this.born);
     this.uniforms = {uNow: {value: 0}};
     this.lines = new LineSegments(geometry, new ShaderMaterial({
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: this.uniforms, transparent: true,
-      depthWrite: false}));
+                                    vertexShader: VERTEX,
+                                    fragmentShader: FRAGMENT,
+                                    uniforms: this.uniforms,
+                                    transparent: true,
+                                    depthWrite: false
+                                  }));
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 15;
     this.rgb = [];
@@ -56,7 +65,8 @@ export class Flashes {
     if (newReads.length && !this.still.matches) {
       const n = newReads.length / 2;
       const step = Math.max(1, n / A_FRAME);
-      for (let i = 0; i < n; i += step) this.#add(newReads[2 * Math.floor(i)], newReads[2 * Math.floor(i) + 1], now);
+      for (let i = 0; i < n; i += step)
+        this.#add(newReads[2 * Math.floor(i)], newReads[2 * Math.floor(i) + 1], now);
       for (const attribute of [this.place, this.color, this.born]) attribute.needsUpdate = true;
       this.until = now + FADE_S;
     }

@@ -1,7 +1,9 @@
 // Floor, metre grid, map and the robots' paths.
 
-import {Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments, Mesh,
-        MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3} from "three";
+import {
+  Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments,
+  Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3
+} from "three";
 
 // Lines each `step` metres, but for those at multiples of `skip`.
 function gridLines({min, max}, step, skip, height) {
@@ -12,7 +14,8 @@ function gridLines({min, max}, step, skip, height) {
   for (let y = Math.ceil(min.y / step) * step; y <= max.y; y += step) {
     if (!skip || y % skip) points.push(min.x, y, height, max.x, y, height);
   }
-  return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+  return new BufferGeometry().setAttribute(
+    "position", new BufferAttribute(new Float32Array(points), 3));
 }
 
 export class Ground {
@@ -38,24 +41,31 @@ export class Ground {
       object.material?.dispose();
     });
     this.group.clear();
-    const wide = new Box3(new Vector3(Math.floor(bounds.min.x) - 1, Math.floor(bounds.min.y) - 1, bounds.min.z),
-                          new Vector3(Math.ceil(bounds.max.x) + 1, Math.ceil(bounds.max.y) + 1, bounds.max.z));
+    const wide = new Box3(
+      new Vector3(Math.floor(bounds.min.x) - 1, Math.floor(bounds.min.y) - 1, bounds.min.z),
+      new Vector3(Math.ceil(bounds.max.x) + 1, Math.ceil(bounds.max.y) + 1, bounds.max.z));
     const size = wide.getSize(new Vector3());
     const longest = Math.max(size.x, size.y);
     const step = longest > 400 ? 50 : longest > 80 ? 10 : 1;
     const floor = new Mesh(new PlaneGeometry(size.x, size.y), new MeshBasicMaterial({
-      color: this.theme.floor, polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 4}));
+                             color: this.theme.floor,
+                             polygonOffset: true,
+                             polygonOffsetFactor: 4,
+                             polygonOffsetUnits: 4
+                           }));
     floor.position.set((wide.min.x + wide.max.x) / 2, (wide.min.y + wide.max.y) / 2, 0);
-    this.group.add(floor, this.#grid(gridLines(wide, step, 5 * step, 0.003), 0.35),
-                   this.#grid(gridLines(wide, 5 * step, 0, 0.004), 0.9));
+    this.group.add(
+      floor, this.#grid(gridLines(wide, step, 5 * step, 0.003), 0.35),
+      this.#grid(gridLines(wide, 5 * step, 0, 0.004), 0.9));
     if (scene.map) this.#map(scene.map);
     for (const path of scene.paths) this.#path(path.points);
     return wide;
   }
 
   #grid(geometry, opacity) {
-    return new LineSegments(geometry, new LineBasicMaterial({
-      color: new Color(this.theme.grid), transparent: true, opacity}));
+    return new LineSegments(
+      geometry,
+      new LineBasicMaterial({color: new Color(this.theme.grid), transparent: true, opacity}));
   }
 
   #map({resolution, origin, width, height, png}) {
@@ -64,8 +74,9 @@ export class Ground {
       texture.magFilter = NearestFilter;
       texture.colorSpace = SRGBColorSpace;
       const [w, h] = [width * resolution, height * resolution];
-      const plane = new Mesh(new PlaneGeometry(w, h), new MeshBasicMaterial({
-        map: texture, transparent: true, opacity: 0.55, depthWrite: false}));
+      const plane = new Mesh(
+        new PlaneGeometry(w, h),
+        new MeshBasicMaterial({map: texture, transparent: true, opacity: 0.55, depthWrite: false}));
       plane.position.set(origin[0] + w / 2, origin[1] + h / 2, 0.006);
       this.group.add(plane);
       this.stage.invalidate();
@@ -73,8 +84,10 @@ export class Ground {
   }
 
   #path(points) {
-    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(
-      new Float32Array(points.flatMap(([x, y, z]) => [x, y, (z ?? 0) + 0.02])), 3));
+    const geometry = new BufferGeometry().setAttribute(
+      "position",
+      new BufferAttribute(
+        new Float32Array(points.flatMap(([x, y, z]) => [x, y, (z ?? 0) + 0.02])), 3));
     this.group.add(new Line(geometry, new LineBasicMaterial({color: this.theme.path})));
   }
 }

@@ -1,6 +1,8 @@
 // The paths of one link, as `explain` gives them: the direct way, reflections, diffraction.
 
-import {BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial} from "three";
+import {
+  BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineDashedMaterial
+} from "three";
 
 const MOST = 12;
 const FAINTEST_DB = -40;  // A path this far below the direct way is drawn faintest.
@@ -13,10 +15,13 @@ function lengthOf(points) {
   return length;
 }
 
-// Points of a path [m, frame W]. The edge of a diffracted one stands where that makes the way shortest.
+// Points of a path [m, frame W]. The edge of a diffracted one stands where that makes the way
+// shortest.
 export function pathPoints(explanation, path) {
-  const points = [explanation.antenna_pose.position_m, ...path.by_way_of.map((at) => at.position_m),
-                  explanation.tag_pose.position_m];
+  const points = [
+    explanation.antenna_pose.position_m, ...path.by_way_of.map((at) => at.position_m),
+    explanation.tag_pose.position_m
+  ];
   if (!path.around) return points;
   const ways = points.slice(1).map((_, i) => points.toSpliced(i + 1, 0, path.around.position_m));
   return ways.reduce((best, way) => (lengthOf(way) < lengthOf(best) ? way : best));
@@ -42,7 +47,8 @@ export class Link {
       object.material?.dispose();
     });
     this.group.clear();
-    const paths = explanation?.paths ?? (explanation ? [{bounces: 0, by_way_of: [], relative_db: 0}] : []);
+    const paths =
+      explanation?.paths ?? (explanation ? [{bounces: 0, by_way_of: [], relative_db: 0}] : []);
     const shown = paths.filter((path) => !path.blocked || path.bounces === 0);
     const sorted = shown.sort((a, b) => (b.relative_db ?? -999) - (a.relative_db ?? -999));
     for (const path of sorted.slice(0, MOST)) this.#add(pathPoints(explanation, path), path);
@@ -50,13 +56,15 @@ export class Link {
   }
 
   #add(points, path) {
-    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(
-      new Float32Array(points.flat()), 3));
+    const geometry = new BufferGeometry().setAttribute(
+      "position", new BufferAttribute(new Float32Array(points.flat()), 3));
     const strength = 1 - Math.min(Math.max((path.relative_db ?? FAINTEST_DB) / FAINTEST_DB, 0), 1);
     const look = {transparent: true, depthTest: false};
     const material = path.blocked ?
-      new LineDashedMaterial({...look, color: this.theme.blocked, dashSize: 0.25, gapSize: 0.2, opacity: 0.5}) :
-      new LineBasicMaterial({...look, color: new Color(this.theme.ink), opacity: 0.15 + 0.85 * strength});
+      new LineDashedMaterial(
+        {...look, color: this.theme.blocked, dashSize: 0.25, gapSize: 0.2, opacity: 0.5}) :
+      new LineBasicMaterial(
+        {...look, color: new Color(this.theme.ink), opacity: 0.15 + 0.85 * strength});
     const line = new Line(geometry, material);
     line.computeLineDistances();
     line.renderOrder = 22;

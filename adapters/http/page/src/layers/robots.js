@@ -1,8 +1,10 @@
 // Robots: a simple body half a metre wide with its heading, and what its laser sees.
 
-import {BoxGeometry, BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage,
-        EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points,
-        PointsMaterial, Quaternion, Vector3} from "three";
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, DynamicDrawUsage,
+  EdgesGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial,
+  Points, PointsMaterial, Quaternion, Vector3
+} from "three";
 
 const WIDTH_M = 0.5;
 const HEIGHT_M = 0.25;
@@ -14,14 +16,15 @@ function robot() {
   const trunk = new Mesh(box, paint);
   const edges = new LineSegments(new EdgesGeometry(box), new LineBasicMaterial({color: "#3a0d0b"}));
   trunk.position.z = edges.position.z = 0.06 + HEIGHT_M / 2;
-  const nose = new Mesh(new ConeGeometry(0.11, 0.24, 3).rotateZ(-Math.PI / 2),
-                        new MeshLambertMaterial({color: "#ffffff"}));
+  const nose = new Mesh(
+    new ConeGeometry(0.11, 0.24, 3).rotateZ(-Math.PI / 2),
+    new MeshLambertMaterial({color: "#ffffff"}));
   nose.scale.z = 0.25;
   nose.position.set(0.08, 0, 0.06 + HEIGHT_M + 0.02);
   group.add(trunk, edges, nose);
   const wheel = new CylinderGeometry(0.1, 0.1, 0.06, 20);
   const rubber = new MeshLambertMaterial({color: "#26282b"});
-  for (const [x, y] of [[0.14, 0.23], [0.14, -0.23], [-0.14, 0.23], [-0.14, -0.23]]) {
+  for (const [x, y] of [[0.14, 0.23], [0.14, -0.23], [-0.14, 0.23], [-0.14, -0.23], ]) {
     const one = new Mesh(wheel, rubber);
     one.position.set(x, y, 0.1);
     group.add(one);
@@ -31,8 +34,9 @@ function robot() {
 
 // A thin mast from the robot up to each antenna that it carries.
 function mast() {
-  const one = new Mesh(new CylinderGeometry(0.015, 0.015, 1, 8).rotateX(Math.PI / 2).translate(0, 0, 0.5),
-                       new MeshLambertMaterial({color: "#4a4f55"}));
+  const one = new Mesh(
+    new CylinderGeometry(0.015, 0.015, 1, 8).rotateX(Math.PI / 2).translate(0, 0, 0.5),
+    new MeshLambertMaterial({color: "#4a4f55"}));
   return one;
 }
 
@@ -43,7 +47,8 @@ export class Robots {
     this.bodies = new Map();
     this.masts = new Map();
     const points = new BufferGeometry();
-    this.scan = new Points(points, new PointsMaterial({color: "#e0452f", size: 3, sizeAttenuation: false}));
+    this.scan =
+      new Points(points, new PointsMaterial({color: "#e0452f", size: 3, sizeAttenuation: false}));
     this.scan.frustumCulled = false;
     this.scan.visible = false;
     stage.scene.add(this.scan);
@@ -76,7 +81,8 @@ export class Robots {
   #masts() {
     this.world.antennas.forEach((antenna, i) => {
       const pose = this.world.robots.get(antenna.robot);
-      const shown = Boolean(pose && antenna.present && antenna.pose && antenna.pose[2] > pose[2] + 0.4);
+      const shown =
+        Boolean(pose && antenna.present && antenna.pose && antenna.pose[2] > pose[2] + 0.4);
       if (shown && !this.masts.has(i)) {
         this.masts.set(i, mast());
         this.stage.scene.add(this.masts.get(i));
@@ -102,7 +108,8 @@ export class Robots {
       this.scan.geometry.setAttribute("position", attribute);
     }
     const [x, y, z, ...q] = scan.origin;
-    this.laser.compose(new Vector3(x, y, z), new Quaternion(...q).normalize(), new Vector3(1, 1, 1));
+    this.laser.compose(
+      new Vector3(x, y, z), new Quaternion(...q).normalize(), new Vector3(1, 1, 1));
     const p = new Vector3();
     let drawn = 0;
     for (let i = 0; i < n; ++i) {
@@ -119,7 +126,8 @@ export class Robots {
   // Of the first robot, else of the first antenna that moves.
   place() {
     const [pose] = this.world.robots.values();
-    const moving = pose ?? this.world.antennas.find((one) => one.present && one.trail.length > 3)?.pose;
+    const moving =
+      pose ?? this.world.antennas.find((one) => one.present && one.trail.length > 3)?.pose;
     return moving ? new Vector3(moving[0], moving[1], moving[2] + 0.5) : null;
   }
 }

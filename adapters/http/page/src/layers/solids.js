@@ -1,20 +1,25 @@
-// The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls and
-// roofs between camera and hall turn into glass, so that one can look in from outside.
+// The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls
+// and roofs between camera and hall turn into glass, so that one can look in from outside.
 
-import {Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, EdgesGeometry,
-        Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshLambertMaterial,
-        Quaternion, SphereGeometry, Vector3} from "three";
+import {
+  Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide,
+  EdgesGeometry, Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshLambertMaterial, Quaternion, SphereGeometry, Vector3
+} from "three";
+
 import {isTransparent, solidColor} from "../colors.js";
 
-const FAR = 60;            // A plane or slab wider than this says nothing of the hall's size [m].
-const WALL_SHARE = 0.3;    // A wall is longer than this share of the world …
+const FAR = 60;              // A plane or slab wider than this says nothing of the hall's size [m].
+const HULL_SHARE = 0.8;      // A mesh wider than this share of the world both ways is its hull.
+const MOST_EDGES = 5000;     // Triangles of a mesh whose edges are drawn [1].
+const WALL_SHARE = 0.3;      // A wall is longer than this share of the world …
 const WALL_THICKNESS = 0.6;  // … and thinner than this [m].
 
 // Unit shapes with z as the axis, as in SDF.
 const SHAPES = {
   box: () => new BoxGeometry(1, 1, 1),
   cylinder: () => new CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2),
-  sphere: () => new SphereGeometry(1, 24, 16),
+  sphere: () => new SphereGeometry(1, 24, 16)
 };
 
 function scaleOf(solid) {
@@ -26,8 +31,8 @@ function scaleOf(solid) {
 const shapeOf = (solid) => Object.keys(SHAPES).find((shape) => solid[shape] !== undefined);
 
 function poseMatrix(pose, scale = new Vector3(1, 1, 1)) {
-  return new Matrix4().compose(new Vector3(...pose.slice(0, 3)),
-                               new Quaternion(...pose.slice(3, 7)).normalize(), scale);
+  return new Matrix4().compose(
+    new Vector3(...pose.slice(0, 3)), new Quaternion(...pose.slice(3, 7)).normalize(), scale);
 }
 
 function meshGeometry({vertices, triangles}) {
@@ -37,14 +42,17 @@ function meshGeometry({vertices, triangles}) {
   return geometry;
 }
 
-// Obstacles stand on the floor; the server gives them apart from the solids, since they come and go.
+// Obstacles stand on the floor; the server gives them apart from the solids, since they come and
+// go.
 function obstacleSolid(obstacle) {
   const [x, y] = obstacle.position;
   const height = obstacle.height;
   const pose = [x, y, height / 2, 0, 0, Math.sin(obstacle.yaw / 2), Math.cos(obstacle.yaw / 2)];
   const solid = {name: obstacle.name, material: obstacle.material ?? "wood", pose};
-  if (obstacle.size && obstacle.size[0] > 0) solid.box = [...obstacle.size, height];
-  else solid.cylinder = [obstacle.radius, height];
+  if (obstacle.size && obstacle.size[0] > 0)
+    solid.box = [...obstacle.size, height];
+  else
+    solid.cylinder = [obstacle.radius, height];
   return solid;
 }
 
@@ -71,9 +79,39 @@ const isGround = (box) => {
 function hides(box, bounds) {
   const size = box.getSize(new Vector3());
   const whole = bounds.getSize(new Vector3());
-  if (size.z < WALL_THICKNESS && box.min.z > 1.8 && size.x * size.y > 0.25 * whole.x * whole.y) return true;
-  return Math.min(size.x, size.y) < WALL_THICKNESS && size.z > 1.2 &&
-    Math.max(size.x, size.y) > WALL_SHARE * Math.max(whole.x, whole.y);
+  if (size.z < WALL_THICKNESS && box.min.z > 1.8 && size.x * size.y > 0.25 * whole.x * whole.y)
+    return true;
+  return (
+    Math.min(size.x, size.y) < WALL_THICKNESS && size.z > 1.2 &&
+    Math.max(size.x, size.y) > WALL_SHARE * Math.max(whole.x, whole.y));
+}
+
+// A mesh that is the whole hall: its walls are one solid.
+function isHull(solid, box, bounds) {
+  if (solid.mesh === undefined) return false;
+  const size = box.getSize(new Vector3());
+  const whole = bounds.getSize(new Vector3());
+  return size.x > HULL_SHARE * whole.x && size.y > HULL_SHARE * whole.y && size.z > 1.2;
+}
+
+// Leaves one pixel in 17 of faces that have the camera on their outer side, of roofs too.
+function openTowardsCamera(material, center) {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.uCenter = {value: center};
+    shader.vertexShader = shader.vertexShader.replace("void main() {", `
+varying vec3 vPlace;
+void main() {
+  vPlace = (modelMatrix * vec4(position, 1.0)).xyz;`);
+    shader.fragmentShader = shader.fragmentShader.replace("void main() {", `
+uniform vec3 uCenter;
+varying vec3 vPlace;
+void main() {
+  vec3 face = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
+  vec3 outwards = face * sign(dot(face, vPlace - uCenter));
+  bool floorLike = abs(face.z) > 0.7 && vPlace.z < uCenter.z;
+  if (!floorLike && dot(cameraPosition - vPlace, outwards) > 0.0 &&
+      mod(floor(gl_FragCoord.x) + 4.0 * floor(gl_FragCoord.y), 17.0) >= 1.0) discard;`);
+  };
 }
 
 export class Solids {
@@ -106,7 +144,8 @@ export class Solids {
   // Draws all; returns what they fill (without endless floors), or null.
   set(scene) {
     this.#clear();
-    const solids = [...scene.solids, ...scene.obstacles.map(obstacleSolid)].filter((one) => one.pose);
+    const solids =
+      [...scene.solids, ...scene.obstacles.map(obstacleSolid)].filter((one) => one.pose);
     const boxes = solids.map((solid) => boxOf(solid, scene.meshes));
     const bounds = new Box3();
     boxes.forEach((box) => {
@@ -116,25 +155,35 @@ export class Solids {
     const kept = [];
     solids.forEach((solid, i) => {
       if (!boxes[i] || isGround(boxes[i])) return;
-      if (hides(boxes[i], bounds)) this.#screen(solid, boxes[i], scene);
-      else kept.push(solid);
+      if (hides(boxes[i], bounds))
+        this.#screen(solid, boxes[i], scene);
+      else
+        kept.push(solid);
     });
     for (const shape of Object.keys(SHAPES)) {
       for (const glass of [false, true]) {
-        this.#instances(shape, glass, kept.filter(
-          (one) => shapeOf(one) === shape && isTransparent(one) === glass));
+        this.#instances(
+          shape, glass,
+          kept.filter((one) => shapeOf(one) === shape && isTransparent(one) === glass));
       }
     }
     this.#edges(kept.filter((one) => one.box));
-    for (const solid of kept) if (solid.mesh !== undefined) this.group.add(this.#single(solid, scene));
+    solids.forEach((solid, i) => {
+      if (kept.includes(solid) && solid.mesh !== undefined)
+        this.#mesh(solid, boxes[i], bounds, scene);
+    });
     return bounds.isEmpty() ? null : bounds;
   }
 
   #instances(shape, glass, solids) {
     if (!solids.length) return;
-    const material = new MeshLambertMaterial({transparent: glass, opacity: glass ? 0.35 : 1,
-                                              polygonOffset: true, polygonOffsetFactor: 1,
-                                              polygonOffsetUnits: 1});
+    const material = new MeshLambertMaterial({
+      transparent: glass,
+      opacity: glass ? 0.35 : 1,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1
+    });
     const mesh = new InstancedMesh(SHAPES[shape](), material, solids.length);
     solids.forEach((solid, i) => {
       mesh.setMatrixAt(i, poseMatrix(solid.pose, scaleOf(solid)));
@@ -156,25 +205,44 @@ export class Solids {
       }
     });
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
-    this.group.add(new LineSegments(geometry, new LineBasicMaterial({
-      color: this.edgeColor, transparent: true, opacity: 0.28})));
+    this.group.add(new LineSegments(
+      geometry, new LineBasicMaterial({color: this.edgeColor, transparent: true, opacity: 0.28})));
   }
 
   #single(solid, scene) {
     const shape = shapeOf(solid);
     const geometry = shape ? SHAPES[shape]() : meshGeometry(scene.meshes[solid.mesh]);
     const glass = isTransparent(solid);
-    const material = new MeshLambertMaterial({color: solidColor(solid), flatShading: !shape,
-                                              transparent: glass, opacity: glass ? 0.35 : 1});
+    const material = new MeshLambertMaterial({
+      color: solidColor(solid),
+      flatShading: !shape,
+      transparent: glass,
+      opacity: glass ? 0.35 : 1
+    });
     const mesh = new Mesh(geometry, material);
     mesh.applyMatrix4(poseMatrix(solid.pose, shape ? scaleOf(solid) : undefined));
     return mesh;
   }
 
+  #mesh(solid, box, bounds, scene) {
+    const mesh = this.#single(solid, scene);
+    this.group.add(mesh);
+    if (isHull(solid, box, bounds)) {
+      mesh.material.side = DoubleSide;
+      mesh.userData.isHull = true;
+      openTowardsCamera(mesh.material, bounds.getCenter(new Vector3()));
+    } else if (scene.meshes[solid.mesh].triangles.length < 3 * MOST_EDGES) {
+      mesh.add(new LineSegments(
+        new EdgesGeometry(mesh.geometry, 30),
+        new LineBasicMaterial({color: this.edgeColor, transparent: true, opacity: 0.28})));
+    }
+  }
+
   #screen(solid, box, scene) {
     const mesh = this.#single(solid, scene);
     this.group.add(mesh);
-    this.screens.push({mesh, center: box.getCenter(new Vector3()), size: box.getSize(new Vector3())});
+    this.screens.push(
+      {mesh, center: box.getCenter(new Vector3()), size: box.getSize(new Vector3())});
   }
 
   frame() {

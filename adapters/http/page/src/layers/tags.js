@@ -1,13 +1,18 @@
 // Tags as discs that always face the camera, all in three draw calls (those behind something,
-// those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring where read before, grey where never.
+// those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring
+// where read before, grey where never.
 
-import {GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh,
-        PlaneGeometry, ShaderMaterial, Color, Vector2} from "three";
+import {
+  Color, GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, LessEqualDepth, Mesh,
+  PlaneGeometry, ShaderMaterial, Vector2
+} from "three";
+
 import {rssiColor} from "../colors.js";
 
 const RADIUS_M = 0.07;
 const LEAST_RADIUS_PX = 4.5;
-const EVER = 1;   // Kinds of the shader: never read 0, read before 1, read of late 2; +4 where selected.
+const EVER =
+  1;  // Kinds of the shader: never read 0, read before 1, read of late 2; +4 where selected.
 const LATELY = 2;
 const SELECTED = 4;
 
@@ -32,7 +37,8 @@ void main() {
   gl_Position = aKind < uFrom || aKind > uTo ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * at;
   gl_Position.xy += position.xy * 4.0 * px / uViewport * gl_Position.w;
   // A little nearer than the face that it sticks to.
-  gl_Position.z -= 0.0006 * gl_Position.w;
+  vec4 nearer = projectionMatrix * (at + vec4(0.0, 0.0, 0.04, 0.0));
+  gl_Position.z = nearer.z / nearer.w * gl_Position.w;
 }`;
 
 const FRAGMENT = `
@@ -55,7 +61,8 @@ void main() {
   else if (kind < 1.5) color.a *= mix(0.12, 1.0, rim);
   else { color.a = mix(color.a, 1.0, rim); color.rgb *= mix(1.0, 0.78, rim); }
   color.a *= inside;
-  float ring = selected ? smoothstep(0.78 - soft, 0.78, r) * (1.0 - smoothstep(1.0 - soft, 1.0, r)) : 0.0;
+  float ring = smoothstep(0.78 - soft, 0.78, r) * (1.0 - smoothstep(1.0 - soft, 1.0, r));
+  if (!selected) ring = 0.0;
   color = mix(color, vec4(uInk, 1.0), ring);
   color.a *= uOpacity;
   if (color.a < 0.01) discard;
@@ -69,15 +76,25 @@ export class Tags {
     this.scale = scale;
     this.grey = [0.55, 0.55, 0.55, 1];
     this.capacity = -1;
-    const uniforms = {uViewport: {value: new Vector2()}, uRadius: {value: RADIUS_M},
-                      uLeastPx: {value: LEAST_RADIUS_PX}, uInk: {value: new Color()}};
+    const uniforms = {
+      uViewport: {value: new Vector2()},
+      uRadius: {value: RADIUS_M},
+      uLeastPx: {value: LEAST_RADIUS_PX},
+      uInk: {value: new Color()}
+    };
     this.uniforms = uniforms;
     // Those behind something first, then those in sight, those read of late on top.
-    this.meshes = [[GreaterDepth, 0.3, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]].map(
-        ([depthFunc, opacity, from, to], i) => {
+    this.meshes = [
+      [GreaterDepth, 0.45, 0, 9], [LessEqualDepth, 1, 0, 1], [LessEqualDepth, 1, LATELY, 9]
+    ].map(([depthFunc, opacity, from, to], i) => {
       const material = new ShaderMaterial({
-        vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, depthFunc,
-        uniforms: {...uniforms, uOpacity: {value: opacity}, uFrom: {value: from}, uTo: {value: to}}});
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        transparent: true,
+        depthWrite: false,
+        depthFunc,
+        uniforms: {...uniforms, uOpacity: {value: opacity}, uFrom: {value: from}, uTo: {value: to}}
+      });
       const mesh = new Mesh(undefined, material);
       mesh.frustumCulled = false;
       mesh.renderOrder = 18 + i;
@@ -109,8 +126,10 @@ export class Tags {
   }
 
   update(changed) {
-    if (!changed.has("tags") && !changed.has("reads") && !changed.has("selection") &&
-        !changed.has("theme")) return;
+    if (
+      !changed.has("tags") && !changed.has("reads") && !changed.has("selection") &&
+      !changed.has("theme"))
+      return;
     const n = this.world.tags.length;
     this.#allot(n);
     this.meshes[0].geometry.instanceCount = n;
@@ -128,8 +147,10 @@ export class Tags {
       const strength = world.strength[i];
       const last = world.lastRssi[i];
       const state = strength === strength ? LATELY : last === last ? EVER : 0;
-      if (state) rssiColor(scale.share(state === LATELY ? strength : last), color.array, 4 * i);
-      else color.array.set(this.grey, 4 * i);
+      if (state)
+        rssiColor(scale.share(state === LATELY ? strength : last), color.array, 4 * i);
+      else
+        color.array.set(this.grey, 4 * i);
       if (state === EVER) color.array[4 * i + 3] = 0.8;
       kind.array[i] = world.tags[i].present ? state + (i === selected ? SELECTED : 0) : -1;
     }
@@ -139,7 +160,8 @@ export class Tags {
   frame() {
     const {renderer} = this.stage;
     renderer.getDrawingBufferSize(this.uniforms.uViewport.value);
-    const crowded = Math.min(Math.max((1000 / Math.max(this.world.tags.length, 1)) ** 0.3, 0.45), 1);
+    const crowded =
+      Math.min(Math.max((1000 / Math.max(this.world.tags.length, 1)) ** 0.3, 0.45), 1);
     this.uniforms.uLeastPx.value = LEAST_RADIUS_PX * crowded * renderer.getPixelRatio();
     return false;
   }

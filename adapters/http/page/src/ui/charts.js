@@ -2,7 +2,12 @@
 
 import {antennaColor} from "../colors.js";
 
-const MARGIN = {left: 40, right: 8, top: 22, bottom: 18};
+const MARGIN = {
+  left: 40,
+  right: 8,
+  top: 22,
+  bottom: 18
+};
 const POINT_PX = 2.4;
 
 function ticks(low, high, most) {
@@ -10,11 +15,12 @@ function ticks(low, high, most) {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough);
   const all = [];
-  for (let value = Math.ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step) all.push(value);
+  for (let value = Math.ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step)
+    all.push(value);
   return all;
 }
 
-// points: flat array of time, value, antenna. axis: {title, low, high, label?(value), ticks?: […]}
+// points: flat array of time, value, antenna. axis: {title, low, high, label?(value), ticks?}
 export function drawChart(canvas, points, from, to, axis, style) {
   const ratio = Math.min(devicePixelRatio, 2);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -38,12 +44,15 @@ export function drawChart(canvas, points, from, to, axis, style) {
     pen.moveTo(MARGIN.left, y(value));
     pen.lineTo(width - MARGIN.right, y(value));
     pen.stroke();
-    pen.fillText(axis.label ? axis.label(value) : String(value).replace("-", "−"), MARGIN.left - 5, y(value));
+    pen.fillText(
+      axis.label ? axis.label(value) : String(value).replace("-", "−"), MARGIN.left - 5, y(value));
   }
   pen.textAlign = "center";
   pen.textBaseline = "alphabetic";
   for (const t of ticks(from, to, 5)) {
-    if (t >= 0) pen.fillText(`${Number(t.toFixed(3))} s`, Math.min(Math.max(x(t), 20), width - 16), height - 4);
+    if (t >= 0)
+      pen.fillText(
+        `${Number(t.toFixed(3))} s`, Math.min(Math.max(x(t), 20), width - 16), height - 4);
   }
   pen.textAlign = "left";
   pen.fillStyle = style.ink;

@@ -1,7 +1,7 @@
 // Lists of tags and antennas with a search: the world for keyboard and screen reader.
 
-import {h, setText, naturally, fixed} from "../dom.js";
 import {antennaColor, rssiCss} from "../colors.js";
+import {fixed, h, naturally, setText} from "../dom.js";
 
 const MOST = 200;
 const PERIOD_MS = 500;
@@ -10,11 +10,17 @@ export class Lists {
   // tabs: further ones beside tags and antennas, [{name, element}].
   constructor(at, world, scale, select) {
     Object.assign(this, {world, scale, select, rows: [], shown: "tags", last: 0});
-    this.search = h("input", {type: "search", placeholder: "Search", "aria-label": "Search tags and antennas",
-                              oninput: () => this.rebuild()});
-    this.sort = h("select", {"aria-label": "Order", onchange: () => this.rebuild()},
-      h("option", {value: "name", text: "by name"}), h("option", {value: "strength", text: "by RSSI"}),
-      h("option", {value: "rate", text: "by reads/s"}));
+    this.search = h("input", {
+      type: "search",
+      placeholder: "Search",
+      "aria-label": "Search tags and antennas",
+      oninput: () => this.rebuild()
+    });
+    this.sort =
+      h("select", {"aria-label": "Order", onchange: () => this.rebuild()},
+        h("option", {value: "name", text: "by name"}),
+        h("option", {value: "strength", text: "by RSSI"}),
+        h("option", {value: "rate", text: "by reads/s"}));
     this.count = h("p", {class: "count", role: "status"});
     this.list = h("ul", {class: "list"});
     this.tabs = h("div", {class: "tabs", role: "tablist", "aria-label": "Lists"});
@@ -28,8 +34,9 @@ export class Lists {
   }
 
   #tab(name, text) {
-    this.tabs.append(h("button", {type: "button", role: "tab", text, "data-tab": name,
-                                  onclick: () => this.show(name)}));
+    this.tabs.append(
+      h("button",
+        {type: "button", role: "tab", text, "data-tab": name, onclick: () => this.show(name)}));
     this.#mark();
   }
 
@@ -44,7 +51,8 @@ export class Lists {
     const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
     if (!step) return;
     const all = [...this.tabs.children];
-    const next = all[(all.findIndex((one) => one.dataset.tab === this.shown) + step + all.length) % all.length];
+    const next =
+      all[(all.findIndex((one) => one.dataset.tab === this.shown) + step + all.length) % all.length];
     this.show(next.dataset.tab);
     next.focus();
     event.preventDefault();
@@ -60,7 +68,8 @@ export class Lists {
 
   show(name) {
     this.shown = name;
-    for (const elements of this.panels.values()) for (const element of elements) element.hidden = true;
+    for (const elements of this.panels.values())
+      for (const element of elements) element.hidden = true;
     for (const element of this.panels.get(name)) element.hidden = false;
     this.sort.hidden = name !== "tags";
     this.#mark();
@@ -97,8 +106,10 @@ export class Lists {
     if (this.shown !== "tags" && this.shown !== "antennas") return;
     const found = this.#matching();
     const what = this.shown === "tags" ? "tag" : "antenna";
-    setText(this.count, `${found.length} ${what}${found.length === 1 ? "" : "s"}` +
-      (found.length > MOST ? `, the first ${MOST} are listed; a search finds the others` : ""));
+    setText(
+      this.count,
+      `${found.length} ${what}${found.length === 1 ? "" : "s"}` +
+        (found.length > MOST ? `, the first ${MOST} are listed; a search finds the others` : ""));
     while (this.rows.length > Math.min(found.length, MOST)) this.rows.pop().item.remove();
     found.slice(0, MOST).forEach((index, i) => {
       if (!this.rows[i]) this.#addRow(i);
@@ -109,9 +120,14 @@ export class Lists {
   }
 
   #addRow(i) {
-    const row = {swatch: h("span", {class: "swatch"}), id: h("span", {class: "id"}), now: h("span", {class: "now"})};
-    row.button = h("button", {type: "button", onclick: () => this.select(row.kind, row.index)},
-                   row.swatch, row.id, row.now);
+    const row = {
+      swatch: h("span", {class: "swatch"}),
+      id: h("span", {class: "id"}),
+      now: h("span", {class: "now"})
+    };
+    row.button =
+      h("button", {type: "button", onclick: () => this.select(row.kind, row.index)}, row.swatch,
+        row.id, row.now);
     row.item = h("li", {}, row.button);
     this.rows[i] = row;
     this.list.append(row.item);
@@ -120,10 +136,12 @@ export class Lists {
   refresh() {
     const {selection} = this.world;
     for (const row of this.rows) {
-      if (row.kind === "tag") this.#tag(row);
-      else this.#antenna(row);
-      row.button.setAttribute("aria-pressed",
-                              String(selection?.kind === row.kind && selection.index === row.index));
+      if (row.kind === "tag")
+        this.#tag(row);
+      else
+        this.#antenna(row);
+      row.button.setAttribute(
+        "aria-pressed", String(selection?.kind === row.kind && selection.index === row.index));
     }
   }
 
@@ -133,31 +151,42 @@ export class Lists {
     const lately = !Number.isNaN(strength);
     const before = !Number.isNaN(world.lastRssi[row.index]);
     setText(row.id, world.tags[row.index].id);
-    setText(row.now, lately ? `${fixed(strength, 0)} dBm · ${fixed(world.tagRate[row.index], 0)}/s` :
-      before ? "not of late" : "not read");
+    setText(
+      row.now,
+      lately ? `${fixed(strength, 0)} dBm · ${fixed(world.tagRate[row.index], 0)}/s` :
+        before ? "not of late" :
+                 "not read");
     row.swatch.className = "swatch";
     row.swatch.style.background = lately ? rssiCss(scale.share(strength)) : "transparent";
-    row.swatch.style.border = lately ? "0" : `2px solid ${before ? rssiCss(scale.share(world.lastRssi[row.index])) : "gray"}`;
+    row.swatch.style.border = lately ?
+      "0" :
+      `2px solid ${before ? rssiCss(scale.share(world.lastRssi[row.index])) : "gray"}`;
   }
 
   #antenna(row) {
     const antenna = this.world.antennas[row.index];
     setText(row.id, antenna.name);
-    setText(row.now, antenna.faulty ? "disconnected" : antenna.on === false ? "off" :
-      `${fixed(antenna.rate, 0)}/s · ${antenna.inSight} tags`);
+    setText(
+      row.now,
+      antenna.faulty         ? "disconnected" :
+        antenna.on === false ? "off" :
+                               `${fixed(antenna.rate, 0)}/s · ${antenna.inSight} tags`);
     row.swatch.className = "swatch square";
     row.swatch.style.border = "0";
     row.swatch.style.background = antennaColor(row.index);
   }
 
-  // At most twice a second: a screen reader and an eye need no more. Names and order only when they change.
+  // At most twice a second: a screen reader and an eye need no more. Names and order only when they
+  // change.
   update(changed, now) {
     const anew = changed.has("tags-list") || changed.has("antennas");
     if (!anew && !changed.has("selection") && now - this.last < PERIOD_MS) return true;
     this.last = now;
     if (changed.has("tags-list")) this.ranks = null;
-    if (anew || this.sort.value !== "name") this.rebuild();
-    else this.refresh();
+    if (anew || this.sort.value !== "name")
+      this.rebuild();
+    else
+      this.refresh();
     return false;
   }
 }

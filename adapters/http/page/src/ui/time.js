@@ -1,6 +1,6 @@
 // The bar of time: pause, step and speed of a live world; play, slider and speed of a recorded one.
 
-import {h, setText, fixed} from "../dom.js";
+import {fixed, h, setText} from "../dom.js";
 
 const STEP_S = 0.1;
 const clock = (t) => `${fixed(t, t < 1000 ? 2 : 1)} s`;
@@ -13,25 +13,43 @@ export class TimeBar {
     this.clock = h("output", {class: "clock", "aria-label": "Simulated time"});
     this.numbers = h("span", {class: "numbers"});
     this.dropped = h("span", {class: "dropped", role: "status"});
-    at.time.replaceChildren(this.pause, ...(recording ? this.#recorded() : this.#live()), this.numbers, this.dropped);
+    at.time.replaceChildren(
+      this.pause, ...(recording ? this.#recorded() : this.#live()), this.numbers, this.dropped);
   }
 
   #speeds(choices, change) {
-    this.speed = h("select", {"aria-label": "Speed", onchange: change},
-      ...choices.map(([value, text]) => h("option", {value, text})));
+    this.speed =
+      h("select", {"aria-label": "Speed", onchange: change},
+        ...choices.map(([value, text]) => h("option", {value, text})));
     return this.speed;
   }
 
   #live() {
-    this.step = h("button", {type: "button", text: "Step", title: `Go on by ${STEP_S} s (.)`, onclick: () => this.stepOn()});
-    return [this.step, this.#speeds([["1", "speed 1"], ["10", "speed 10"], ["0", "speed max"]], () => this.command(
-      "POST", "speed", {speed: Number(this.speed.value)})), this.clock];
+    this.step = h("button", {
+      type: "button",
+      text: "Step",
+      title: `Go on by ${STEP_S} s (.)`,
+      onclick: () => this.stepOn()
+    });
+    return [
+      this.step,
+      this.#speeds(
+        [["1", "speed 1"], ["10", "speed 10"], ["0", "speed max"]],
+        () => this.command("POST", "speed", {speed: Number(this.speed.value)})),
+      this.clock
+    ];
   }
 
   #recorded() {
     const {first, last} = this.recording;
-    this.slider = h("input", {type: "range", min: String(first), max: String(last), step: String(Math.max((last - first) / 5000, 0.001)),
-                              "aria-label": "Moment of the run", oninput: () => this.#slide()});
+    this.slider = h("input", {
+      type: "range",
+      min: String(first),
+      max: String(last),
+      step: String(Math.max((last - first) / 5000, 0.001)),
+      "aria-label": "Moment of the run",
+      oninput: () => this.#slide()
+    });
     const speeds = ["0.25", "1", "2", "5", "10", "50"].map((value) => [value, `speed ${value}`]);
     this.#speeds(speeds, () => (this.world.speed = Number(this.speed.value)));
     this.speed.value = "1";
@@ -44,8 +62,10 @@ export class TimeBar {
   }
 
   toggle() {
-    if (this.recording) this.recording.play(this.world.paused);
-    else this.command("POST", this.world.paused ? "resume" : "pause");
+    if (this.recording)
+      this.recording.play(this.world.paused);
+    else
+      this.command("POST", this.world.paused ? "resume" : "pause");
   }
 
   // By some seconds: a recorded run either way, a live one only on.
@@ -69,8 +89,14 @@ export class TimeBar {
   update(changed) {
     if (!changed.has("time")) return;
     const {world} = this;
-    setText(this.pause, this.recording ? (world.paused ? "Play" : "Pause") : world.paused ? "Resume" : "Pause");
-    setText(this.clock, this.recording ? `${clock(world.time)} of ${clock(this.recording.last)}` : clock(world.time));
+    setText(
+      this.pause,
+      this.recording ? (world.paused ? "Play" : "Pause") :
+        world.paused ? "Resume" :
+                       "Pause");
+    setText(
+      this.clock,
+      this.recording ? `${clock(world.time)} of ${clock(this.recording.last)}` : clock(world.time));
     if (this.slider) {
       this.slider.value = String(world.time);
       this.slider.setAttribute("aria-valuetext", clock(world.time));
@@ -79,7 +105,9 @@ export class TimeBar {
     const rate = world.antennas.reduce((sum, one) => sum + one.rate, 0);
     const pace = this.recording || world.paused ? "" : ` · ${fixed(world.pace)} × real time`;
     setText(this.numbers, `${fixed(rate, 0)} reads/s${pace}`);
-    setText(this.dropped, world.dropped ? `${world.dropped} reads not shown: this page is too slow` : "");
-    if (!this.recording && this.speed !== this.speed.getRootNode().activeElement) this.#showSpeed(String(world.speed));
+    setText(
+      this.dropped, world.dropped ? `${world.dropped} reads not shown: this page is too slow` : "");
+    if (!this.recording && this.speed !== this.speed.getRootNode().activeElement)
+      this.#showSpeed(String(world.speed));
   }
 }
