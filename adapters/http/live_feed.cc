@@ -23,16 +23,6 @@ Json named_pose(const std::string& name, const RigidTransform& X) {
   return row;
 }
 
-std::map<std::string, std::size_t> ports_of(const LiveWorld& world) {
-  std::map<std::string, std::size_t> ports;
-  std::map<std::string, std::size_t> of_reader;
-  for (const LiveAntenna& antenna : world.antennas()) {
-    const AntennaParameters& parameters = antenna.spec.parameters;
-    ports[parameters.name] = ++of_reader[parameters.reader];
-  }
-  return ports;
-}
-
 }  // namespace
 
 void LiveFeed::add(std::weak_ptr<FrameClient> client) {
@@ -85,13 +75,14 @@ void LiveFeed::on_tasks(LiveWorld& world) {
 
 void LiveFeed::tell_reads(const LiveWorld& world) {
   if (fresh_.empty()) return;
-  auto batch = std::make_shared<ReadLines>();
-  const std::map<std::string, std::size_t> ports = ports_of(world);
-  batch->lines.reserve(fresh_.size());
-  for (const TagRead& read : fresh_) {
-    const auto port = ports.find(read.antenna);
-    batch->lines.push_back(read_line(read, port == ports.end() ? 0 : port->second));
+  // Numbered as they stand, and not as they happen to be heard.
+  for (const LiveAntenna& antenna : world.antennas()) {
+    ports_.port_of(antenna.spec.parameters.reader, antenna.spec.parameters.name);
   }
+  auto batch = std::make_shared<ReadLines>();
+  batch->lines.reserve(fresh_.size());
+  for (const TagRead& read : fresh_)
+    batch->lines.push_back(read_to_json_line(read, start_, ports_));
   batch->reads.swap(fresh_);
   tell(read_clients_, has_read_clients_, std::shared_ptr<const ReadLines>(batch),
        &ReadClient::on_reads);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/files/read_json.h"
 #include "tagfield/live/live_world.h"
 #include "tagfield/stream/listeners.h"
 
@@ -46,6 +47,9 @@ class ReadClient {
 /// An outlet and a member of a live world. Nothing is put into words while nobody listens.
 class LiveFeed final : public ReadListener, public LiveMember {
  public:
+  /// `start`: UTC at the simulated time 0, since 1970.
+  explicit LiveFeed(Time start) : start_(start) {}
+
   // From any thread; a client that is no more is forgotten.
   void add(std::weak_ptr<FrameClient> client);
   void add(std::weak_ptr<ReadClient> client);
@@ -87,6 +91,8 @@ class LiveFeed final : public ReadListener, public LiveMember {
   std::atomic<std::int64_t> count_{0};
 
   // Of the thread that simulates.
+  Time start_;
+  AntennaPorts ports_;
   std::vector<TagRead> fresh_;
   std::map<std::pair<std::string, std::string>, LastRead> last_;  ///< By tag and antenna.
   std::chrono::steady_clock::time_point framed_{};

@@ -203,17 +203,4 @@ Json tags_json(const LiveWorld& world) {
   return {{"tags", std::move(all)}};
 }
 
-std::string read_line(const TagRead& read, std::size_t port) {
-  Json json = {{"timestamp", to_seconds(read.stamp)},
-               {"reader", read.reader},
-               {"antennaPort", port},
-               {"antennaName", read.antenna},
-               {"epc", read.tag},
-               {"peakRssiCdbm", std::lround(read.rssi_dbm * 100.0)},
-               {"phaseAngle", degrees(read.phase_rad)},
-               {"frequency", std::lround(read.frequency_hz / 1e3)}};
-  if (read.doppler_hz) json["dopplerHz"] = *read.doppler_hz;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace tagfield::http

@@ -8,7 +8,6 @@
 
 #include "tagfield/live/live_world.h"
 #include "tagfield/poses/rigid_transform.h"
-#include "tagfield/stream/tag_read.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield::http {
@@ -31,9 +30,5 @@ Json beam_json(const AntennaParameters& antenna);
 Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port);
 Json antennas_json(const LiveWorld& world);
 Json tags_json(const LiveWorld& world);
-
-/// A read as a line of JSON, named as readers do that stream such lines. `port`: of the antenna
-/// at its reader, from 1 on.
-std::string read_line(const TagRead& read, std::size_t port);
 
 }  // namespace tagfield::http

@@ -34,6 +34,8 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_explain_command(app, chosen);
   tagfield::add_coverage_command(app, chosen);
   tagfield::add_bench_command(app, chosen);
+  tagfield::add_events_command(app, chosen);
+  tagfield::add_stream_command(app, chosen);
   tagfield::add_serve_command(app, chosen);
   tagfield::add_gazebo_command(app, chosen);
   try {
@@ -48,7 +50,7 @@ int parse_and_run(int argc, char** argv) {
     fmt::print(
         stderr,
         "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, bench, serve or gazebo (see tagfield --help)\n");
+        " coverage, bench, events, stream, serve or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

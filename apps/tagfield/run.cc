@@ -151,6 +151,10 @@ int finish_recording(const SeedRun& run, const Diagnostics& diagnostics, const s
 }
 
 int run(const RunArguments& arguments) {
+  if (arguments.out == "-") {
+    throw Error(
+        "run: --out must be a folder; 'tagfield stream' writes reads to the standard output");
+  }
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
     overrides.push_back(parse_override(setting));

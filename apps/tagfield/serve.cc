@@ -6,9 +6,11 @@
 
 #include "adapters/http/admission.h"
 #include "adapters/http/http_server.h"
+#include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/start_time.h"
 #include "tagfield/planning/moment.h"
 
 namespace tagfield {
@@ -17,6 +19,8 @@ namespace {
 struct ServeArguments {
   ScenarioArguments of_scenario;
   std::optional<std::uint16_t> http;
+  std::optional<std::uint16_t> llrp;
+  std::string start;
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
@@ -47,8 +51,48 @@ void require_token(ServeArguments& arguments) {
              arguments.listen, arguments.token);
 }
 
+void warn(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
+
+std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
+  if (!arguments.llrp) return nullptr;
+  llrp::LlrpOptions options;
+  options.address = arguments.listen;
+  options.port = *arguments.llrp;
+  options.epoch_us = std::chrono::duration_cast<std::chrono::microseconds>(
+                         start_time("serve", arguments.start, Time{}).time_since_epoch())
+                         .count();
+  options.warn = warn;
+  return std::make_shared<llrp::LlrpServer>(options);
+}
+
+/// Ends the connections before the world is gone, however that comes.
+class Closing {
+ public:
+  explicit Closing(llrp::LlrpServer* server) : server_(server) {}
+  ~Closing() {
+    if (server_ != nullptr) server_->close();
+  }
+  Closing(const Closing&) = delete;
+  Closing& operator=(const Closing&) = delete;
+
+ private:
+  llrp::LlrpServer* server_;
+};
+
+void print_addresses(const llrp::LlrpServer& server) {
+  for (const llrp::LlrpAddress& reader : server.addresses()) {
+    fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
+  }
+}
+
 int serve(ServeArguments arguments) {
-  const double speed = speed_of(arguments.speed);
+  LiveOptions options;
+  options.speed = speed_of(arguments.speed);
+  options.is_paused = arguments.is_paused;
+  // Readers that wait for a client read when it tells them to.
+  options.readers_start = !arguments.llrp;
+  const auto feed = std::make_shared<http::LiveFeed>(start_time("serve", arguments.start, Time{}));
+  const auto llrp = llrp_server(arguments);
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
   const Scenario scenario = as_planned(loaded.scenario, diagnostics);
@@ -56,14 +100,17 @@ int serve(ServeArguments arguments) {
   print_warnings(diagnostics);
   require_token(arguments);
 
-  const auto feed = std::make_shared<http::LiveFeed>();
   Outlets outlets;
   attach(feed, outlets);
-  LiveOptions options;
-  options.speed = speed;
-  options.is_paused = arguments.is_paused;
+  if (llrp) attach(llrp, outlets);
   LiveWorld world(scenario, seed, outlets, options);
   world.attach(feed);
+  const Closing closing(llrp.get());
+  if (llrp) {
+    world.attach(llrp);
+    llrp->open(world);
+    print_addresses(*llrp);
+  }
   http::Api api(loaded.scene, scenario, seed);
   std::optional<http::HttpServer> server;
   if (arguments.http) {
@@ -82,12 +129,19 @@ int serve(ServeArguments arguments) {
 void add_serve_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ServeArguments>();
   CLI::App* command = app.add_subcommand(
-      "serve", "Let a scenario live: a page to watch it in, an API to change it by");
+      "serve",
+      "Let a scenario live: a page to watch it in, an API to change it, readers over LLRP");
   add_scenario_options(*command, arguments->of_scenario);
   command
       ->add_option("--http", arguments->http,
-                   "Port of the page and the API; 0 for any (default 8080)")
+                   "Port of the page and the API; 0 for any (default 8080, with --llrp none)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
+  command
+      ->add_option("--llrp", arguments->llrp,
+                   "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
+                   "Readers then read when a client tells them to")
+      ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
+  add_start_option(*command, arguments->start);
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "
                       "machine alone)");
@@ -103,7 +157,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
   command->callback([arguments, &chosen] {
     chosen = [arguments] {
       ServeArguments asked = *arguments;
-      if (!asked.http) asked.http = 8080;
+      if (!asked.http && !asked.llrp) asked.http = 8080;
       return serve(std::move(asked));
     };
   });

@@ -231,6 +231,7 @@ void finish_commit(const fs::path& folder) {
 }
 
 StagedFolder::StagedFolder(const fs::path& folder) : folder_(folder) {
+  if (folder_ == "-") throw Error("'-' is no folder for results: they are several files");
   make_folder(folder_);
   finish_commit(folder_);
   own_ = own_files(folder_);

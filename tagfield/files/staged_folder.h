@@ -58,7 +58,8 @@ void finish_commit(const std::filesystem::path& folder);
 /// commit() into the same folder.
 class StagedFolder {
  public:
-  /// Makes `folder` and its parents if need be. Throws Error if it can't be made or written to.
+  /// Makes `folder` and its parents if need be. Throws Error if it can't be made or written to, and
+  /// on "-", which elsewhere is the standard output.
   explicit StagedFolder(const std::filesystem::path& folder);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;

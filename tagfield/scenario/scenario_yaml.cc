@@ -10,6 +10,7 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/channel/radio_world.h"
+#include "tagfield/epc/epc.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/method.h"
@@ -291,6 +292,18 @@ TrackingSpec tracking_of(YamlMap map) {
   return spec;
 }
 
+/// What is written as the URI of an EPC is one.
+void require_epcs(const std::vector<TagSpec>& tags) {
+  for (const TagSpec& tag : tags) {
+    if (!is_epc_uri(tag.id)) continue;
+    try {
+      epc_from_uri(tag.id);
+    } catch (const Error& error) {
+      fail(tag.location, error.what());
+    }
+  }
+}
+
 /// Antennas send on a power that some kind of tag can need.
 void require_power_for_tags(const Scenario& scenario) {
   double most_dbm = -std::numeric_limits<double>::infinity();
@@ -326,6 +339,7 @@ void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
   if (map.has("tag_recording")) {
     replay_tags(resolve_path(map.at("tag_recording")), scenario.tags);
   }
+  require_epcs(scenario.tags);
   if (!scenario.antennas.empty()) require_power_for_tags(scenario);
 }
 
@@ -448,6 +462,7 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
   if (!scenario.world.path.empty()) {
     loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
     add_placements(loaded.scene, scenario, diagnostics);
+    require_epcs(scenario.tags);
   }
   if (any_physical(scenario)) {
     scenario.radio_world = std::make_shared<const RadioWorld>(

@@ -15,11 +15,12 @@ from common import check, clean_environment  # noqa: E402 pylint: disable=wrong-
 
 
 class Served:
-    """The process, and its addresses by what they are for: {"http": "http://127.0.0.1:PORT"}."""
+    """The process, and its addresses: ("http", "http://127.0.0.1:PORT") and more, a line each."""
 
-    def __init__(self, process, addresses):
+    def __init__(self, process, lines):
         self.process = process
-        self.addresses = addresses
+        self.lines = lines
+        self.addresses = dict(lines)
 
     @property
     def port(self):
@@ -92,12 +93,12 @@ def served(context, scenario, *arguments, last="http"):
     process = subprocess.Popen([str(word) for word in command], cwd=context.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, env=clean_environment())
-    addresses = dict(line.split(": ", 1) for line in lines_until(process, last) if ": " in line)
-    if last not in addresses:
+    lines = [tuple(line.split(": ", 1)) for line in lines_until(process, last) if ": " in line]
+    if last not in dict(lines):
         process.kill()
         raise RuntimeError(f"it did not start: {process.communicate()[1].decode()}")
     try:
-        yield Served(process, addresses)
+        yield Served(process, lines)
     finally:
         if process.poll() is None:
             process.send_signal(signal.SIGTERM)

@@ -4,18 +4,17 @@ That package is what Foxglove made for browsers: a reader that goes by the index
 a writer. npm puts it into the build folder.
 """
 
-import functools
 import json
 import pathlib
 import random
 import re
-import shutil
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "command"))
 from common import (  # noqa: E402  pylint: disable=wrong-import-position
     Skip, case, check, check_equal, check_in, main, read_csv, run)
+from npm import npm_packages  # noqa: E402  pylint: disable=wrong-import-position
 
 START_NS = 1_700_000_000_000_000_000
 TOPICS = ("/text", "/pose", "/text/größer")  # of messages 0, 1, 2, 3, …
@@ -24,29 +23,8 @@ FILES = (("none", 1, 10), ("none", 3000, 1000), ("lz4", 3000, 1000), ("zstd", 30
          ("zstd", 1 << 20, 100_000), ("lz4", 1 << 20, 0))
 
 
-@functools.cache
-def packages(build):
-    """The folder with what package-lock.json names; installed if need be."""
-    for program in ("node", "npm"):
-        if shutil.which(program) is None:
-            raise Skip(f"{program} is missing (scripts/setup --tests installs it)")
-    folder = build / "tests/mcap"
-    lock = (HERE / "package-lock.json").read_bytes()
-    installed = folder / "installed.json"
-    if not installed.exists() or installed.read_bytes() != lock:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in ("package.json", "package-lock.json"):
-            shutil.copy(HERE / name, folder)
-        result = run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=folder)
-        if result.code != 0:
-            said = [line for line in result.err.splitlines() if line.lower().startswith("npm err")]
-            raise Skip(f"npm can't install @mcap/core: {' '.join(said[:1]) or result.err!r}")
-        installed.write_bytes(lock)
-    return folder
-
-
 def others(context, *words):
-    return run(["node", HERE / "others.mjs", packages(context.build), *words], cwd=context.folder)
+    return run(["node", HERE / "others.mjs", npm_packages(context.build, HERE, "mcap"), *words], cwd=context.folder)
 
 
 def read_by_others(context, *words):

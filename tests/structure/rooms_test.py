@@ -13,10 +13,10 @@ import sys
 import tempfile
 
 # docs/architecture.md has the same, in the same order: a room includes only itself and rooms above it.
-ROOMS = ["base", "poses", "stream", "files", "motion", "world", "sdf", "map", "laser", "link",
-         "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
-         "tracking", "calibration", "report", "navigation", "scenario", "simulator", "planning",
-         "experiment", "live"]
+ROOMS = ["base", "poses", "stream", "epc", "files", "motion", "world", "sdf", "map", "laser",
+         "link", "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
+         "tracking", "calibration", "report", "navigation", "scenario", "events", "simulator",
+         "planning", "experiment", "live"]
 # What a room must not include although it stands above.
 FORBIDDEN = {"localization": {"world", "sdf", "field"}, "tracking": {"world", "sdf", "field"},
              "calibration": {"world", "sdf", "field", "tracking"}, "field": {"files"},

@@ -162,6 +162,19 @@ TEST(LoadScenario, RefusesPhysicalKeysBesideThePapersModel) {
             "2: without" + belongs + "all antennas are simulated by model: paper");
 }
 
+TEST(LoadScenario, TakesEpcsAsTagIdsAsTheyAreWritten) {
+  std::string text = kWhole;
+  const std::string uri = "urn:epc:id:sgtin:0614141.812345.6789";
+  text.replace(text.find("id: t1"), 6, "id: " + uri);
+  EXPECT_EQ(load_scenario(write_scenario(text), {}).tags[0].id, uri);
+  EXPECT_EQ(complaint("id: t1", "id: urn:epc:id:sgtin:0614141.81234.6789"),
+            "15: EPC 'urn:epc:id:sgtin:0614141.81234.6789': item reference '81234' must be 6 "
+            "digits");
+  EXPECT_EQ(complaint("id: t2", "id: urn:epc:raw:96.xE2801160600002054CC2096F"),
+            "16: EPC 'urn:epc:raw:96.xE2801160600002054CC2096F': must begin with urn:epc:id: or "
+            "urn:epc:tag:");
+}
+
 TEST(LoadScenario, WarnsOfThePapersKeysBesideAPhysicalModel) {
   std::string text = kWhole;
   text.replace(text.find("    frequency_hz"), 0, "    model: link_budget\n    range_m: 5\n");

@@ -1,0 +1,610 @@
+#include "adapters/llrp/llrp_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield::llrp {
+namespace {
+
+/// What a reader keeps for a client that is away.
+constexpr std::size_t kMostPending = 10'000;
+/// Of TagReportData in one message.
+constexpr std::size_t kMostReportBytes = 32'000;
+constexpr std::size_t kMostRoSpecs = 32;
+constexpr std::size_t kMostAccessSpecs = 1024;
+constexpr double kFullLevel = 0.8;
+
+// Messages (§16.3), and what their answers are.
+constexpr std::uint16_t kCloseConnection = 14;
+constexpr std::uint16_t kGetReport = 60;
+constexpr std::uint16_t kReportMessage = 61;
+constexpr std::uint16_t kKeepalive = 62;
+constexpr std::uint16_t kEvent = 63;
+constexpr std::uint16_t kEnableEvents = 64;
+constexpr std::uint16_t kKeepaliveAck = 72;
+constexpr std::uint16_t kErrorMessage = 100;
+constexpr std::uint16_t kCustomMessage = 1023;
+constexpr std::uint16_t kToAnswer = 10;  ///< An answer's type is its request's and this.
+
+// Kinds of events (§13.1.6.1).
+constexpr std::uint16_t kRoSpecEvents = 2;
+constexpr std::uint16_t kBufferEvents = 3;
+constexpr std::uint16_t kAiSpecEvents = 6;
+constexpr std::uint16_t kAntennaEvents = 8;
+constexpr std::uint16_t kAlways = 0xffff;  ///< Of the connection.
+
+void write_status(Status status, const std::string& text, ByteWriter& writer) {
+  writer.parameter(287, [&] {
+    writer.u16(static_cast<std::uint16_t>(status));
+    writer.text(text.substr(0, 1000));
+  });
+}
+
+void write_ok(ByteWriter& writer, const std::string& text = "") {
+  write_status(Status::kSuccess, text, writer);
+}
+
+std::uint32_t id_in(const Message& message) { return ByteReader(message.body).u32(); }
+
+template <class Entries>
+void require_room(const Entries& entries, std::size_t most, const char* what) {
+  if (entries.size() < most) return;
+  throw Fault(Status::kOverflowParameter, fmt::format("there are {} {} already", most, what));
+}
+
+}  // namespace
+
+LlrpReader::LlrpReader(std::string name, std::shared_ptr<TagStore> tags, std::uint64_t epoch_us,
+                       std::function<void(const std::string&)> warn)
+    : name_(std::move(name)), tags_(std::move(tags)), epoch_us_(epoch_us), warn_(std::move(warn)) {}
+
+std::uint64_t LlrpReader::utc_us(Time time) const {
+  return epoch_us_ +
+         static_cast<std::uint64_t>(
+             std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch())
+                 .count());
+}
+
+void LlrpReader::send(std::uint16_t type, std::uint32_t id, const ByteWriter& body,
+                      bool is_report) {
+  if (!line_) return;
+  Bytes message = to_bytes({type, id, body.written()});
+  if (after_answer_) {
+    after_answer_->emplace_back(std::move(message), is_report);
+  } else {
+    line_->send(message, is_report);
+  }
+}
+
+/// Before all that the request has brought about: simple clients take what comes next for it.
+void LlrpReader::answer(std::uint16_t type, std::uint32_t id, const ByteWriter& body) {
+  const auto brought_about = std::exchange(after_answer_, std::nullopt);
+  send(type, id, body);
+  if (!brought_about || !line_) return;
+  for (const auto& [message, is_report] : *brought_about) line_->send(message, is_report);
+}
+
+void LlrpReader::tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write) {
+  if (kind != kAlways && configuration_.events.count(kind) == 0) return;
+  ByteWriter body;
+  body.parameter(246, [&] {
+    body.parameter(kUtcTimestamp, [&] { body.u64(utc_us(now_)); });
+    write(body);
+  });
+  send(kEvent, next_id_++, body);
+}
+
+void LlrpReader::connect(LiveWorld& world, std::shared_ptr<ClientLine> line) {
+  line_ = std::move(line);
+  now_ = world.now();
+  kept_alive_ = now_;
+  is_holding_ = configuration_.holds_reports;
+  has_warned_of_buffer_ = false;
+  tell_event(kAlways, [](ByteWriter& out) { out.parameter(256, [&] { out.u16(0); }); });
+  flush();
+}
+
+void LlrpReader::disconnect(const ClientLine& line) {
+  if (line_.get() == &line) line_.reset();
+}
+
+bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
+  now_ = world.now();
+  ports_ = ports_of(world, name_);
+  ByteWriter out;
+  try {
+    switch (message.type) {
+      case kKeepaliveAck:
+        return true;
+      case kEnableEvents:
+        is_holding_ = false;
+        flush();
+        return true;
+      case kGetReport:
+        if (running_) report_gathered(*running_);
+        flush();
+        return true;
+      case kCustomMessage:
+        on_custom(world, message);
+        return true;
+      case kCloseConnection:
+        write_ok(out);
+        answer(4, message.id, out);
+        return false;
+      default:
+        break;
+    }
+    const auto handler = handlers().find(message.type);
+    if (handler == handlers().end()) {
+      throw Fault(Status::kUnsupportedMessage,
+                  fmt::format("message {} is not known here", message.type));
+    }
+    after_answer_.emplace();
+    (this->*handler->second)(world, message, out);
+    answer(static_cast<std::uint16_t>(message.type + kToAnswer), message.id, out);
+  } catch (const Fault& fault) {
+    ByteWriter refusal;
+    write_status(fault.status(), fault.what(), refusal);
+    const bool is_known = handlers().count(message.type) > 0;
+    answer(is_known ? static_cast<std::uint16_t>(message.type + kToAnswer) : kErrorMessage,
+           message.id, refusal);
+  }
+  return true;
+}
+
+const std::map<std::uint16_t, LlrpReader::Handler>& LlrpReader::handlers() {
+  static const std::map<std::uint16_t, Handler> all = {
+      {1, &LlrpReader::capabilities},        {2, &LlrpReader::get_config},
+      {3, &LlrpReader::set_config},          {20, &LlrpReader::add_ro_spec},
+      {21, &LlrpReader::change_ro_spec},     {22, &LlrpReader::change_ro_spec},
+      {23, &LlrpReader::change_ro_spec},     {24, &LlrpReader::change_ro_spec},
+      {25, &LlrpReader::change_ro_spec},     {26, &LlrpReader::get_ro_specs},
+      {40, &LlrpReader::add_access_spec},    {41, &LlrpReader::change_access_spec},
+      {42, &LlrpReader::change_access_spec}, {43, &LlrpReader::change_access_spec},
+      {44, &LlrpReader::get_access_specs},
+  };
+  return all;
+}
+
+void LlrpReader::capabilities(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  const std::uint8_t requested = ByteReader(message.body).u8();
+  if (requested > 4) throw Fault(Status::kFieldError, "the requested data must be from 0 to 4");
+  write_ok(out);
+  write_capabilities(ports_, requested, out);
+}
+
+/// Impinj's: extensions are switched on, as they always are.
+void LlrpReader::on_custom(LiveWorld& /*world*/, const Message& message) {
+  ByteReader reader(message.body);
+  if (reader.u32() != kImpinj || reader.u8() != 21) {
+    throw Fault(Status::kUnsupportedMessage, "this vendor's message is not known here");
+  }
+  ByteWriter out;
+  out.u32(kImpinj);
+  out.u8(22);
+  write_ok(out);
+  send(kCustomMessage, message.id, out);
+}
+
+void LlrpReader::get_config(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  ByteWriter told;
+  write_configuration(configuration_, name_, ports_, ByteReader(message.body), told);
+  write_ok(out);
+  out.bytes(told.written());
+}
+
+void LlrpReader::set_config(LiveWorld& world, const Message& message, ByteWriter& out) {
+  configuration_ = configured(configuration_, ByteReader(message.body));
+  kept_alive_ = world.now();
+  write_ok(out);
+}
+
+void LlrpReader::tell_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    if (warned_.insert(warning).second) warn_(fmt::format("reader '{}': {}", name_, warning));
+  }
+}
+
+/// Throws Fault where the AISpec can't be carried out.
+void LlrpReader::check_duty(const LiveWorld& /*world*/, const AiSpec& spec) {
+  const ReaderDuty duty = duty_of(configuration_, ports_, spec);
+  std::vector<std::string> warnings;
+  try {
+    for (const AntennaDuty& one : duty.antennas) {
+      on_duty(ports_.antennas[ports_.id_of(one.antenna) - 1U].spec.parameters, duty, warnings);
+    }
+  } catch (const Error& error) {
+    throw Fault(Status::kFieldError, error.what());
+  }
+  tell_warnings(warnings);
+}
+
+void LlrpReader::add_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out) {
+  const RoSpec spec = ro_spec_of(require(parameters_of(ByteReader(message.body)), kRoSpec));
+  if (ro_specs_.count(spec.id) > 0) {
+    throw Fault(Status::kFieldError, fmt::format("there is a ROSpec {} already", spec.id));
+  }
+  require_room(ro_specs_, kMostRoSpecs, "ROSpecs");
+  for (const AiSpec& ai : spec.specs) check_duty(world, ai);
+  ro_specs_[spec.id].spec = spec;
+  write_ok(out);
+}
+
+LlrpReader::RoEntry& LlrpReader::ro_spec(std::uint32_t id) {
+  const auto found = ro_specs_.find(id);
+  if (found == ro_specs_.end()) {
+    throw Fault(Status::kFieldError, fmt::format("there is no ROSpec {}", id));
+  }
+  return found->second;
+}
+
+void LlrpReader::change_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out) {
+  const std::uint32_t id = id_in(message);
+  std::vector<std::uint32_t> ids;
+  const bool takes_all = message.type != 22 && message.type != 23;
+  if (id == 0 && takes_all) {
+    for (const auto& [each, entry] : ro_specs_) ids.push_back(each);
+  } else {
+    ro_spec(id);
+    ids = {id};
+  }
+  for (const std::uint32_t each : ids) {
+    RoEntry& entry = ro_spec(each);
+    switch (message.type) {
+      case 21:
+        disable(world, entry);
+        ro_specs_.erase(each);
+        break;
+      case 22:
+        if (entry.state == State::kDisabled) {
+          throw Fault(Status::kFieldError, fmt::format("ROSpec {} is disabled", each));
+        }
+        start(world, entry);
+        break;
+      case 23:
+        if (entry.state != State::kActive) {
+          throw Fault(Status::kFieldError, fmt::format("ROSpec {} is not active", each));
+        }
+        end(world);
+        break;
+      case 24:
+        enable(world, entry);
+        break;
+      default:
+        disable(world, entry);
+        break;
+    }
+  }
+  write_ok(out);
+}
+
+void LlrpReader::get_ro_specs(LiveWorld& /*world*/, const Message& /*message*/, ByteWriter& out) {
+  write_ok(out);
+  for (const auto& [id, entry] : ro_specs_) {
+    Bytes whole = entry.spec.whole;
+    whole[9] = static_cast<std::uint8_t>(entry.state);  // after the header, ID and priority
+    out.bytes(whole);
+  }
+}
+
+void LlrpReader::enable(LiveWorld& world, RoEntry& entry) {
+  if (entry.state != State::kDisabled) return;
+  entry.state = State::kInactive;
+  if (entry.spec.start == StartAt::kImmediate) start(world, entry);
+  if (entry.spec.start == StartAt::kPeriodic) {
+    entry.next_start = now_ + entry.spec.offset;
+    if (entry.spec.start_utc_us && *entry.spec.start_utc_us > utc_us(now_)) {
+      entry.next_start = now_ + std::chrono::microseconds(*entry.spec.start_utc_us - utc_us(now_)) +
+                         entry.spec.offset;
+    }
+  }
+}
+
+void LlrpReader::disable(LiveWorld& world, RoEntry& entry) {
+  if (entry.state == State::kActive) end(world);
+  entry.state = State::kDisabled;
+  entry.next_start.reset();
+}
+
+void LlrpReader::start(LiveWorld& world, RoEntry& entry) {
+  if (entry.state == State::kActive) return;
+  if (running_) {
+    // One of no lower rank goes on; one of lower rank gives way.
+    if (ro_spec(running_->id).spec.priority <= entry.spec.priority) return;
+    end(world, entry.spec.id);
+  }
+  entry.state = State::kActive;
+  const bool has_duration = entry.spec.stop == StopAt::kDuration;
+  running_ = Running{entry.spec.id,
+                     now_,
+                     0,
+                     now_,
+                     {},
+                     now_,
+                     {},
+                     has_duration ? now_ + entry.spec.duration : Time::max(),
+                     {},
+                     ReportGathering(entry.spec.report.value_or(configuration_.report))};
+  tell_event(kRoSpecEvents, [&](ByteWriter& out) {
+    out.parameter(249, [&] {
+      out.u8(0);
+      out.u32(entry.spec.id);
+      out.u32(0);
+    });
+  });
+  begin_ai_spec(world);
+}
+
+void LlrpReader::begin_ai_spec(LiveWorld& world) {
+  Running& running = *running_;
+  const AiSpec& spec = ro_spec(running.id).spec.specs[running.ai];
+  running.ai_began = running.last_new = now_;
+  running.seen.clear();
+  running.ai_spec = spec;
+  running.filters = setting_of(configuration_, spec.settings, spec.antennas.front())
+                        .filters.value_or(std::vector<TagFilter>{});
+  try {
+    tell_warnings(world.set_duty(name_, duty_of(configuration_, ports_, spec)));
+  } catch (const std::exception& error) {
+    // Antennas may have been taken out of the world since it was added.
+    tell_warnings({fmt::format("ROSpec {} can't go on: {}", running.id, error.what())});
+    be_silent(world);
+  }
+}
+
+void LlrpReader::be_silent(LiveWorld& world) {
+  try {
+    world.set_duty(name_, {});
+  } catch (const Error&) {
+    // All of its antennas have been taken out of the world: it is silent.
+    return;
+  }
+}
+
+void LlrpReader::end_ai_spec(LiveWorld& world) {
+  Running& running = *running_;
+  // What its antennas have read until now comes with it.
+  be_silent(world);
+  if (running.gathering.spec().trigger == 1) report_gathered(running);
+  const std::uint32_t id = running.id;
+  const auto index = static_cast<std::uint16_t>(running.ai + 1);
+  tell_event(kAiSpecEvents, [&](ByteWriter& out) {
+    out.parameter(254, [&] {
+      out.u8(0);
+      out.u32(id);
+      out.u16(index);
+    });
+  });
+  if (++running.ai < ro_spec(id).spec.specs.size()) {
+    begin_ai_spec(world);
+  } else {
+    end(world);
+  }
+}
+
+void LlrpReader::end(LiveWorld& world, std::uint32_t preempted_by) {
+  be_silent(world);
+  const std::uint32_t id = running_->id;
+  if (running_->gathering.spec().trigger != 0) report_gathered(*running_);
+  ended_ = std::move(running_);
+  running_.reset();
+  ro_spec(id).state = State::kInactive;
+  flush();
+  tell_event(kRoSpecEvents, [&](ByteWriter& out) {
+    out.parameter(249, [&] {
+      out.u8(preempted_by == 0 ? 1 : 2);
+      out.u32(id);
+      out.u32(preempted_by);
+    });
+  });
+}
+
+bool LlrpReader::is_ai_spec_over(const Running& running, Time at) {
+  const AiSpec& spec = running.ai_spec;
+  if (spec.stop == StopAt::kDuration) return at - running.ai_began >= spec.duration;
+  if (spec.stop != StopAt::kTagObservation) return false;
+  if (spec.timeout > Duration::zero() && at - running.ai_began >= spec.timeout) return true;
+  if (spec.observation == 0) return running.seen.size() >= spec.tags;
+  return spec.quiet > Duration::zero() && at - running.last_new >= spec.quiet;
+}
+
+void LlrpReader::start_those_due(LiveWorld& world, Time now) {
+  for (auto& [id, entry] : ro_specs_) {
+    if (!entry.next_start || now < *entry.next_start) continue;
+    if (entry.spec.period > Duration::zero()) {
+      while (*entry.next_start <= now) *entry.next_start += entry.spec.period;
+    } else {
+      entry.next_start.reset();
+    }
+    start(world, entry);
+  }
+}
+
+void LlrpReader::watch_antennas(const LiveWorld& world) {
+  ports_ = ports_of(world, name_);
+  for (const LiveAntenna& antenna : ports_.antennas) {
+    const std::string& name = antenna.spec.parameters.name;
+    const auto known = faulty_.find(name);
+    const bool has_changed = known != faulty_.end() && known->second != antenna.is_faulty;
+    faulty_[name] = antenna.is_faulty;
+    if (!has_changed) continue;
+    tell_event(kAntennaEvents, [&](ByteWriter& out) {
+      out.parameter(255, [&] {
+        out.u8(antenna.is_faulty ? 0 : 1);
+        out.u16(ports_.id_of(name));
+      });
+    });
+  }
+}
+
+/// A client that falls behind is told so, and what it has lost.
+void LlrpReader::tell_line_state() {
+  if (!line_) return;
+  const double level = line_->level();
+  if (level > kFullLevel && !has_warned_of_buffer_) {
+    tell_event(kBufferEvents, [&](ByteWriter& out) {
+      out.parameter(250, [&] { out.u8(static_cast<std::uint8_t>(100.0 * level)); });
+    });
+  }
+  has_warned_of_buffer_ = level > kFullLevel;
+  dropped_ += line_->take_dropped();
+  if (dropped_ == 0) return;
+  tell_warnings({fmt::format("a client falls behind and loses reports")});
+  dropped_ = 0;
+  tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
+}
+
+void LlrpReader::on_step(LiveWorld& world, Time now) {
+  now_ = now;
+  watch_antennas(world);
+  for (const std::string& id : killed_) {
+    const std::vector<LivePose> tags = world.tags();
+    const bool is_there =
+        std::any_of(tags.begin(), tags.end(), [&](const LivePose& tag) { return tag.name == id; });
+    if (is_there) world.remove_tag(id);
+  }
+  killed_.clear();
+  if (running_) {
+    if (now >= running_->ends) {
+      end(world);
+    } else if (is_ai_spec_over(*running_, now)) {
+      end_ai_spec(world);
+    }
+  }
+  start_those_due(world, now);
+  flush();
+  tell_line_state();
+  if (line_ && configuration_.keepalive > Duration::zero() &&
+      now - *kept_alive_ >= configuration_.keepalive) {
+    kept_alive_ = now;
+    send(kKeepalive, next_id_++, {});
+  }
+}
+
+/// The ROSpec that a read of this stamp belongs to; null for none.
+LlrpReader::Running* LlrpReader::running_at(Time stamp) {
+  if (running_ && stamp >= running_->began) return &*running_;
+  return ended_ ? &*ended_ : nullptr;
+}
+
+TagReport LlrpReader::report_of(const TagRead& read, const Running& running,
+                                const MemoryBanks& tag) const {
+  const std::vector<double> channels = channels_of(ports_);
+  const auto channel = std::min_element(channels.begin(), channels.end(), [&](double a, double b) {
+    return std::abs(a - read.frequency_hz) < std::abs(b - read.frequency_hz);
+  });
+  TagReport report;
+  report.epc = tag.epc();
+  report.pc = tag.pc();
+  report.crc = tag.crc();
+  report.ro_spec = running.id;
+  report.spec_index = static_cast<std::uint16_t>(running.ai + 1);
+  report.inventory_spec = running.ai_spec.inventory_spec;
+  report.antenna = ports_.id_of(read.antenna);
+  report.channel = static_cast<std::uint16_t>(channel - channels.begin() + 1);
+  report.peak_rssi_dbm = read.rssi_dbm;
+  report.phase_rad = read.phase_rad;
+  report.doppler_hz = read.doppler_hz;
+  report.first_us = report.last_us = utc_us(read.stamp);
+  return report;
+}
+
+void LlrpReader::on_read(const TagRead& read) {
+  if (read.reader != name_) return;
+  Running* const running = running_at(read.stamp);
+  MemoryBanks& tag = tags_->of(read.tag);
+  if (running == nullptr || tag.is_killed() || !is_selected(running->filters, tag)) return;
+  // It ended within a step: the reader is silent from then on.
+  if (read.stamp >= running->ends || is_ai_spec_over(*running, read.stamp)) return;
+  if (running->seen.insert(read.tag).second) running->last_new = read.stamp;
+  TagReport report = report_of(read, *running, tag);
+  operate(read, tag, report);
+  running->gathering.add(report);
+  const bool is_late =
+      (!running_ || running != &*running_) && running->gathering.spec().trigger != 0;
+  if (is_late || running->gathering.is_full()) report_gathered(*running);
+}
+
+/// What AccessSpecs want of the tag is done now that it has been singulated.
+void LlrpReader::operate(const TagRead& read, MemoryBanks& tag, TagReport& report) {
+  for (auto entry = access_specs_.begin(); entry != access_specs_.end(); ++entry) {
+    auto& [spec, is_enabled, done] = entry->second;
+    const bool is_for_it =
+        is_enabled && (spec.antenna == 0 || spec.antenna == report.antenna) &&
+        (spec.ro_spec == 0 || spec.ro_spec == report.ro_spec) &&
+        std::all_of(spec.targets.begin(), spec.targets.end(),
+                    [&](const MemoryMask& target) { return is_meant(target, tag); });
+    if (!is_for_it) continue;
+    ByteWriter results;
+    for (const OpSpec& op : spec.ops) tagfield::llrp::operate(op, tag, results);
+    report.access_spec = spec.id;
+    report.op_results = results.written();
+    if (tag.is_killed()) killed_.push_back(read.tag);
+    if (spec.operations > 0 && ++done >= spec.operations) access_specs_.erase(entry);
+    return;  // One AccessSpec a singulation.
+  }
+}
+
+void LlrpReader::add_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  const AccessSpec spec =
+      access_spec_of(require(parameters_of(ByteReader(message.body)), kAccessSpec));
+  if (access_specs_.count(spec.id) > 0) {
+    throw Fault(Status::kFieldError, fmt::format("there is an AccessSpec {} already", spec.id));
+  }
+  require_room(access_specs_, kMostAccessSpecs, "AccessSpecs");
+  if (spec.antenna > ports_.antennas.size()) {
+    throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", spec.antenna));
+  }
+  access_specs_[spec.id].spec = spec;
+  write_ok(out);
+}
+
+void LlrpReader::change_access_spec(LiveWorld& /*world*/, const Message& message, ByteWriter& out) {
+  const std::uint32_t id = id_in(message);
+  if (id != 0 && access_specs_.count(id) == 0) {
+    throw Fault(Status::kFieldError, fmt::format("there is no AccessSpec {}", id));
+  }
+  for (auto entry = access_specs_.begin(); entry != access_specs_.end();) {
+    const bool is_it = id == 0 || entry->first == id;
+    if (is_it) entry->second.is_enabled = message.type == 42;
+    entry = is_it && message.type == 41 ? access_specs_.erase(entry) : std::next(entry);
+  }
+  write_ok(out);
+}
+
+void LlrpReader::get_access_specs(LiveWorld& /*world*/, const Message& /*message*/,
+                                  ByteWriter& out) {
+  write_ok(out);
+  for (const auto& [id, entry] : access_specs_) {
+    Bytes whole = entry.spec.whole;
+    // After the header, ID, antenna and protocol.
+    whole[11] = static_cast<std::uint8_t>(entry.is_enabled ? 0x80 : 0);
+    out.bytes(whole);
+  }
+}
+
+void LlrpReader::report_gathered(Running& running) {
+  for (Bytes& report : running.gathering.take()) pending_.push_back(std::move(report));
+  while (pending_.size() > kMostPending && (!line_ || is_holding_)) {
+    pending_.pop_front();
+    ++dropped_;
+  }
+}
+
+void LlrpReader::flush() {
+  if (!line_ || is_holding_) return;
+  while (!pending_.empty()) {
+    ByteWriter body;
+    while (!pending_.empty() && body.written().size() < kMostReportBytes) {
+      body.bytes(pending_.front());
+      pending_.pop_front();
+    }
+    send(kReportMessage, next_id_++, body, true);
+  }
+}
+
+}  // namespace tagfield::llrp

@@ -1,0 +1,153 @@
+/// @file
+/// One reader of a live world as LLRP 1.0.1 has it: ROSpecs, AccessSpecs, reports, events. It knows
+/// no sockets; docs/llrp.md says what of the protocol it speaks.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "adapters/llrp/capabilities.h"
+#include "adapters/llrp/reader_configuration.h"
+#include "adapters/llrp/reports.h"
+#include "adapters/llrp/specs.h"
+#include "adapters/llrp/tag_store.h"
+#include "tagfield/live/live_world.h"
+
+namespace tagfield::llrp {
+
+/// Where a reader's messages to its client go.
+class ClientLine {
+ public:
+  ClientLine() = default;
+  virtual ~ClientLine() = default;
+  ClientLine(const ClientLine&) = delete;
+  ClientLine& operator=(const ClientLine&) = delete;
+
+  /// Returns at once. Where too much waits already, the oldest reports are dropped.
+  virtual void send(const Bytes& message, bool is_report) = 0;
+  /// How full the buffer is, 0 to 1.
+  virtual double level() = 0;
+  /// Reports that were dropped since the last call.
+  virtual std::int64_t take_dropped() = 0;
+};
+
+/// For the thread that runs the world, all of it.
+class LlrpReader {
+ public:
+  /// `name`: of the world's reader. `tags` are shared with its other readers. `epoch_us`: UTC at
+  /// the simulated time 0. `warn` is told what clients ask for without effect.
+  LlrpReader(std::string name, std::shared_ptr<TagStore> tags, std::uint64_t epoch_us,
+             std::function<void(const std::string&)> warn);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// A client is there; it is told so.
+  void connect(LiveWorld& world, std::shared_ptr<ClientLine> line);
+  /// The client on this line is gone: its ROSpecs go on, and what is reported waits.
+  void disconnect(const ClientLine& line);
+  /// A message of the client's is answered. False where the connection ends by it.
+  bool on_message(LiveWorld& world, const Message& message);
+  void on_read(const TagRead& read);
+  void on_step(LiveWorld& world, Time now);
+
+ private:
+  enum class State : std::uint8_t { kDisabled = 0, kInactive = 1, kActive = 2 };
+  struct RoEntry {
+    RoSpec spec;
+    State state = State::kDisabled;
+    std::optional<Time> next_start;  ///< By its period.
+  };
+  struct AccessEntry {
+    AccessSpec spec;
+    bool is_enabled = false;
+    std::uint16_t done = 0;
+  };
+  /// The ROSpec that is active.
+  struct Running {
+    std::uint32_t id = 0;
+    Time began;
+    std::size_t ai = 0;
+    Time ai_began;
+    std::set<std::string> seen;  ///< In this AISpec.
+    Time last_new;
+    std::vector<TagFilter> filters;
+    Time ends = Time::max();  ///< By the ROSpec's duration.
+    AiSpec ai_spec;
+    ReportGathering gathering;
+  };
+  using Handler = void (LlrpReader::*)(LiveWorld&, const Message&, ByteWriter&);
+
+  static const std::map<std::uint16_t, Handler>& handlers();
+  void capabilities(LiveWorld& world, const Message& message, ByteWriter& out);
+  void get_config(LiveWorld& world, const Message& message, ByteWriter& out);
+  void set_config(LiveWorld& world, const Message& message, ByteWriter& out);
+  void add_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out);
+  void change_ro_spec(LiveWorld& world, const Message& message, ByteWriter& out);
+  void get_ro_specs(LiveWorld& world, const Message& message, ByteWriter& out);
+  void add_access_spec(LiveWorld& world, const Message& message, ByteWriter& out);
+  void change_access_spec(LiveWorld& world, const Message& message, ByteWriter& out);
+  void get_access_specs(LiveWorld& world, const Message& message, ByteWriter& out);
+  void on_custom(LiveWorld& world, const Message& message);
+
+  RoEntry& ro_spec(std::uint32_t id);
+  void enable(LiveWorld& world, RoEntry& entry);
+  void disable(LiveWorld& world, RoEntry& entry);
+  void start(LiveWorld& world, RoEntry& entry);
+  void end(LiveWorld& world, std::uint32_t preempted_by = 0);
+  void be_silent(LiveWorld& world);
+  void begin_ai_spec(LiveWorld& world);
+  void end_ai_spec(LiveWorld& world);
+  void start_those_due(LiveWorld& world, Time now);
+  void check_duty(const LiveWorld& world, const AiSpec& spec);
+  void tell_warnings(const std::vector<std::string>& warnings);
+  void watch_antennas(const LiveWorld& world);
+  void tell_line_state();
+
+  static bool is_ai_spec_over(const Running& running, Time at);
+  Running* running_at(Time stamp);
+  [[nodiscard]] TagReport report_of(const TagRead& read, const Running& running,
+                                    const MemoryBanks& tag) const;
+  void operate(const TagRead& read, MemoryBanks& tag, TagReport& report);
+  void report_gathered(Running& running);
+  void flush();
+  void tell_event(std::uint16_t kind, const std::function<void(ByteWriter&)>& write);
+  void send(std::uint16_t type, std::uint32_t id, const ByteWriter& body, bool is_report = false);
+  void answer(std::uint16_t type, std::uint32_t id, const ByteWriter& body);
+  [[nodiscard]] std::uint64_t utc_us(Time time) const;
+
+  std::string name_;
+  std::shared_ptr<TagStore> tags_;
+  std::uint64_t epoch_us_;
+  std::function<void(const std::string&)> warn_;
+  std::set<std::string> warned_;
+
+  std::shared_ptr<ClientLine> line_;
+  bool is_holding_ = false;  ///< Reports, until the client asks.
+  std::uint32_t next_id_ = 1;
+  /// What a request has brought about, to be sent after its answer; none between requests.
+  std::optional<std::vector<std::pair<Bytes, bool>>> after_answer_;
+  Time now_{};
+  std::optional<Time> kept_alive_;
+  bool has_warned_of_buffer_ = false;
+
+  ReaderConfiguration configuration_;
+  std::map<std::uint32_t, RoEntry> ro_specs_;
+  std::map<std::uint32_t, AccessEntry> access_specs_;
+  std::optional<Running> running_;
+  /// The one before: its last reads are told after its end where other readers' may come before.
+  std::optional<Running> ended_;
+  Ports ports_;  ///< As of the last step.
+  std::map<std::string, bool> faulty_;
+  std::deque<Bytes> pending_;        ///< TagReportData that wait for a client.
+  std::int64_t dropped_ = 0;         ///< Of those.
+  std::vector<std::string> killed_;  ///< Tags to be taken out of the world.
+};
+
+}  // namespace tagfield::llrp

@@ -1,0 +1,65 @@
+/// @file
+/// Reads as a reader reports them: gathered as the report's specification says, and put on the
+/// wire.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "adapters/llrp/specs.h"
+#include "tagfield/gen2/memory_banks.h"
+#include "tagfield/stream/tag_read.h"
+
+namespace tagfield::llrp {
+
+/// One TagReportData (§14.2.3).
+struct TagReport {
+  Words epc;
+  std::uint16_t pc = 0;
+  std::uint16_t crc = 0;
+  std::uint32_t ro_spec = 0;
+  std::uint16_t spec_index = 0;
+  std::uint16_t inventory_spec = 0;
+  std::uint16_t antenna = 0;
+  std::uint16_t channel = 0;
+  double peak_rssi_dbm = 0.0;
+  double phase_rad = 0.0;  ///< Of the last read, growing with distance, as TagRead's.
+  std::optional<double> doppler_hz;
+  std::uint64_t first_us = 0;  ///< UTC.
+  std::uint64_t last_us = 0;
+  std::uint16_t seen = 1;
+  std::uint32_t access_spec = 0;
+  Bytes op_results;  ///< Parameters, one after the other.
+};
+
+/// What `spec` selects of it, and nothing else. The vendor's phase falls with distance, as that of
+/// its readers does: 4096 steps a turn.
+void write_report(const TagReport& report, const ReportSpec& spec, ByteWriter& writer);
+
+/// Gathers reads of one ROSpec until they are to be sent.
+class ReportGathering {
+ public:
+  explicit ReportGathering(const ReportSpec& spec) : spec_(spec) {}
+
+  /// Reads that agree in all that is selected and does not accumulate are one report, but for
+  /// those that hold results of operations.
+  void add(const TagReport& report);
+  /// Whether as many as `n` are there.
+  [[nodiscard]] bool is_full() const;
+  /// All, on the wire; nothing is left.
+  std::vector<Bytes> take();
+  [[nodiscard]] const ReportSpec& spec() const { return spec_; }
+
+ private:
+  using Key = std::tuple<Words, std::uint16_t, std::uint16_t, std::uint16_t, std::uint16_t>;
+  ReportSpec spec_;
+  std::vector<TagReport> reports_;
+  std::map<Key, std::size_t> places_;
+};
+
+}  // namespace tagfield::llrp

@@ -1,0 +1,145 @@
+/// @file
+/// What clients ask a reader for: ROSpecs, AccessSpecs, configuration.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/llrp/wire.h"
+#include "tagfield/base/time.h"
+
+namespace tagfield::llrp {
+
+/// Impinj's private enterprise number, under which this extension is known.
+inline constexpr std::uint32_t kImpinj = 25882;
+
+/// Types of parameters that several sources name (§16.3).
+enum ParameterType : std::uint16_t {
+  kUtcTimestamp = 128,
+  kRoSpec = 177,
+  kAccessSpec = 207,
+  kAntennaConfiguration = 222,
+  kEventsAndReports = 226,
+  kRoReportSpec = 237,
+  kAccessReportSpec = 239,
+  kReaderEventNotificationSpec = 244,
+  kKeepaliveSpec = 220,
+  kCustomParameter = 1023,
+};
+
+/// Bits of a tag's memory that a mask names.
+struct MemoryMask {
+  unsigned bank = 1;
+  std::uint16_t pointer = 0;  ///< First bit.
+  std::uint16_t count = 0;    ///< Bits.
+  Bytes mask;                 ///< Of which count; all where it is of a Select.
+  Bytes data;
+  bool match = true;  ///< Else those that differ are meant.
+};
+
+/// A Select without states (§15.2.1.2.1.1): who takes part.
+struct TagFilter {
+  MemoryMask mask;
+  std::uint8_t action = 0;
+};
+
+/// AntennaConfiguration (§12.2.6); what it does not hold is as it was.
+struct AntennaSetting {
+  std::optional<std::uint16_t> power_index;
+  std::optional<std::uint16_t> hop_table;
+  std::optional<std::uint16_t> channel_index;
+  std::optional<std::uint16_t> mode_index;
+  std::optional<std::uint8_t> session;
+  std::optional<std::uint16_t> tag_population;
+  std::optional<std::uint16_t> search_mode;   ///< Impinj's: 1 single, 2 dual target, 3 focus.
+  std::optional<bool> asks_for_b;             ///< Of state-aware singulation.
+  std::vector<std::uint16_t> fixed_channels;  ///< Impinj's list, from 1 on.
+  std::optional<std::vector<TagFilter>> filters;
+};
+/// Takes over what `over` holds.
+void merge(const AntennaSetting& over, AntennaSetting& setting);
+
+/// Settings by antenna; 0 means all.
+using AntennaSettings = std::map<std::uint16_t, AntennaSetting>;
+
+enum class StopAt : std::uint8_t { kNull = 0, kDuration = 1, kGpi = 2, kTagObservation = 3 };
+
+struct AiSpec {
+  std::vector<std::uint16_t> antennas;  ///< 0: all.
+  StopAt stop = StopAt::kNull;
+  Duration duration{};
+  std::uint8_t observation = 0;  ///< Kind of a tag observation trigger.
+  std::uint16_t tags = 0;
+  Duration quiet{};    ///< Its T.
+  Duration timeout{};  ///< 0 for none.
+  std::uint16_t inventory_spec = 0;
+  AntennaSettings settings;
+};
+
+/// Of what a report holds (§14.2.1), and when it is sent.
+struct ReportSpec {
+  std::uint8_t trigger = 2;  ///< 0 none, 1 N tags or end of an AISpec, 2 or of the ROSpec.
+  std::uint16_t n = 0;       ///< 0 for no limit.
+  bool ro_spec = true, spec_index = true, inventory_spec = true, antenna = true, channel = true,
+       peak_rssi = true, first_seen = true, last_seen = true, seen_count = true, access_spec = true;
+  bool crc = false, pc = false;
+  bool phase = false, fine_rssi = false, doppler = false;  ///< Impinj's.
+};
+
+enum class StartAt : std::uint8_t { kNull = 0, kImmediate = 1, kPeriodic = 2, kGpi = 3 };
+
+struct RoSpec {
+  std::uint32_t id = 0;
+  std::uint8_t priority = 0;  ///< 0 to 7; 0 goes before all.
+  StartAt start = StartAt::kNull;
+  Duration offset{};
+  Duration period{};
+  std::optional<std::uint64_t> start_utc_us;
+  StopAt stop = StopAt::kNull;
+  Duration duration{};
+  std::vector<AiSpec> specs;
+  std::optional<ReportSpec> report;
+  Bytes whole;  ///< The parameter as it came.
+};
+
+enum class OpKind { kRead, kWrite, kKill, kLock, kBlockErase, kBlockWrite };
+
+struct LockRequest {
+  std::uint8_t privilege = 0;  ///< 0 read and write, 1 for good, 2 never again, 3 unlock.
+  std::uint8_t field = 0;      ///< 0 kill, 1 access password, 2 EPC, 3 TID, 4 user memory.
+};
+
+struct OpSpec {
+  OpKind kind = OpKind::kRead;
+  std::uint16_t id = 0;
+  std::uint32_t password = 0;
+  unsigned bank = 0;
+  std::uint16_t pointer = 0;  ///< Word.
+  std::uint16_t count = 0;    ///< Words to read or to erase.
+  std::vector<std::uint16_t> words;
+  std::vector<LockRequest> locks;
+};
+
+struct AccessSpec {
+  std::uint32_t id = 0;
+  std::uint16_t antenna = 0;        ///< 0: all.
+  std::uint32_t ro_spec = 0;        ///< 0: all.
+  std::uint16_t operations = 0;     ///< After which it is deleted; 0 for never.
+  std::vector<MemoryMask> targets;  ///< All must match.
+  std::vector<OpSpec> ops;
+  Bytes whole;
+};
+
+/// Content of the parameters, without their headers. Throw Fault.
+RoSpec ro_spec_of(const Parameter& parameter);
+AccessSpec access_spec_of(const Parameter& parameter);
+ReportSpec report_spec_of(ByteReader content);
+/// Adds an AntennaConfiguration's.
+void read_antenna_setting(ByteReader content, AntennaSettings& settings);
+
+void write_report_spec(const ReportSpec& spec, ByteWriter& writer);
+
+}  // namespace tagfield::llrp

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/start_time.h"
+#include "tagfield/experiment/experiment.h"
+#include "tagfield/files/read_json.h"
+
+namespace tagfield {
+namespace {
+
+struct StreamArguments {
+  ScenarioArguments scenario;
+  std::optional<double> speed;
+  std::string start;
+  int threads = default_threads();
+};
+
+/// Whoever read the standard output has closed it: there is nothing more to do.
+struct OutputClosed {};
+
+/// Each read as a line of JSON on the standard output.
+class ReadLines final : public ReadListener {
+ public:
+  explicit ReadLines(Time start) : start_(start) {}
+
+  void on_antenna_added(const AntennaInfo& antenna) override {
+    ports_.port_of(antenna.reader, antenna.name);
+  }
+  void on_read(const TagRead& read) override {
+    append_json(read, start_, ports_, lines_);
+    lines_ += '\n';
+    if (lines_.size() > kMostBytes) flush();
+  }
+  void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) override { flush(); }
+
+  /// Writes whole lines, as many as there are.
+  void flush() {
+    for (std::size_t done = 0; done < lines_.size();) {
+      const ssize_t written = ::write(STDOUT_FILENO, lines_.data() + done, lines_.size() - done);
+      if (written >= 0) {
+        done += static_cast<std::size_t>(written);
+      } else if (errno == EPIPE) {
+        throw OutputClosed{};
+      } else if (errno != EINTR) {
+        throw Error(fmt::format("the standard output can't be written: {}", std::strerror(errno)));
+      }
+    }
+    lines_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kMostBytes = 1U << 16U;
+  Time start_;
+  AntennaPorts ports_;
+  std::string lines_;
+};
+
+int stream(const StreamArguments& arguments) {
+  Diagnostics diagnostics;
+  ScenarioWithWorld loaded = load(arguments.scenario, diagnostics);
+  Scenario& scenario = loaded.scenario;
+  if (arguments.speed) scenario.real_time = *arguments.speed;
+  if (!arguments.speed && scenario.real_time == 0.0) scenario.real_time = 1.0;
+  std::optional<NavigationWorld> world;
+  if (scenario.pose.source == PoseSource::kSlam) {
+    world = navigation_world(scenario, loaded.scene, diagnostics);
+  }
+  print_warnings(diagnostics);
+  const auto lines = std::make_shared<ReadLines>(start_time("stream", arguments.start, Time{}));
+  RunControl control;
+  attach(lines, control.outlets);
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  control.keeps_recording = false;
+  catch_interrupts();
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const SeedRun run = simulate(scenario, arguments.scenario.seed.value_or(scenario.seed), control,
+                                 world ? &*world : nullptr);
+    lines->flush();
+    return run.complete ? kExitOk : kExitInterrupted;
+  } catch (const OutputClosed&) {
+    return kExitOk;
+  }
+}
+
+}  // namespace
+
+void add_stream_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<StreamArguments>();
+  CLI::App* command = app.add_subcommand(
+      "stream", "Simulate a scenario and print each read as a line of JSON, as it comes");
+  add_scenario_options(*command, arguments->scenario);
+  command
+      ->add_option("--speed", arguments->speed,
+                   "Multiple of real time; 0 for as fast as it can. Default: what the scenario "
+                   "says by real_time, or else 1")
+      ->check(CLI::Range(0.0, 1e6));
+  add_start_option(*command, arguments->start);
+  command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->footer(
+      "A line has timestamp, reader, antennaPort, antennaName, epc, epcHex (where the tag's ID "
+      "has\n"
+      "bits), peakRssiCdbm [dBm/100], phaseAngle [deg] and frequency [kHz]. It ends with the\n"
+      "scenario, by Ctrl-C, or when whoever reads the lines closes them:\n"
+      "  tagfield stream scenarios/conveyor.yaml --speed 0 | head -n 3");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return stream(*arguments); }; });
+}
+
+}  // namespace tagfield

@@ -1,0 +1,34 @@
+#include "tagfield/gen2/tag_epc.h"
+
+#include <gtest/gtest.h>
+
+namespace tagfield {
+namespace {
+
+TEST(TagEpc, HexadecimalIdsAreTheEpcItself) {
+  EXPECT_EQ(epc_of_id("3074257bf7194e4000001a85"),
+            (Words{0x3074, 0x257b, 0xf719, 0x4e40, 0x0000, 0x1a85}));
+  EXPECT_EQ(to_hex(epc_of_id("3074257BF7194E4000001A85")), "3074257BF7194E4000001A85");
+  EXPECT_EQ(epc_of_id("cafe"), (Words{0xcafe}));
+}
+
+/// The example of the Tag Data Standard.
+TEST(TagEpc, UrisHaveTheirBits) {
+  EXPECT_EQ(to_hex(epc_of_id("urn:epc:tag:sgtin-96:3.0614141.812345.6789")),
+            "3074257BF7194E4000001A85");
+}
+
+TEST(TagEpc, ShortIdsAreTheirBytes) {
+  EXPECT_EQ(epc_of_id("tag_1"), (Words{0x7461, 0x675f, 0x3100, 0, 0, 0}));
+  EXPECT_EQ(to_hex(epc_of_id("parcel_00012")), "70617263656C5F3030303132");
+}
+
+TEST(TagEpc, LongIdsHaveAHashEach) {
+  const Words one = epc_of_id("a parcel with a long name 1");
+  EXPECT_EQ(one.size(), 6U);
+  EXPECT_EQ(one, epc_of_id("a parcel with a long name 1"));
+  EXPECT_NE(one, epc_of_id("a parcel with a long name 2"));
+}
+
+}  // namespace
+}  // namespace tagfield
