@@ -283,6 +283,38 @@ def colors_are_those_of_the_reads(context, one, address, shared):
                    f"RSSI of {tag}")
 
 
+@with_page("--recorded")
+def ellipses_hold_95_percent(context, one, address, shared):
+    one.wait("view.stage.frames > 0", "a frame was drawn")
+    points = one.ask("[...view.drawing.estimates.lines.geometry.attributes.position.array]")
+    points = [points[i:i + 3] for i in range(0, len(points), 3)]
+    located = [row for row in read_csv(shared.run / "estimates.csv") if row["verdict"] == "located"]
+    each = len(points) // len(located)
+    for k, row in enumerate(located):
+        x, y, _ = position(row)
+        xx, xy, yy = (float(row[f"cov_{key}"]) for key in ("xx", "xy", "yy"))
+        # All but the cross's six ends and the two of the line to the true place.
+        rim = points[k * each + 6:(k + 1) * each - 2]
+        for px, py, _ in rim:
+            u, v = px - x, py - y
+            squared = (yy * u * u - 2 * xy * u * v + xx * v * v) / (xx * yy - xy * xy)
+            check_near(squared, 5.991, 0.05, f"{row['tag']}'s rim: squared Mahalanobis distance")
+        check(len(rim) == 80, f"{row['tag']}: {len(rim)} points of the rim")
+
+
+@with_page()
+def beam_ends_at_half_power(context, one, address, shared):
+    one.wait("view.stage.frames > 1", "a frame was drawn")
+    points = one.ask(
+        "[...view.drawing.antennas.items[0].beam.children[0].geometry.attributes.position.array]")
+    points = [points[i:i + 3] for i in range(3, len(points), 3)]  # The first is the antenna.
+    angles = [math.atan2(math.hypot(y, z), x) for x, y, z in points]
+    # The mock's panel has a gain of cos² of the angle from boresight, given each 5°.
+    check_near(max(angles), math.pi / 4, 0.01, "the widest angle of the beam drawn [rad]")
+    farthest = max(math.dist((0, 0, 0), point) for point in points)
+    check_near(farthest, 3.0, 1e-3, "the beam's length at its peak [m]")
+
+
 @case
 def server_goes_and_comes_back(context):
     shared = shared_of(context)

@@ -58,10 +58,10 @@ export function rssiCss(u) {
 
 // Steps of the coverage's legend: margin [dB] from which on, its colour as [r, g, b, a] in bytes.
 export const MARGINS = [
-  [-Infinity, [120, 60, 120, 110], "not read"],
-  [-3, [196, 84, 96, 130], "−3 to 0 dB: just not read"],
-  [0, [244, 190, 60, 165], "0 to 3 dB: at the edge"], [3, [150, 200, 80, 165], "3 to 10 dB"],
-  [10, [40, 160, 120, 165], "over 10 dB"]
+  [-Infinity, [120, 60, 120, 150], "not read"],
+  [-3, [196, 84, 96, 190], "−3 to 0 dB: just not read"],
+  [0, [244, 190, 60, 205], "0 to 3 dB: at the edge"], [3, [150, 200, 80, 205], "3 to 10 dB"],
+  [10, [40, 160, 120, 205], "over 10 dB"]
 ];
 
 export function marginColor(margin) {

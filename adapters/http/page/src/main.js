@@ -133,6 +133,11 @@ class View {
   select(kind, index) {
     this.at.panels.removeAttribute("data-closed");
     this.world.select(kind, index);
+    // On a phone the panel takes the list's place, and the focus must not get lost with the list.
+    const inList = this.at.lists.contains(this.at.root.activeElement);
+    requestAnimationFrame(() => {
+      if (inList && !this.at.lists.offsetParent) this.at.detail.querySelector("h2")?.focus();
+    });
   }
 
   deselect() {

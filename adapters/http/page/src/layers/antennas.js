@@ -38,22 +38,21 @@ function bracket(values, x) {
   return [i, step > 0 ? Math.min(Math.max((x - values[i]) / step, 0), 1) : 0];
 }
 
-// Relative gain [dB] at the polar angle theta from boresight and the azimuth phi about it [rad].
+// Relative gain [dB] at the polar angle theta from boresight and the azimuth phi about it [rad],
+// phi from 0 to 2 π; azimuths of the grid are evenly spaced and begin at 0.
 function gainAt(beam, theta, phi) {
   const [i, u] = bracket(beam.theta, theta);
-  const last = beam.phi[beam.phi.length - 1];
-  const [j, v] =
-    bracket(beam.phi, phi > last ? (phi - 2 * Math.PI < beam.phi[0] ? last : phi) : phi);
-  const at = (a, b) =>
-    beam.gain_db[Math.min(a, beam.theta.length - 1)][Math.min(b, beam.phi.length - 1)];
-  return (
-    (1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
-    u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1)));
+  const n = beam.phi.length;
+  const turn = (phi / (2 * Math.PI)) * n;
+  const j = Math.floor(turn) % n;
+  const v = turn - Math.floor(turn);
+  const row = (at) => (1 - v) * beam.gain_db[at][j] + v * beam.gain_db[at][(j + 1) % n];
+  return (1 - u) * row(i) + u * row(i + 1);
 }
 
 // Where the gain has fallen to half, going outwards from boresight [rad].
 function halfPowerAngle(beam, phi) {
-  for (let theta = 0; theta < Math.PI; theta += 0.02) {
+  for (let theta = 0; theta < Math.PI; theta += 0.005) {
     if (gainAt(beam, theta, phi) < HALF_POWER_DB) return theta;
   }
   return Math.PI;

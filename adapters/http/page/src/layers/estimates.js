@@ -49,13 +49,13 @@ export class Estimates {
     if (!changed.has("estimates") && !(changed.has("tags") && this.world.estimates.size)) return;
     const points = [];
     for (const [tag, {position, covariance}] of this.world.estimates) {
+      if (!this.world.tags[tag].present) continue;
       const [x, y, z] = position;
       points.push(
         x - CROSS_M, y, z, x + CROSS_M, y, z, x, y - CROSS_M, z, x, y + CROSS_M, z, x, y,
         z - CROSS_M, x, y, z + CROSS_M);
       if (covariance) pushEllipse(points, position, covariance);
-      if (this.world.tags[tag].present)
-        points.push(x, y, z, ...this.world.position.subarray(3 * tag, 3 * tag + 3));
+      points.push(x, y, z, ...this.world.position.subarray(3 * tag, 3 * tag + 3));
     }
     this.lines.geometry.dispose();
     this.lines.geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));

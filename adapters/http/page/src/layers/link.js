@@ -64,10 +64,10 @@ export class Link {
       new LineDashedMaterial(
         {...look, color: this.theme.blocked, dashSize: 0.25, gapSize: 0.2, opacity: 0.5}) :
       new LineBasicMaterial(
-        {...look, color: new Color(this.theme.ink), opacity: 0.15 + 0.85 * strength});
+        {...look, color: new Color(this.theme.ink), opacity: 0.08 + 0.92 * strength * strength});
     const line = new Line(geometry, material);
     line.computeLineDistances();
-    line.renderOrder = 22;
+    line.renderOrder = 17;
     this.group.add(line);
   }
 }

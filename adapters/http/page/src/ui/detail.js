@@ -151,7 +151,7 @@ export class Detail {
       try {
         const {range} = this.world.antennas[this.world.antennaIndex.get(name)];
         const cell =
-          Math.max(LEAST_CELL_M, Math.ceil((40 * Math.min(range, 100)) / MOST_CELLS) / 20);
+          Math.max(LEAST_CELL_M, Math.ceil((40 * Math.min(range || 0, 100)) / MOST_CELLS) / 20);
         const coverage = await get(`coverage?antenna=${encodeURIComponent(name)}&height=${
           Number(height.value)}&cell=${cell}`);
         if (request !== this.request) return;
