@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "adapters/http/embedded.h"
 #include "adapters/http/world_json.h"
+#include "tagfield/files/files.h"
+#include "tagfield/files/poses_csv.h"
 
 namespace tagfield::http {
 namespace {
@@ -142,6 +146,28 @@ Json estimates_of(const RunFiles& run) {
   }
   return all;
 }
+Json known_scene(const std::string& folder) {
+  const std::string path = folder + "/scene.json";
+  if (!std::filesystem::exists(path)) return Json::object();
+  Json known = Json::parse(read_text_file(path), nullptr, false);
+  if (!known.is_object()) throw Error(fmt::format("{}: is no JSON object", path));
+  return known;
+}
+
+/// By name; none where the folder does not tell.
+Json robots_in(const std::string& folder) {
+  const std::string path = folder + "/truth/robot_poses.csv";
+  std::map<std::string, Trajectory> tracks;
+  if (std::filesystem::exists(path)) {
+    for (const AntennaPose& pose : read_poses_csv(path, "robot")) {
+      tracks[pose.antenna].push_back({pose.stamp, pose.X_WA});
+    }
+  }
+  Json robots = Json::object();
+  for (const auto& [name, poses] : tracks) robots[name] = track_json(poses);
+  return robots;
+}
+
 }  // namespace
 
 std::string scene_json(const ScenarioWithWorld& loaded) {
@@ -157,10 +183,8 @@ std::string scene_json(const ScenarioWithWorld& loaded) {
   return json_text({{"scene", std::move(scene)}, {"antennas", std::move(antennas)}}) + "\n";
 }
 
-std::string run_json(const RunFiles& run, const std::string& scene, const std::string& folder) {
-  Json known = Json::object();
-  if (!scene.empty()) known = Json::parse(scene, nullptr, false);
-  if (!known.is_object()) throw Error(fmt::format("{}/scene.json: is no JSON object", folder));
+std::string run_json(const RunFiles& run, const std::string& folder) {
+  const Json known = known_scene(folder);
   Json json;
   json["scene"] = known.contains("scene")
                       ? known["scene"]
@@ -186,7 +210,7 @@ std::string run_json(const RunFiles& run, const std::string& scene, const std::s
     last = std::max(last, read.stamp);
   }
   json["duration"] = first <= last ? Json{short_time(first), short_time(last)} : Json{0.0, 0.0};
-  json["robot_poses"] = Json::object();
+  json["robot_poses"] = robots_in(folder);
   json["tag_positions"] = Json::object();
   for (const auto& [tag, places] : run.true_places) {
     if (places.size() > 1) json["tag_positions"][tag] = places_json(places);

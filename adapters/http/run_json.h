@@ -14,9 +14,10 @@ namespace tagfield::http {
 /// (scene.json): what else there is to see, its tables tell.
 std::string scene_json(const ScenarioWithWorld& loaded);
 
-/// `scene`: a scene.json's text, or "" for none. Of more than 200,000 reads every second, third, …
-/// is in it. Throws Error, which names `folder`, where the scene is no JSON object.
-std::string run_json(const RunFiles& run, const std::string& scene, const std::string& folder);
+/// Of what is in `folder`, which `run` was read from: scene.json, where it is, and the robots' true
+/// poses, besides `run`. Of more than 200,000 reads every second, third, …
+/// is in it. Throws Error where one of the files is malformed.
+std::string run_json(const RunFiles& run, const std::string& folder);
 
 /// The page with the run inside: one file that needs nothing else. "" where the program was built
 /// without the page.

@@ -73,13 +73,12 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   folder.add("scene.json", http::scene_json(loaded));
 }
 
-/// The report, and beside it the run to be watched.
-void stage_pages(const ScenarioWithWorld& loaded, StagedFolder& folder) {
+/// The run to be watched, and the report, which leads to it.
+void stage_pages(StagedFolder& folder) {
   const std::string staging = folder.staging().string();
-  stage_report(staging, folder);
-  const std::string view =
-      http::view_page(http::run_json(read_run_files(staging), http::scene_json(loaded), staging));
+  const std::string view = http::view_page(http::run_json(read_run_files(staging), staging));
   if (!view.empty()) folder.add("view.html", view);
+  stage_report(staging, folder);
 }
 
 /// The first seed's tables go into `folder` while it runs.
@@ -207,7 +206,7 @@ int run(const RunArguments& arguments) {
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
   if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
-  if (!arguments.no_page) stage_pages(loaded, folder);
+  if (!arguments.no_page) stage_pages(folder);
   folder.commit(stale_files());
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;

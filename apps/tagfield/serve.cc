@@ -9,6 +9,7 @@
 #include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/mqtt_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/planning/moment.h"
@@ -21,6 +22,7 @@ struct ServeArguments {
   std::optional<std::uint16_t> http;
   std::optional<std::uint16_t> llrp;
   std::string start;
+  MqttArguments mqtt;
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
@@ -103,6 +105,8 @@ int serve(ServeArguments arguments) {
   Outlets outlets;
   attach(feed, outlets);
   if (llrp) attach(llrp, outlets);
+  const auto mqtt =
+      attach_mqtt(arguments.mqtt, start_time("serve", arguments.start, Time{}), outlets);
   LiveWorld world(scenario, seed, outlets, options);
   world.attach(feed);
   const Closing closing(llrp.get());
@@ -122,6 +126,7 @@ int serve(ServeArguments arguments) {
   std::fflush(stdout);
   catch_interrupts();
   world.run(interrupted());
+  finish(mqtt.get());
   return kExitOk;
 }
 
@@ -142,6 +147,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
                    "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
                    "Readers then read when a client tells them to")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
+  add_mqtt_options(*command, arguments->mqtt);
   add_start_option(*command, arguments->start);
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "

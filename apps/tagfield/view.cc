@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -9,7 +8,6 @@
 #include "adapters/http/run_json.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "tagfield/files/files.h"
 
 namespace tagfield {
 namespace {
@@ -42,14 +40,9 @@ class RunAnswerer final : public http::Answerer {
   std::string run_;
 };
 
-std::string scene_of(const std::string& folder) {
-  const std::string path = folder + "/scene.json";
-  return std::filesystem::exists(path) ? read_text_file(path) : "";
-}
-
 int view(const ViewArguments& arguments) {
   const RunFiles run = read_run_files(arguments.folder);
-  RunAnswerer answerer(http::run_json(run, scene_of(arguments.folder), arguments.folder));
+  RunAnswerer answerer(http::run_json(run, arguments.folder));
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
   fmt::print("http: {}\n", server.url());
   std::fflush(stdout);

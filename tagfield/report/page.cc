@@ -27,12 +27,19 @@ std::string figures_html(const std::vector<Figure>& figures) {
   return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
 }
 
-std::string page_of(const Summary& summary, const std::vector<Figure>& figures) {
+/// The run to be watched, where it stands beside the page.
+std::string link_to_view(bool has_view) {
+  return has_view ? "<p><a href=\"view.html\">Watch this run in 3D</a>, with its world, reads and "
+                    "paths over time.</p>\n"
+                  : "";
+}
+
+std::string page_of(const Summary& summary, const std::vector<Figure>& figures, bool has_view) {
   return page_head(summary.scenario + " – Tagfield report") + "<body>\n" + page_header(summary) +
-         "<main>\n" + key_numbers(summary) + run_facts(summary) + methods_table(summary) +
-         navigation_table(summary) + effects_table(summary) + "<h2>Figures</h2>\n" +
-         figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) + "</main>\n" +
-         page_footer() + "</body>\n</html>\n";
+         "<main>\n" + key_numbers(summary) + link_to_view(has_view) + run_facts(summary) +
+         methods_table(summary) + navigation_table(summary) + effects_table(summary) +
+         "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) +
+         "</main>\n" + page_footer() + "</body>\n</html>\n";
 }
 
 /// Nothing is made where there is no run.
@@ -58,7 +65,8 @@ void stage_report(const std::string& run_folder, StagedFolder& folder) {
     folder.add("figures/" + figure.name + ".svg",
                standalone_svg(figure.svg, figure.title, figure.caption));
   }
-  folder.add("report.html", page_of(run.summary, figures));
+  folder.add("report.html",
+             page_of(run.summary, figures, std::filesystem::exists(run_folder + "/view.html")));
 }
 
 void write_report(const std::string& run_folder) {
