@@ -30,10 +30,6 @@ constexpr std::size_t kMostTags = 200'000;
 constexpr std::size_t kMostAntennas = 1'000;
 constexpr std::size_t kMostObstacles = 10'000;
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 RigidTransform pose_of(const std::vector<double>& n) {
   RigidTransform X = from_translation({n[0], n[1], n[2]});
   X.rotation = Eigen::AngleAxisd(n[5], Eigen::Vector3d::UnitZ()) *
@@ -185,20 +181,20 @@ ApiResponse coverage_response(const CoverageQuestion& question) {
     margins.push_back(has_power ? Json(std::round(cell.margin_db * 100.0) / 100.0) : Json(nullptr));
     probabilities.push_back(std::round(cell.probability * 1e4) / 1e4);
   }
-  return {200, text_of({{"x0", grid.corner_m.x()},
-                        {"y0", grid.corner_m.y()},
-                        {"cell", grid.step_m},
-                        {"columns", grid.columns},
-                        {"rows", grid.rows},
-                        {"height", question.height_m},
-                        {"margin_db", std::move(margins)},
-                        {"probability", std::move(probabilities)}})};
+  return {200, json_text({{"x0", grid.corner_m.x()},
+                          {"y0", grid.corner_m.y()},
+                          {"cell", grid.step_m},
+                          {"columns", grid.columns},
+                          {"rows", grid.rows},
+                          {"height", question.height_m},
+                          {"margin_db", std::move(margins)},
+                          {"probability", std::move(probabilities)}})};
 }
 
 }  // namespace
 
 ApiResponse api_error(int status, const std::string& message) {
-  return {status, text_of({{"error", message}})};
+  return {status, json_text({{"error", message}})};
 }
 
 bool is_command(const ApiRequest& request) { return request.method != "GET"; }
@@ -235,7 +231,7 @@ class Api::Impl {
             {"duration", nullptr}};
   }
   static ApiAnswer done(const LiveWorld& world) {
-    return ApiResponse{200, text_of(status_json(world))};
+    return ApiResponse{200, json_text(status_json(world))};
   }
   static std::string name_in(const Call& call) { return call.target.parts[2]; }
 
@@ -244,13 +240,13 @@ class Api::Impl {
     Json json = solids;
     json["obstacles"] = obstacles_json(call.world);
     json["paths"] = paths;
-    return ApiResponse{200, text_of(json)};
+    return ApiResponse{200, json_text(json)};
   }
-  ApiAnswer antennas(Call& call) { return ApiResponse{200, text_of(antennas_json(call.world))}; }
-  ApiAnswer tags(Call& call) { return ApiResponse{200, text_of(tags_json(call.world))}; }
+  ApiAnswer antennas(Call& call) { return ApiResponse{200, json_text(antennas_json(call.world))}; }
+  ApiAnswer tags(Call& call) { return ApiResponse{200, json_text(tags_json(call.world))}; }
   ApiAnswer explain(Call& call) {
-    return ApiResponse{200, text_of(to_json(call.world.explain(word_in(call.target, "antenna"),
-                                                               word_in(call.target, "tag"))))};
+    return ApiResponse{200, json_text(to_json(call.world.explain(word_in(call.target, "antenna"),
+                                                                 word_in(call.target, "tag"))))};
   }
   ApiAnswer coverage(Call& call) {
     auto question =

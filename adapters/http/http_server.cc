@@ -37,8 +37,8 @@ std::string own_name() {
 
 class HttpServer::Impl {
  public:
-  Impl(LiveWorld& world, Api& api, std::shared_ptr<LiveFeed> feed, const HttpOptions& options)
-      : context_{world, api, std::move(feed), options, own_name()}, acceptor_(context_.io) {
+  Impl(Answerer& answerer, std::shared_ptr<LiveFeed> feed, const HttpOptions& options)
+      : context_{answerer, std::move(feed), options, own_name()}, acceptor_(context_.io) {
     const tcp::endpoint endpoint = endpoint_of(options);
     boost::system::error_code error;
     acceptor_.open(endpoint.protocol(), error);
@@ -91,9 +91,16 @@ class HttpServer::Impl {
   std::thread thread_;
 };
 
-HttpServer::HttpServer(LiveWorld& world, Api& api, std::shared_ptr<LiveFeed> feed,
+void LiveAnswerer::ask(const ApiRequest& request, const std::atomic<bool>& stop,
+                       Answered answered) {
+  world_.post([this, request, &stop, answered = std::move(answered)](LiveWorld& world) {
+    answered(api_.answer(world, request, stop));
+  });
+}
+
+HttpServer::HttpServer(Answerer& answerer, std::shared_ptr<LiveFeed> feed,
                        const HttpOptions& options)
-    : impl_(std::make_unique<Impl>(world, api, std::move(feed), options)) {}
+    : impl_(std::make_unique<Impl>(answerer, std::move(feed), options)) {}
 HttpServer::~HttpServer() = default;
 
 std::string HttpServer::url() const { return impl_->url(); }

@@ -2,7 +2,9 @@
 /// A live world over HTTP and WebSocket: its page, its API, its reads.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -18,14 +20,40 @@ struct HttpOptions {
   std::string token;
 };
 
+/// Who answers requests to the API; from any thread.
+class Answerer {
+ public:
+  using Answered = std::function<void(ApiAnswer)>;
+
+  Answerer() = default;
+  virtual ~Answerer() = default;
+  Answerer(const Answerer&) = delete;
+  Answerer& operator=(const Answerer&) = delete;
+
+  /// Calls `answered` once, from whatever thread, or drops it where nobody will answer any more.
+  virtual void ask(const ApiRequest& request, const std::atomic<bool>& stop, Answered answered) = 0;
+};
+
+/// By a live world, between two of its steps.
+class LiveAnswerer final : public Answerer {
+ public:
+  /// Both must outlive this.
+  LiveAnswerer(LiveWorld& world, Api& api) : world_(world), api_(api) {}
+  void ask(const ApiRequest& request, const std::atomic<bool>& stop, Answered answered) override;
+
+ private:
+  LiveWorld& world_;
+  Api& api_;
+};
+
 /// Serves in a thread of its own. What comes in is bounded in size, number and time, and must be
 /// meant for this machine: requests under another host's name, or commands of another site's pages,
 /// are refused. A client that falls behind loses its oldest frames and reads, with a count.
 class HttpServer {
  public:
-  /// `world` and `api` must outlive this. Throws Error where the address can't be listened on.
-  HttpServer(LiveWorld& world, Api& api, std::shared_ptr<LiveFeed> feed,
-             const HttpOptions& options);
+  /// `answerer` must outlive this. `feed`: of what happens; null where nothing does. Throws Error
+  /// where the address can't be listened on.
+  HttpServer(Answerer& answerer, std::shared_ptr<LiveFeed> feed, const HttpOptions& options);
   /// Ends all connections.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

@@ -121,7 +121,7 @@ std::string LiveFeed::frame_of(const LiveWorld& world, const Going& going) {
                               read.frequency_hz, to_seconds(read.stamp), last.count});
   }
   if (going.revision != told_.revision) frame["changed"] = true;
-  return frame.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(frame);
 }
 
 }  // namespace tagfield::http

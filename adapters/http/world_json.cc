@@ -87,6 +87,10 @@ std::size_t port_of(const LiveWorld& world, const LiveAntenna& antenna) {
 
 }  // namespace
 
+std::string json_text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 Json pose_json(const RigidTransform& X) {
   const Eigen::Vector3d& p = X.translation;
   const Eigen::Quaterniond& q = X.rotation;

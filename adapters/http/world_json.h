@@ -14,6 +14,9 @@ namespace tagfield::http {
 
 using Json = nlohmann::ordered_json;
 
+/// On one line; bytes that are no UTF-8 are replaced.
+std::string json_text(const Json& json);
+
 /// [x, y, z, qx, qy, qz, qw].
 Json pose_json(const RigidTransform& X);
 

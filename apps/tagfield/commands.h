@@ -22,6 +22,7 @@ void add_bench_command(CLI::App& app, Action& chosen);
 void add_events_command(CLI::App& app, Action& chosen);
 void add_stream_command(CLI::App& app, Action& chosen);
 void add_serve_command(CLI::App& app, Action& chosen);
+void add_view_command(CLI::App& app, Action& chosen);
 void add_gazebo_command(CLI::App& app, Action& chosen);
 
 }  // namespace tagfield

@@ -37,6 +37,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_events_command(app, chosen);
   tagfield::add_stream_command(app, chosen);
   tagfield::add_serve_command(app, chosen);
+  tagfield::add_view_command(app, chosen);
   tagfield::add_gazebo_command(app, chosen);
   try {
     app.parse(argc, argv);
@@ -50,7 +51,7 @@ int parse_and_run(int argc, char** argv) {
     fmt::print(
         stderr,
         "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, bench, events, stream, serve or gazebo (see tagfield --help)\n");
+        " coverage, bench, events, stream, serve, view or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

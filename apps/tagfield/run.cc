@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 
+#include "adapters/http/run_json.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/outlet_arguments.h"
@@ -69,6 +70,16 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   }
   if (run.navigation) stage_navigation(*run.navigation, folder);
   stage_top_view(loaded, folder);
+  folder.add("scene.json", http::scene_json(loaded));
+}
+
+/// The report, and beside it the run to be watched.
+void stage_pages(const ScenarioWithWorld& loaded, StagedFolder& folder) {
+  const std::string staging = folder.staging().string();
+  stage_report(staging, folder);
+  const std::string view =
+      http::view_page(http::run_json(read_run_files(staging), http::scene_json(loaded), staging));
+  if (!view.empty()) folder.add("view.html", view);
 }
 
 /// The first seed's tables go into `folder` while it runs.
@@ -126,10 +137,19 @@ void print_result(const Summary& summary, const std::string& out, bool page) {
 
 /// What of another run in the same folder does not belong to this one.
 const std::vector<std::filesystem::path>& stale_files() {
-  static const std::vector<std::filesystem::path> all = {
-      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json", "map.pgm",
-      "map.yaml",        "mapping_path.csv",   "truth/mapping_path.csv", "report.html",   "figures",
-      "INCOMPLETE"};
+  static const std::vector<std::filesystem::path> all = {"tag_heights.csv",
+                                                         "reference_tags.csv",
+                                                         "corrected_poses.csv",
+                                                         "top_view.json",
+                                                         "map.pgm",
+                                                         "map.yaml",
+                                                         "mapping_path.csv",
+                                                         "truth/mapping_path.csv",
+                                                         "report.html",
+                                                         "figures",
+                                                         "scene.json",
+                                                         "view.html",
+                                                         "INCOMPLETE"};
   return all;
 }
 
@@ -187,7 +207,7 @@ int run(const RunArguments& arguments) {
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
   if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
-  if (!arguments.no_page) stage_report(folder.staging().string(), folder);
+  if (!arguments.no_page) stage_pages(loaded, folder);
   folder.commit(stale_files());
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;

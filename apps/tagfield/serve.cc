@@ -112,9 +112,10 @@ int serve(ServeArguments arguments) {
     print_addresses(*llrp);
   }
   http::Api api(loaded.scene, scenario, seed);
+  http::LiveAnswerer answerer(world, api);
   std::optional<http::HttpServer> server;
   if (arguments.http) {
-    server.emplace(world, api, feed,
+    server.emplace(answerer, feed,
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
     fmt::print("http: {}\n", server->url());
   }

@@ -6,10 +6,13 @@
 #include <cstring>
 #include <memory>
 
+#include "adapters/mqtt/mqtt_outlet.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/start_time.h"
+#include "tagfield/events/event_stage.h"
+#include "tagfield/events/events_yaml.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/files/read_json.h"
 
@@ -20,8 +23,14 @@ struct StreamArguments {
   ScenarioArguments scenario;
   std::optional<double> speed;
   std::string start;
+  std::string mqtt;
+  std::size_t mqtt_buffer = MqttOptions{}.most_messages;
+  std::string spec;
   int threads = default_threads();
 };
+
+/// Who ends the program early doesn't wait for a broker that is away.
+constexpr std::chrono::milliseconds kShortPatience(300);
 
 /// Whoever read the standard output has closed it: there is nothing more to do.
 struct OutputClosed {};
@@ -63,6 +72,25 @@ class ReadLines final : public ReadListener {
   std::string lines_;
 };
 
+/// A broker that gets reads, and events where they are asked for; null for none.
+std::shared_ptr<MqttOutlet> attach_mqtt(const StreamArguments& arguments, Time start,
+                                        Outlets& outlets) {
+  if (arguments.mqtt.empty()) return nullptr;
+  MqttOptions options;
+  options.most_messages = arguments.mqtt_buffer;
+  options.warn = [](const std::string& line) {
+    fmt::print(stderr, "tagfield: warning: {}\n", line);
+  };
+  auto mqtt = std::make_shared<MqttOutlet>(arguments.mqtt, start, options);
+  attach(mqtt, outlets);
+  if (!arguments.spec.empty()) {
+    attach(std::make_shared<EventStage>(read_events_spec(arguments.spec),
+                                        std::vector<std::shared_ptr<EventListener>>{mqtt}),
+           outlets);
+  }
+  return mqtt;
+}
+
 int stream(const StreamArguments& arguments) {
   Diagnostics diagnostics;
   ScenarioWithWorld loaded = load(arguments.scenario, diagnostics);
@@ -74,8 +102,10 @@ int stream(const StreamArguments& arguments) {
     world = navigation_world(scenario, loaded.scene, diagnostics);
   }
   print_warnings(diagnostics);
-  const auto lines = std::make_shared<ReadLines>(start_time("stream", arguments.start, Time{}));
+  const Time start = start_time("stream", arguments.start, Time{});
+  const auto lines = std::make_shared<ReadLines>(start);
   RunControl control;
+  const std::shared_ptr<MqttOutlet> mqtt = attach_mqtt(arguments, start, control.outlets);
   attach(lines, control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();
@@ -86,6 +116,7 @@ int stream(const StreamArguments& arguments) {
     const SeedRun run = simulate(scenario, arguments.scenario.seed.value_or(scenario.seed), control,
                                  world ? &*world : nullptr);
     lines->flush();
+    if (mqtt) mqtt->finish(interrupted() ? kShortPatience : MqttOptions{}.patience);
     return run.complete ? kExitOk : kExitInterrupted;
   } catch (const OutputClosed&) {
     return kExitOk;
@@ -105,6 +136,20 @@ void add_stream_command(CLI::App& app, Action& chosen) {
                    "says by real_time, or else 1")
       ->check(CLI::Range(0.0, 1e6));
   add_start_option(*command, arguments->start);
+  CLI::Option* mqtt = command->add_option(
+      "--mqtt", arguments->mqtt,
+      "Publish each read to this broker, too: mqtt://[user:password@]host[:port][/prefix], to "
+      "PREFIX/reads/READER (docs/events.md)");
+  command
+      ->add_option("--mqtt-buffer", arguments->mqtt_buffer,
+                   "Messages that are kept while the broker is away (default 100000)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
+      ->needs(mqtt);
+  command
+      ->add_option(
+          "--spec", arguments->spec,
+          "Publish events, too, to PREFIX/events: as this file says, see 'tagfield events'")
+      ->needs(mqtt);
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -31,7 +32,10 @@ void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
   read_signals(antenna, antenna_key, {keys.data(), count}, {distances_m.data(), count}, stamp, seed,
                {phases_rad.data(), count}, {rssis_dbm.data(), count});
   const double frequency_hz = paper(antenna).model.frequency_hz;
+  const double least_dbm =
+      paper(antenna).sensitivity_dbm.value_or(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
+    if (rssis_dbm[i] < least_dbm) continue;
     replies.push_back(
         {slots[i], stamp, frequency_hz, phases_rad[i], rssis_dbm[i], distances_m[i], std::nullopt});
   }

@@ -63,12 +63,14 @@ Json to_json(const std::vector<MaterialOnLink>& materials) {
 }
 
 Json to_json(const PaperLink& link) {
-  return {{"range_m", link.range_m},
-          {"perturbed_range_m", link.perturbed_range_m},
-          {"update_s", to_seconds(link.update)},
-          {"read_probability", link.read_probability},
-          {"phase_rad", link.phase_rad},
-          {"rssi_dbm", link.rssi_dbm}};
+  Json json = {{"range_m", link.range_m},
+               {"perturbed_range_m", link.perturbed_range_m},
+               {"update_s", to_seconds(link.update)},
+               {"read_probability", link.read_probability},
+               {"phase_rad", link.phase_rad},
+               {"rssi_dbm", link.rssi_dbm}};
+  if (link.sensitivity_dbm) json["sensitivity_dbm"] = *link.sensitivity_dbm;
+  return json;
 }
 
 Json to_json(const LinkInterference& all) {

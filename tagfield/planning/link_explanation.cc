@@ -39,6 +39,7 @@ PaperLink paper_link(const LinkQuestion& question, double distance_m) {
   link.read_probability = read_probability(antenna, distance_m);
   link.phase_rad = paper_phase(model.model, apart_m, 0.0);
   link.rssi_dbm = paper_rssi_dbm(model.model, apart_m, 0.0);
+  link.sensitivity_dbm = model.sensitivity_dbm;
   return link;
 }
 
@@ -95,15 +96,30 @@ PhysicalLink physical_link(const Scenario& scenario, const LinkQuestion& questio
 
 double normal_above(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 
+/// Share of replies whose RSSI by eq. (5) is at least the antenna's sensitivity.
+double heard_probability(const PaperAntenna& antenna, double distance_m) {
+  if (!antenna.sensitivity_dbm) return 1.0;
+  // RSSIs are whole numbers.
+  const double least_dbm = std::ceil(*antenna.sensitivity_dbm) - 0.5;
+  const double least = std::pow(10.0, least_dbm / 40.0);
+  const double apart_m = std::max(distance_m, kLeastLinkDistance);
+  const double amplitude = antenna.model.communication_gain *
+                           wavelength(antenna.model.frequency_hz) / (4.0 * kPi * apart_m);
+  const double sigma = antenna.model.rssi_noise;
+  if (!(sigma > 0.0)) return amplitude >= least ? 1.0 : 0.0;
+  return normal_above((least - amplitude) / sigma) + normal_above((least + amplitude) / sigma);
+}
+
 }  // namespace
 
 double read_probability(const AntennaParameters& antenna, double distance_m) {
-  const auto& [model, range_m, range_sigma] = paper(antenna);
-  const double share = distance_m / range_m;
-  if (!(range_sigma > 0.0)) return share <= 1.0 ? 1.0 : 0.0;
-  const double probability =
-      normal_above((share - 1.0) / range_sigma) + normal_above((share + 1.0) / range_sigma);
-  return std::clamp(probability, 0.0, 1.0);
+  const PaperAntenna& model = paper(antenna);
+  const double heard = heard_probability(model, distance_m);
+  const double share = distance_m / model.range_m;
+  if (!(model.range_sigma > 0.0)) return share <= 1.0 ? heard : 0.0;
+  const double probability = normal_above((share - 1.0) / model.range_sigma) +
+                             normal_above((share + 1.0) / model.range_sigma);
+  return heard * std::clamp(probability, 0.0, 1.0);
 }
 
 std::vector<AntennaParameters> physical_antennas(const Scenario& scenario) {

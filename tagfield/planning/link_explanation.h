@@ -56,11 +56,12 @@ struct LinkQuestion {
 /// By the paper's model: range and the means of eqs. (4) and (5).
 struct PaperLink {
   double range_m = 0.0;
-  double perturbed_range_m = 0.0;  ///< In the antenna's last update up to the moment.
-  Time update;                     ///< When that was.
-  double read_probability = 0.0;   ///< In any one update.
-  double phase_rad = 0.0;          ///< Without noise, in [0, 2π).
-  double rssi_dbm = 0.0;           ///< Likewise.
+  double perturbed_range_m = 0.0;           ///< In the antenna's last update up to the moment.
+  Time update;                              ///< When that was.
+  double read_probability = 0.0;            ///< In any one update.
+  double phase_rad = 0.0;                   ///< Without noise, in [0, 2π).
+  double rssi_dbm = 0.0;                    ///< Likewise.
+  std::optional<double> sensitivity_dbm{};  ///< Of the antenna, where it has one.
 };
 
 /// A tag that couples with the one asked about.
@@ -149,7 +150,8 @@ struct LinkExplanation {
 LinkExplanation explain_link(const Scenario& scenario, const LinkQuestion& question);
 
 /// Share of an antenna's updates in which its perturbed range (see perturbed_range()) is at least
-/// `distance_m`, by the paper's model: P(r·|1 + σr·n| ≥ D).
+/// `distance_m`, by the paper's model: P(r·|1 + σr·n| ≥ D); and of those the share whose RSSI is at
+/// least the antenna's sensitivity, where it has one: P(|G·λ/(4πD) + n_RSSI| ≥ 10^((s − ½)/40)).
 double read_probability(const AntennaParameters& antenna, double distance_m);
 
 /// Those that share the air.

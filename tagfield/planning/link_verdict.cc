@@ -125,6 +125,11 @@ void judge_paper(LinkExplanation& link) {
       fmt::format("{}: {:.2f} m {} the range of {:.2f} m ({:.2f} m in this update)",
                   link.read ? "read" : "not read", std::abs(inside_m),
                   link.read ? "inside" : "beyond", paper.range_m, paper.perturbed_range_m);
+  if (!link.read || paper.rssi_dbm >= paper.sensitivity_dbm.value_or(paper.rssi_dbm)) return;
+  link.read = false;
+  link.verdict =
+      fmt::format("not read: {:.0f} dBm without noise are below the sensitivity of {:g} dBm",
+                  paper.rssi_dbm, *paper.sensitivity_dbm);
 }
 
 }  // namespace

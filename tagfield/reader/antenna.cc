@@ -24,6 +24,7 @@ std::uint64_t stamp_key(Time stamp) {
 void check_range(const PaperAntenna& antenna) {
   require_positive("range_m", antenna.range_m);
   require_not_negative("range_sigma", antenna.range_sigma);
+  require_in_range("sensitivity_dbm", antenna.sensitivity_dbm.value_or(0.0), -150.0, 30.0);
 }
 
 }  // namespace

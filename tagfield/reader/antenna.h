@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -23,6 +24,9 @@ struct PaperAntenna {
   PaperModel model;
   double range_m = 7.0;       ///< Nominal range r; greater than 0.
   double range_sigma = 0.05;  ///< σr: relative spread of the range; 0 or more.
+  /// Least RSSI of a reply that is reported. None in the paper, whose noise makes RSSIs that no
+  /// reader hears.
+  std::optional<double> sensitivity_dbm{};
 };
 
 /// What an antenna is simulated by. Of what it is, field/ alone asks.

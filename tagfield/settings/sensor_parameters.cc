@@ -138,7 +138,7 @@ void warn_of_unknown(const std::vector<RawParameter>& parameters, std::vector<st
 
 /// The parameter that a check complained of, as it is called in SDF.
 std::string in_sdf_words(std::string message) {
-  static const std::array<std::array<const char*, 2>, 8> words = {{
+  static const std::array<std::array<const char*, 2>, 9> words = {{
       {"frequency_hz", "<frequency>"},
       {"phase_noise_rad", "<noisephi>"},
       {"rssi_noise", "<noiserssi>"},
@@ -147,6 +147,7 @@ std::string in_sdf_words(std::string message) {
       {"communication_gain", "<communication_gain>"},
       {"rate_hz", "<update_rate>"},
       {"phase_offset_rad", "<phase_offset>"},
+      {"sensitivity_dbm", "<sensitivity_dbm>"},
   }};
   for (const auto& [ours, theirs] : words) {
     if (message.rfind(ours, 0) == 0) return message.replace(0, std::string(ours).size(), theirs);
@@ -176,6 +177,9 @@ SensorAntenna antenna_from(const std::string& sensor, const std::vector<RawParam
   if (radio) {
     antenna.parameters.model = radio;
   } else {
+    if (const RawParameter* const given = find(parameters, "sensitivity_dbm")) {
+      numbers.paper.sensitivity_dbm = number_of(*given, given->value);
+    }
     antenna.parameters.model = numbers.paper;
   }
   antenna.seed = seed_from(parameters);

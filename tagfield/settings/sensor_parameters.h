@@ -25,7 +25,8 @@ struct TagModel;
 ///
 /// Tagfield's own: `model` paper | link_budget | multipath (default paper), `antenna` (its name,
 /// unique; default: the sensor's), `reader` (the name of its reader; default: the antenna's),
-/// `phase_offset` [rad] 0, `range_sigma` (relative spread of the range) 0.05.
+/// `phase_offset` [rad] 0, `range_sigma` (relative spread of the range) 0.05, `sensitivity_dbm`
+/// (least RSSI that is reported) none.
 ///
 /// In Gazebo alone: `seed` (of all random draws) 1, `robotNamespace` (of the topics) none,
 /// `frame_id` (of the messages; default: the antenna's name), `parent_frame` (the link of the same

@@ -80,10 +80,10 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
   }
 }
 
-/// The paper's model has elements of its own.
+/// The paper's model has elements of its own, and one that all have.
 void require_no_setting(const std::vector<RawParameter>& parameters) {
   for (const RawParameter& parameter : parameters) {
-    if (!is_antenna_setting(parameter.key)) continue;
+    if (!is_antenna_setting(parameter.key) || parameter.key == "sensitivity_dbm") continue;
     throw Error(
         fmt::format("{} belongs to <model> link_budget or multipath, but the antenna is "
                     "simulated by <model> paper",

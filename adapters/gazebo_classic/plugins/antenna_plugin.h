@@ -20,6 +20,7 @@
 ///         <seed>1</seed>                    <!-- of all random draws; 1 -->
 ///         <phase_offset>0</phase_offset>    <!-- rad; 0 -->
 ///         <range_sigma>0.05</range_sigma>   <!-- relative spread of the range; 0.05 -->
+///         <sensitivity_dbm>-70</sensitivity_dbm> <!-- least RSSI that is reported; none -->
 ///         <robotNamespace></robotNamespace> <!-- of rfid/reads and rfid/truth/antennas; none -->
 ///         <frame_id>gate</frame_id>         <!-- of the antenna; default: its name -->
 ///         <parent_frame>base_link</parent_frame> <!-- link of this model that tf tells the frame

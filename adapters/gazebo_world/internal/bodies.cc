@@ -56,6 +56,7 @@ void add_model(XMLElement* plugin, const PaperAntenna& antenna) {
   add(plugin, "range", antenna.range_m);
   add(plugin, "range_sigma", antenna.range_sigma);
   add(plugin, "communication_gain", antenna.model.communication_gain);
+  if (antenna.sensitivity_dbm) add(plugin, "sensitivity_dbm", *antenna.sensitivity_dbm);
   add_distribution(plugin, antenna.model.optional);
 }
 

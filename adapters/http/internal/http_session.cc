@@ -48,7 +48,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void on_read(beast::error_code error);
   [[nodiscard]] std::optional<ApiResponse> refusal(const Request& request) const;
   void handle(Request request);
-  void ask_world(const Request& request);
+  void ask(const Request& request);
   void on_answer(const ApiAnswer& answer);
   void respond(const ApiResponse& answer);
   void respond_file(std::string_view file, const char* type, const char* policy);
@@ -128,11 +128,11 @@ void HttpSession::handle(Request request) {
   const std::string_view path = std::string_view(target.data(), target.size());
   const bool is_get = request.method() == http::verb::get;
   if (is_get && beast::websocket::is_upgrade(request)) {
-    if (path != "/api/live") return respond(api_error(404, "WebSockets are at /api/live"));
+    if (path != "/api/live" || !context_.feed) return respond(api_error(404, "WebSockets are at /api/live"));
     stream_.expires_never();
     return serve_frames(context_, std::move(stream_), std::move(request), count_);
   }
-  if (is_get && path.substr(0, path.find('?')) == "/api/reads") {
+  if (is_get && context_.feed && path.substr(0, path.find('?')) == "/api/reads") {
     return serve_reads(context_, std::move(stream_), request, count_);
   }
   if (is_get && path == "/") {
@@ -142,18 +142,18 @@ void HttpSession::handle(Request request) {
   if (is_get && path == "/api/openapi.json") {
     return respond_file(openapi_file(), "application/json", "default-src 'none'");
   }
-  ask_world(request);
+  ask(request);
 }
 
-void HttpSession::ask_world(const Request& request) {
+void HttpSession::ask(const Request& request) {
   const auto method = request.method_string();
   const auto target = request.target();
   ApiRequest asked{{method.data(), method.size()}, {target.data(), target.size()}, request.body()};
-  context_.world.post([self = shared_from_this(), asked = std::move(asked)](LiveWorld& world) {
-    ServerContext& context = self->context_;
-    ApiAnswer answer = context.api.answer(world, asked, context.stop);
-    asio::post(context.io, [self, answer = std::move(answer)] { self->on_answer(answer); });
-  });
+  context_.answerer.ask(
+      asked, context_.stop, [self = shared_from_this()](ApiAnswer answer) {
+        asio::post(self->context_.io,
+                   [self, answer = std::move(answer)] { self->on_answer(answer); });
+      });
 }
 
 void HttpSession::on_answer(const ApiAnswer& answer) {

@@ -20,8 +20,7 @@ namespace beast = boost::beast;
 using Request = beast::http::request<beast::http::string_body>;
 
 struct ServerContext {
-  LiveWorld& world;
-  Api& api;
+  Answerer& answerer;
   std::shared_ptr<LiveFeed> feed;
   HttpOptions options;
   std::string own_name;  ///< This machine's.

@@ -50,6 +50,29 @@ TEST(TagPopulation, RefusesAPlaceThatIsNowhereAndStaysWhole) {
   EXPECT_TRUE(tags.has(0));
 }
 
+RC_GTEST_PROP(ReadTags, ReportOnlyWhatReachesTheSensitivity, ()) {
+  TagPopulation tags(3.5);
+  for (std::uint32_t i = 0; i < 700; ++i) tags.add(i, "tag" + std::to_string(i), {0.01 * i, 0, 1});
+  AntennaParameters parameters = antenna();
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  std::vector<TagReply> all;
+  read_tags(parameters, kOrigin, Time{}, seed, tags, all);
+  const double least_dbm = *rc::gen::inRange(-100, -20);
+  paper(parameters).sensitivity_dbm = least_dbm;
+  std::vector<TagReply> heard;
+  read_tags(parameters, kOrigin, Time{}, seed, tags, heard);
+  std::size_t next = 0;
+  for (const TagReply& reply : all) {
+    if (reply.rssi_dbm < least_dbm) continue;
+    RC_ASSERT(next < heard.size());
+    RC_ASSERT(heard[next].slot == reply.slot);
+    RC_ASSERT(heard[next].phase_rad == reply.phase_rad);
+    RC_ASSERT(heard[next].rssi_dbm == reply.rssi_dbm);
+    ++next;
+  }
+  RC_ASSERT(next == heard.size());
+}
+
 // Against a map: whatever is added, moved and removed, the population holds what the map holds, and
 // an antenna reads exactly those within its range, each as read_tag() alone would.
 RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {

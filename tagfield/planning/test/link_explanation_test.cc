@@ -169,6 +169,42 @@ TEST(LinkExplanation, PapersProbabilityIsThatOfItsNormalDistribution) {
   EXPECT_EQ(read_probability(antenna, 7.01), 0.0);
 }
 
+TEST(LinkExplanation, PapersProbabilityCountsWhatReachesTheSensitivity) {
+  AntennaParameters antenna;
+  antenna.name = "a";
+  PaperAntenna& model = paper(antenna);
+  model.range_sigma = 0.0;
+  model.model.rssi_noise = 0.008;
+  LinkGeometry link;
+  link.distance_m = 3.0;
+  for (const double least_dbm : {-120.0, -90.5, -85.0, -80.0, -75.0, -70.0}) {
+    model.sensitivity_dbm = least_dbm;
+    constexpr int kReads = 20'000;
+    int heard = 0;
+    for (int i = 0; i < kReads; ++i) {
+      const Signal signal = read_signal(antenna, 1, 2, link, Time(Duration(i)), 3);
+      if (signal.rssi_dbm >= least_dbm) ++heard;
+    }
+    const double expected = read_probability(antenna, link.distance_m);
+    const double sigma = std::sqrt(expected * (1.0 - expected) / kReads);
+    EXPECT_NEAR(static_cast<double>(heard) / kReads, expected, 4.0 * sigma + 1e-9) << least_dbm;
+  }
+  model.model.rssi_noise = 0.0;
+  EXPECT_EQ(read_probability(antenna, 3.0), 0.0);
+  model.sensitivity_dbm = -120.0;
+  EXPECT_EQ(read_probability(antenna, 3.0), 1.0);
+}
+
+TEST(LinkExplanation, SaysWhereThePapersReplyIsTooWeak) {
+  Scenario scenario = three_metres_apart();
+  PaperAntenna antenna;
+  antenna.sensitivity_dbm = -50.0;
+  scenario.antennas.front().parameters.model = antenna;
+  const LinkExplanation link = explained(scenario);
+  EXPECT_FALSE(link.read);
+  EXPECT_EQ(link.verdict, "not read: -81 dBm without noise are below the sensitivity of -50 dBm");
+}
+
 TEST(LinkExplanation, WritesMarginsAsBooksDo) {
   EXPECT_EQ(signed_db(6.24), "+6.2 dB");
   EXPECT_EQ(signed_db(-3.14), "−3.1 dB");

@@ -18,16 +18,18 @@ constexpr std::array<const char*, 7> kPaperKeys = {"range_m",
 
 constexpr const char* kPhysicalModels = "model: link_budget or model: multipath";
 
-bool is_papers(const std::string& key) {
-  return key == "frequency_hz" || key == "phase_offset_rad";
+/// Keys of antennas that both models have.
+bool is_shared(const std::string& key) {
+  return key == "frequency_hz" || key == "phase_offset_rad" || key == "sensitivity_dbm";
 }
 
-/// The first key of `map` that is a setting, or else `other`; none where there is neither.
+/// The first key of `map` that is a setting, and not of an antenna's shared ones, or else `other`;
+/// none where there is neither.
 std::optional<std::string> physical_key_in(YamlMap& map, const std::vector<SettingHelp>& settings,
-                                           const char* other) {
+                                           const char* other, bool is_antenna) {
   if (map.has(other)) return other;
   for (const SettingHelp& setting : settings) {
-    if (!is_papers(setting.key) && map.has(setting.key)) return setting.key;
+    if (!(is_antenna && is_shared(setting.key)) && map.has(setting.key)) return setting.key;
   }
   return std::nullopt;
 }
@@ -62,6 +64,7 @@ PaperAntenna paper_antenna_of(YamlMap& map) {
   antenna.model = paper_model_of(map);
   antenna.range_m = map.number("range_m", antenna.range_m, kPositive);
   antenna.range_sigma = map.number("range_sigma", antenna.range_sigma, kNotNegative);
+  if (map.has("sensitivity_dbm")) antenna.sensitivity_dbm = map.at("sensitivity_dbm").number();
   return antenna;
 }
 
@@ -87,7 +90,7 @@ AntennaModel antenna_model_of(YamlMap& antenna, const RadioDefaults& defaults,
     warn_of_papers_keys(antenna, model, diagnostics);
     return radio_model_of(antenna, model, defaults, diagnostics);
   }
-  if (const auto key = physical_key_in(antenna, antenna_settings(), "profiles")) {
+  if (const auto key = physical_key_in(antenna, antenna_settings(), "profiles", true)) {
     antenna.at(*key).fail(fmt::format("belongs to {}, but the antenna is simulated by model: paper",
                                       kPhysicalModels));
   }
@@ -106,7 +109,7 @@ std::optional<Error> key_without_physical_antenna(YamlMap& scenario) {
   }
   for (const YamlValue& value : scenario.list("tags")) {
     YamlMap tag(value);
-    if (const auto key = physical_key_in(tag, tag_settings(), "profile")) {
+    if (const auto key = physical_key_in(tag, tag_settings(), "profile", false)) {
       return complaint(tag, *key);
     }
   }

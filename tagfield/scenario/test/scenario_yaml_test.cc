@@ -162,6 +162,20 @@ TEST(LoadScenario, RefusesPhysicalKeysBesideThePapersModel) {
             "2: without" + belongs + "all antennas are simulated by model: paper");
 }
 
+TEST(LoadScenario, TakesASensitivityOfThePapersAntennas) {
+  EXPECT_FALSE(
+      paper(load_scenario(write_scenario(kWhole), {}).antennas[0].parameters).sensitivity_dbm);
+  const Scenario scenario =
+      load_scenario(write_scenario(kWhole), {{"antennas.a.sensitivity_dbm", "-70"}});
+  EXPECT_EQ(paper(scenario.antennas[0].parameters).sensitivity_dbm, -70.0);
+  EXPECT_NE(
+      complaint("frequency_hz: 915e6", "sensitivity_dbm: -200").find("sensitivity_dbm must be"),
+      std::string::npos);
+  EXPECT_NE(
+      complaint("{id: t1,", "{id: t1, sensitivity_dbm: -18,").find("sensitivity_dbm belongs to"),
+      std::string::npos);
+}
+
 TEST(LoadScenario, TakesEpcsAsTagIdsAsTheyAreWritten) {
   std::string text = kWhole;
   const std::string uri = "urn:epc:id:sgtin:0614141.812345.6789";

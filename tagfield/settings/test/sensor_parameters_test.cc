@@ -37,6 +37,7 @@ TEST(AntennaFrom, TakesTagfieldsOwnParameters) {
                                               {"reader", "r1", {}},
                                               {"phase_offset", "0.5", {}},
                                               {"range_sigma", "0", {}},
+                                              {"sensitivity_dbm", "-70", {}},
                                               {"seed", "18446744073709551615", {}},
                                               {"model", "paper", {}},
                                               {"frame_id", "a1_frame", {}},
@@ -46,6 +47,7 @@ TEST(AntennaFrom, TakesTagfieldsOwnParameters) {
   EXPECT_EQ(antenna.parameters.reader, "r1");
   EXPECT_EQ(paper(antenna.parameters).model.phase_offset_rad, 0.5);
   EXPECT_EQ(paper(antenna.parameters).range_sigma, 0.0);
+  EXPECT_EQ(paper(antenna.parameters).sensitivity_dbm, -70.0);
   EXPECT_EQ(antenna.seed, ~std::uint64_t{0});
   EXPECT_EQ(antenna.frame_id, "a1_frame");
   EXPECT_EQ(antenna.parent_frame, "base_link");

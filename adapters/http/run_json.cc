@@ -1,0 +1,217 @@
+#include "adapters/http/run_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "adapters/http/embedded.h"
+#include "adapters/http/world_json.h"
+
+namespace tagfield::http {
+namespace {
+
+constexpr std::size_t kMostReads = 200'000;
+
+/// Short numbers: a tenth of a millimetre, a millisecond, a hundredth of a decibel are enough to
+/// look at.
+double to_decimals(double value, double unit) { return std::round(value * unit) / unit; }
+Json short_point(const Eigen::Vector3d& p) {
+  return {to_decimals(p.x(), 1e4), to_decimals(p.y(), 1e4), to_decimals(p.z(), 1e4)};
+}
+Json short_pose(const RigidTransform& X) {
+  Json pose = short_point(X.translation);
+  const Eigen::Quaterniond& q = X.rotation;
+  for (const double part : {q.x(), q.y(), q.z(), q.w()}) pose.push_back(to_decimals(part, 1e5));
+  return pose;
+}
+double short_time(Time stamp) { return to_decimals(to_seconds(stamp), 1e4); }
+
+Json track_json(const Trajectory& poses) {
+  Json times = Json::array();
+  Json all = Json::array();
+  for (const StampedPose& pose : poses) {
+    times.push_back(short_time(pose.stamp));
+    all.push_back(short_pose(pose.X_WB));
+  }
+  return {{"t", std::move(times)}, {"pose", std::move(all)}};
+}
+
+Json places_json(const std::vector<TagPosition>& places) {
+  Json times = Json::array();
+  Json all = Json::array();
+  for (const TagPosition& place : places) {
+    times.push_back(short_time(place.stamp));
+    all.push_back(short_point(place.p_WT));
+  }
+  return {{"t", std::move(times)}, {"p", std::move(all)}};
+}
+
+/// Numbers of names in the order in which they are first asked for.
+class Numbers {
+ public:
+  std::size_t of(const std::string& name) {
+    return numbers_.emplace(name, numbers_.size()).first->second;
+  }
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+};
+
+/// What scene.json does not know of: antennas as the run's tables have them.
+Json plain_antenna(const AntennaTrack& track) {
+  const TagRead* const read = track.reads.empty() ? nullptr : track.reads.front();
+  return {{"name", track.antenna},
+          {"reader", read == nullptr ? "" : read->reader},
+          {"port", 1},
+          {"on", true},
+          {"faulty", false},
+          {"robot", track.moving ? "robot" : ""},
+          {"model", "physical"},
+          {"range", 0.0},
+          {"frequency", read == nullptr ? 0.0 : read->frequency_hz},
+          {"power_dbm", nullptr},
+          {"beam", nullptr}};
+}
+
+Json antennas_of(const RunFiles& run, const Json& scene) {
+  Json all = Json::array();
+  const Json known = scene.value("antennas", Json::array());
+  for (const AntennaTrack& track : run.tracks) {
+    Json antenna = plain_antenna(track);
+    for (const Json& other : known) {
+      if (other.is_object() && other.value("name", "") == track.antenna) antenna.update(other);
+    }
+    antenna["pose"] = short_pose(track.best().front().X_WB);
+    all.push_back(std::move(antenna));
+  }
+  return all;
+}
+
+/// Where each tag is at first: truly, where that is known, or else as it was estimated.
+Json tags_of(const RunFiles& run, Numbers& numbers) {
+  Json all = Json::array();
+  for (const TagOutcome* outcome : first_outcomes(run.summary)) {
+    const std::string& id = outcome->estimate.tag;
+    const auto places = run.true_places.find(id);
+    const bool has_place = places != run.true_places.end() && !places->second.empty();
+    const auto place =
+        has_place ? std::optional(places->second.front().p_WT) : known_place(*outcome);
+    if (!place) continue;
+    numbers.of(id);
+    all.push_back({{"id", id},
+                   {"position", short_point(*place)},
+                   {"rotation", {0.0, 0.0, 0.0, 1.0}},
+                   {"moves", has_place && places->second.size() > 1}});
+  }
+  return all;
+}
+
+Json reads_of(const RunFiles& run, Numbers& tags, std::size_t known_tags, Numbers& antennas) {
+  Json json;
+  for (const char* key : {"t", "tag", "antenna", "rssi", "phase"}) json[key] = Json::array();
+  const std::size_t every = 1 + run.reads.size() / kMostReads;
+  for (std::size_t i = 0; i < run.reads.size(); i += every) {
+    const TagRead& read = run.reads[i];
+    const std::size_t tag = tags.of(read.tag);
+    if (tag >= known_tags) continue;  // nobody knows where it is
+    json["t"].push_back(short_time(read.stamp));
+    json["tag"].push_back(tag);
+    json["antenna"].push_back(antennas.of(read.antenna));
+    json["rssi"].push_back(to_decimals(read.rssi_dbm, 100.0));
+    json["phase"].push_back(to_decimals(read.phase_rad, 1e3));
+  }
+  return json;
+}
+
+Json estimates_of(const RunFiles& run) {
+  Json all = Json::array();
+  for (const TagOutcome* outcome : first_outcomes(run.summary)) {
+    const TagEstimate& estimate = outcome->estimate;
+    if (estimate.verdict != Verdict::kLocated || estimate.candidates.empty()) continue;
+    const Candidate& place = estimate.candidates.front();
+    Json row = {estimate.tag};
+    for (const Json& number : short_point(place.p_WT)) row.push_back(number);
+    // Without a covariance it is as well known either way.
+    const double equal = 0.5 * place.expected_error_m * place.expected_error_m;
+    const auto& known = place.covariance;
+    row.push_back(known ? Json{(*known)(0, 0), (*known)(0, 1), (*known)(1, 1)}
+                        : Json{equal, 0.0, equal});
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+}  // namespace
+
+std::string scene_json(const ScenarioWithWorld& loaded) {
+  Json scene = solids_json(loaded.scene, loaded.scenario);
+  scene["obstacles"] = Json::array();
+  scene["paths"] = paths_json(loaded.scenario);
+  Json antennas = Json::array();
+  std::map<std::string, std::size_t> ports;
+  for (const AntennaSpec& antenna : loaded.scenario.antennas) {
+    const std::size_t port = ++ports[antenna.parameters.reader];
+    antennas.push_back(antenna_json(antenna, antenna.X_PA, port));
+  }
+  return json_text({{"scene", std::move(scene)}, {"antennas", std::move(antennas)}}) + "\n";
+}
+
+std::string run_json(const RunFiles& run, const std::string& scene, const std::string& folder) {
+  Json known = Json::object();
+  if (!scene.empty()) known = Json::parse(scene, nullptr, false);
+  if (!known.is_object()) throw Error(fmt::format("{}/scene.json: is no JSON object", folder));
+  Json json;
+  json["scene"] = known.contains("scene")
+                      ? known["scene"]
+                      : Json{{"name", run.summary.scenario}, {"description", ""},
+                             {"solids", Json::array()},      {"meshes", Json::array()},
+                             {"obstacles", Json::array()},   {"map", nullptr},
+                             {"paths", Json::array()}};
+  json["antennas"] = antennas_of(run, known);
+  Numbers tags;
+  json["tags"] = tags_of(run, tags);
+  Numbers antennas;
+  json["antenna_poses"] = Json::object();
+  Time first = Time::max();
+  Time last = Time::min();
+  for (const AntennaTrack& track : run.tracks) {
+    antennas.of(track.antenna);
+    if (track.best().size() > 1) json["antenna_poses"][track.antenna] = track_json(track.best());
+    first = std::min(first, track.best().front().stamp);
+    last = std::max(last, track.best().back().stamp);
+  }
+  for (const TagRead& read : run.reads) {
+    first = std::min(first, read.stamp);
+    last = std::max(last, read.stamp);
+  }
+  json["duration"] = first <= last ? Json{short_time(first), short_time(last)} : Json{0.0, 0.0};
+  json["robot_poses"] = Json::object();
+  json["tag_positions"] = Json::object();
+  for (const auto& [tag, places] : run.true_places) {
+    if (places.size() > 1) json["tag_positions"][tag] = places_json(places);
+  }
+  json["reads"] = reads_of(run, tags, json["tags"].size(), antennas);
+  json["estimates"] = estimates_of(run);
+  return json_text(json);
+}
+
+std::string view_page(const std::string& run) {
+  const std::string_view page = page_file();
+  const std::size_t script = page.find("<script");
+  if (script == std::string_view::npos) return "";
+  std::string view(page.substr(0, script));
+  view += "<script type=\"application/json\" id=\"tagfield-run\">";
+  for (const char c : run) {
+    // No text of the run may end the element.
+    if (c == '<') {
+      view += "\\u003c";
+    } else {
+      view += c;
+    }
+  }
+  view += "</script>";
+  return view.append(page.substr(script));
+}
+
+}  // namespace tagfield::http
