@@ -128,7 +128,8 @@ void HttpSession::handle(Request request) {
   const std::string_view path = std::string_view(target.data(), target.size());
   const bool is_get = request.method() == http::verb::get;
   if (is_get && beast::websocket::is_upgrade(request)) {
-    if (path != "/api/live" || !context_.feed) return respond(api_error(404, "WebSockets are at /api/live"));
+    if (path != "/api/live" || !context_.feed)
+      return respond(api_error(404, "WebSockets are at /api/live"));
     stream_.expires_never();
     return serve_frames(context_, std::move(stream_), std::move(request), count_);
   }
@@ -149,11 +150,9 @@ void HttpSession::ask(const Request& request) {
   const auto method = request.method_string();
   const auto target = request.target();
   ApiRequest asked{{method.data(), method.size()}, {target.data(), target.size()}, request.body()};
-  context_.answerer.ask(
-      asked, context_.stop, [self = shared_from_this()](ApiAnswer answer) {
-        asio::post(self->context_.io,
-                   [self, answer = std::move(answer)] { self->on_answer(answer); });
-      });
+  context_.answerer.ask(asked, context_.stop, [self = shared_from_this()](ApiAnswer answer) {
+    asio::post(self->context_.io, [self, answer = std::move(answer)] { self->on_answer(answer); });
+  });
 }
 
 void HttpSession::on_answer(const ApiAnswer& answer) {

@@ -22,8 +22,13 @@ export function setText(element, text) {
 }
 
 export const minus = (text) => text.replace("-", "−");
-export const fixed = (value, digits = 1) =>
-  Number.isFinite(value) ? minus(value.toFixed(digits)) : "–";
+
+export function fixed(value, digits = 1) {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : minus(text);
+}
+
 export function signed(value, digits = 1) {
   if (!Number.isFinite(value)) return "–";
   const text = value.toFixed(digits);

@@ -79,7 +79,7 @@ export class Live {
 
   #again() {
     this.loaded = false;
-    this.say("away", `The server is away; trying again every ${LONGEST_WAIT_MS / 1000} s at least`);
+    this.say("away", "The server is away; trying again");
     setTimeout(() => this.start(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
   }

@@ -63,6 +63,7 @@ class View {
       return new Drawing(this.at.canvas, this.world, this.scale);
     } catch {
       this.at.noWebgl.hidden = false;
+      this.at.view.dataset.plain = "";
       setText(this.at.noWebgl, NO_WEBGL);
       this.at.canvas.hidden = this.at.views.hidden = this.at.beams.hidden = this.at.legend.hidden =
         true;
@@ -227,7 +228,10 @@ class View {
 
   // The next click's place in the world, or null where there is none or Escape was pressed.
   pickPlace(word) {
-    if (!this.stage) return Promise.resolve(null);
+    if (!this.stage) {
+      this.say("refused", "A place can be clicked only where the world is drawn");
+      return Promise.resolve(null);
+    }
     this.picked?.(null);
     setText(this.at.pick, `${word} (Escape: never mind)`);
     this.at.pick.hidden = false;

@@ -1,6 +1,6 @@
 // Changes and faults of a live world: tags, antennas and obstacles come, go and move.
 
-import {fixed, h, setText} from "../dom.js";
+import {h, setText} from "../dom.js";
 
 const number = (id, value, properties = {}) =>
   h("input", {type: "number", step: "any", id, value, ...properties});
@@ -147,7 +147,7 @@ export class Changes {
       if (place)
         await act(
           "POST", "/move",
-          {position: place.map((value) => Number(fixed(value, 3).replace("−", "-")))});
+          {position: place.map((value) => Number(value.toFixed(3)))});
     };
     return h(
       "div", {},
