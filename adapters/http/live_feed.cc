@@ -29,6 +29,7 @@ void LiveFeed::add(std::weak_ptr<FrameClient> client) {
   const std::lock_guard<std::mutex> guard(lock_);
   frame_clients_.push_back(std::move(client));
   has_frame_clients_ = true;
+  has_new_client_ = true;
 }
 
 void LiveFeed::add(std::weak_ptr<ReadClient> client) {
@@ -90,7 +91,8 @@ void LiveFeed::tell_reads(const LiveWorld& world) {
 
 void LiveFeed::tell_frame(const LiveWorld& world) {
   const Going going{world.now(), world.is_paused(), world.speed(), world.revision()};
-  if (going == told_ && last_.empty()) return;
+  const bool is_new = has_new_client_.exchange(false);
+  if (going == told_ && last_.empty() && !is_new) return;
   const auto frame = std::make_shared<const std::string>(frame_of(world, going));
   told_ = going;
   last_.clear();

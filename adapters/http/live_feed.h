@@ -87,6 +87,7 @@ class LiveFeed final : public ReadListener, public LiveMember {
   std::vector<std::weak_ptr<FrameClient>> frame_clients_;
   std::vector<std::weak_ptr<ReadClient>> read_clients_;
   std::atomic<bool> has_frame_clients_{false};
+  std::atomic<bool> has_new_client_{false};  ///< Of frames: it knows nothing yet.
   std::atomic<bool> has_read_clients_{false};
   std::atomic<std::int64_t> count_{0};
 

@@ -117,7 +117,7 @@ void LiveWorld::Impl::do_tasks(LiveWorld& world) {
     tasks.swap(tasks_);
   }
   for (const Task& task : tasks) task(world);
-  if (tasks.empty()) return;
+  if (tasks.empty() && !clock.is_paused(simulation.now())) return;
   for (const auto& member : members) member->on_tasks(world);
 }
 

@@ -29,7 +29,7 @@ class LiveMember {
 
   /// After each step, all reads up to `now` that can be told having been told.
   virtual void on_step(LiveWorld& world, Time now) = 0;
-  /// After tasks were done, also while it is paused.
+  /// After tasks were done, and while it is paused now and then.
   virtual void on_tasks(LiveWorld& /*world*/) {}
 };
 
