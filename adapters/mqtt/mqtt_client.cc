@@ -129,7 +129,7 @@ class MqttClient::Impl {
     const int code = mosquitto_connect_async(client_, url.host.c_str(), url.port, kKeepalive_s);
     if (code == MOSQ_ERR_EAI)
       throw Error(fmt::format("MQTT: the host '{}' is not known", url.host));
-    if (code == MOSQ_ERR_INVAL || code == MOSQ_ERR_TLS) require(code);
+    if (code == MOSQ_ERR_INVAL) require(code);
     // Whatever else: it will be tried again.
     thread_ = std::thread([this] { serve(); });
   }

@@ -34,7 +34,7 @@ struct MqttCounts {
 class MqttClient {
  public:
   /// Begins to connect, and doesn't wait for it. Throws Error where the host is not known, TLS
-  /// can't be had, or Tagfield was built without libmosquitto.
+  /// is not built in, or Tagfield was built without libmosquitto.
   MqttClient(const MqttUrl& url, const MqttOptions& options);
   /// finish()es, with MqttOptions::patience.
   ~MqttClient();
