@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "apps/tagfield/command_line.h"
-#include "tagfield/events/event_stage.h"
 #include "tagfield/events/events_yaml.h"
 
 namespace tagfield {
@@ -31,27 +30,27 @@ void add_mqtt_options(CLI::App& command, MqttArguments& arguments) {
       ->needs(mqtt);
 }
 
-std::shared_ptr<MqttOutlet> attach_mqtt(const MqttArguments& arguments, Time start,
-                                        Outlets& outlets) {
-  if (arguments.url.empty()) return nullptr;
+MqttRun attach_mqtt(const MqttArguments& arguments, Time start, Outlets& outlets) {
+  MqttRun run;
+  if (arguments.url.empty()) return run;
   MqttOptions options;
   options.most_messages = arguments.buffer;
   options.warn = [](const std::string& line) {
     fmt::print(stderr, "tagfield: warning: {}\n", line);
   };
-  auto mqtt = std::make_shared<MqttOutlet>(arguments.url, start, options);
-  attach(mqtt, outlets);
-  if (!arguments.spec.empty()) {
-    attach(std::make_shared<EventStage>(read_events_spec(arguments.spec),
-                                        std::vector<std::shared_ptr<EventListener>>{mqtt}),
-           outlets);
-  }
-  return mqtt;
+  run.broker = std::make_shared<MqttOutlet>(arguments.url, start, options);
+  attach(run.broker, outlets);
+  if (arguments.spec.empty()) return run;
+  run.events = std::make_shared<EventStage>(
+      read_events_spec(arguments.spec), std::vector<std::shared_ptr<EventListener>>{run.broker});
+  attach(run.events, outlets);
+  return run;
 }
 
-void finish(MqttOutlet* mqtt) {
-  if (mqtt == nullptr) return;
-  mqtt->finish(interrupted() ? kMomentAfterInterrupt : MqttOptions{}.patience);
+void finish(const MqttRun& run, Time end) {
+  if (run.events) run.events->finish(end);
+  if (!run.broker) return;
+  run.broker->finish(interrupted() ? kMomentAfterInterrupt : MqttOptions{}.patience);
 }
 
 }  // namespace tagfield

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "adapters/mqtt/mqtt_outlet.h"
+#include "tagfield/events/event_stage.h"
 #include "tagfield/stream/listeners.h"
 
 namespace tagfield {
@@ -20,12 +21,17 @@ struct MqttArguments {
 /// Adds --mqtt, --mqtt-buffer and --spec.
 void add_mqtt_options(CLI::App& command, MqttArguments& arguments);
 
-/// A broker that gets reads, and events where they are asked for; null for none. Times are `start`,
-/// since 1970, plus stamps.
-std::shared_ptr<MqttOutlet> attach_mqtt(const MqttArguments& arguments, Time start,
-                                        Outlets& outlets);
+/// A broker that gets reads, and events where they are asked for; both null where nothing is.
+struct MqttRun {
+  std::shared_ptr<MqttOutlet> broker;
+  std::shared_ptr<EventStage> events;
+};
 
-/// What has not got through yet is waited for, after Ctrl-C a moment only.
-void finish(MqttOutlet* mqtt);
+/// Times are `start`, since 1970, plus stamps.
+MqttRun attach_mqtt(const MqttArguments& arguments, Time start, Outlets& outlets);
+
+/// The run ends at `end`: what that makes of events is told, and what has not got through yet is
+/// waited for, after Ctrl-C a moment only.
+void finish(const MqttRun& run, Time end);
 
 }  // namespace tagfield

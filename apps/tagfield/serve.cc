@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -67,6 +68,23 @@ std::shared_ptr<llrp::LlrpServer> llrp_server(const ServeArguments& arguments) {
   return std::make_shared<llrp::LlrpServer>(options);
 }
 
+/// Tells events how late it is, where no read does.
+class EventClock final : public LiveMember {
+ public:
+  explicit EventClock(std::shared_ptr<EventStage> events) : events_(std::move(events)) {}
+  void on_step(LiveWorld& world, Time now) override {
+    // Reads may be told as late as the next update of the slowest antenna.
+    double slowest_hz = 1.0;
+    for (const LiveAntenna& antenna : world.antennas()) {
+      slowest_hz = std::min(slowest_hz, antenna.spec.parameters.rate_hz);
+    }
+    events_->advance(now - duration_from_seconds(2.0 / slowest_hz));
+  }
+
+ private:
+  std::shared_ptr<EventStage> events_;
+};
+
 /// Ends the connections before the world is gone, however that comes.
 class Closing {
  public:
@@ -105,10 +123,11 @@ int serve(ServeArguments arguments) {
   Outlets outlets;
   attach(feed, outlets);
   if (llrp) attach(llrp, outlets);
-  const auto mqtt =
+  const MqttRun mqtt =
       attach_mqtt(arguments.mqtt, start_time("serve", arguments.start, Time{}), outlets);
   LiveWorld world(scenario, seed, outlets, options);
   world.attach(feed);
+  if (mqtt.events) world.attach(std::make_shared<EventClock>(mqtt.events));
   const Closing closing(llrp.get());
   if (llrp) {
     world.attach(llrp);
@@ -126,7 +145,7 @@ int serve(ServeArguments arguments) {
   std::fflush(stdout);
   catch_interrupts();
   world.run(interrupted());
-  finish(mqtt.get());
+  finish(mqtt, world.now());
   return kExitOk;
 }
 

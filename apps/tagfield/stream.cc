@@ -79,7 +79,7 @@ int stream(const StreamArguments& arguments) {
   const Time start = start_time("stream", arguments.start, Time{});
   const auto lines = std::make_shared<LinePrinter>(start);
   RunControl control;
-  const std::shared_ptr<MqttOutlet> mqtt = attach_mqtt(arguments.mqtt, start, control.outlets);
+  const MqttRun mqtt = attach_mqtt(arguments.mqtt, start, control.outlets);
   attach(lines, control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();
@@ -90,7 +90,7 @@ int stream(const StreamArguments& arguments) {
     const SeedRun run = simulate(scenario, arguments.scenario.seed.value_or(scenario.seed), control,
                                  world ? &*world : nullptr);
     lines->flush();
-    finish(mqtt.get());
+    finish(mqtt, time_from_seconds(run.simulated_s));
     return run.complete ? kExitOk : kExitInterrupted;
   } catch (const OutputClosed&) {
     return kExitOk;

@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+"""What a live world costs under load: readers that read as fast as they can, told to LLRP, WebSocket
+and MQTT clients at once.
+
+    benchmarks/live_load.py [--tags 10000] [--readers 4] [--seconds 20]
+
+Starts mosquitto and 'tagfield serve' in real time, an LLRP client a reader that asks for its fastest
+mode (FM0, 640 kHz) and a report for each tag, one WebSocket and one MQTT subscriber, and prints reads a
+second of each, the pace against real time, and the server's share of a core. Needs mosquitto,
+mosquitto-clients and python3-websocket.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(SOURCE / "examples/07_llrp_client"), str(SOURCE / "tests/live"),
+                str(SOURCE / "tests/command")]
+from llrp_client import Reader, parameter  # noqa: E402
+
+
+
+def free_port():
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        return found.getsockname()[1]
+
+
+def write_scenario(path, tags, readers):
+    """Readers 100 m apart, each before a wall of tags 2 to 4 m away."""
+    lines = ["name: load", "model: link_budget", "duration_s: 1",
+             f"tag_profile: {SOURCE}/profiles/tags/monza_r6.yaml", "antennas:"]
+    for i in range(readers):
+        lines.append(
+            f"  - {{name: port_{i}, reader: reader_{i}, pose: [0, {100 * i}, 1.5, 0, 0, 0], rate_hz: 20, "
+            f"profiles: [{SOURCE}/profiles/readers/speedway_r420.yaml, "
+            f"{SOURCE}/profiles/antennas/panel_6dbi.yaml], channel_plan: fcc}}")
+    lines.append("tags:")
+    for i in range(tags):
+        reader, place = i % readers, i // readers
+        y, z = place % 50, place // 50
+        lines.append(f"  - {{id: 3034{i:020d}, position: [3, {100 * reader - 1.25 + 0.05 * y:.2f}, "
+                     f"{0.3 + 0.05 * z:.2f}]}}")
+    path.write_text("\n".join(lines) + "\n")
+
+
+def ro_spec():
+    command = parameter(330, b"\0" + parameter(335, struct.pack("!HH", 0, 0)) +
+                        parameter(336, struct.pack("!BHI", 0, 2500, 0)) +
+                        parameter(1023, struct.pack("!IIH", 25882, 23, 2)))
+    vendor = b"".join(parameter(1023, struct.pack("!IIH", 25882, kind, 1)) for kind in (52, 53, 67))
+    return parameter(177, struct.pack("!IBB", 1, 0, 0) +
+                     parameter(178, parameter(179, b"\1") + parameter(182, b"\0" + bytes(4))) +
+                     parameter(183, struct.pack("!HH", 1, 0) + parameter(184, b"\0" + bytes(4)) +
+                               parameter(186, struct.pack("!HB", 1, 1) +
+                                         parameter(222, struct.pack("!H", 0) + command))) +
+                     parameter(237, struct.pack("!BH", 1, 1) +
+                               parameter(238, struct.pack("!H", 0x1780)) +
+                               parameter(1023, struct.pack("!II", 25882, 50) + vendor)))
+
+
+class Counter(threading.Thread):
+    """Counts what a client gets, until the server goes."""
+
+    def __init__(self, follow):
+        super().__init__(daemon=True)
+        self.count = 0
+        self.follow = follow
+        self.start()
+
+    def run(self):
+        try:
+            for number in self.follow():
+                self.count += number
+        except (OSError, ValueError, EOFError):
+            pass
+
+
+def llrp_reads(port):
+    reader = Reader("127.0.0.1", port, 60)
+    reader.ask(20, ro_spec())
+    reader.ask(24, struct.pack("!I", 1))
+    while True:
+        kind, body = reader.receive()
+        if kind == 61:
+            yield body.count(b"\x8d\x30\x34")  # EPC-96, and how all of these EPCs begin
+
+
+def frame_reads(port):
+    import websocket
+    client = websocket.create_connection(f"ws://127.0.0.1:{port}/api/live", timeout=60)
+    while True:
+        frame = json.loads(client.recv())
+        yield sum(read[6] for read in frame.get("reads", []))
+
+
+def mqtt_reads(port):
+    process = subprocess.Popen(["mosquitto_sub", "-h", "127.0.0.1", "-p", str(port), "-q", "1", "-t",
+                                "tagfield/#"], stdout=subprocess.PIPE)
+    while line := process.stdout.readline():
+        yield 1 if line else 0
+
+
+def processor_seconds(process):
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def memory_mb(process):
+    for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1]) / 1024
+    return 0.0
+
+
+def status(port):
+    import http.client
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+    connection.request("GET", "/api/status")
+    answer = json.loads(connection.getresponse().read())
+    connection.close()
+    return answer
+
+
+def measure(asked, folder):
+    scenario = folder / "load.yaml"
+    write_scenario(scenario, asked.tags, asked.readers)
+    broker_port = free_port()
+    broker = subprocess.Popen(["/usr/sbin/mosquitto", "-p", str(broker_port)],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.5)
+    server = subprocess.Popen(
+        [asked.tagfield, "serve", scenario, "--http", "0", "--llrp", "0", "--mqtt",
+         f"mqtt://127.0.0.1:{broker_port}/tagfield"], stdout=subprocess.PIPE)
+    try:
+        llrp_ports, http_port = [], None
+        while http_port is None:
+            line = server.stdout.readline().decode()
+            if line.startswith("llrp:"):
+                llrp_ports.append(int(line.rsplit(" ", 1)[1]))
+            if line.startswith("http:"):
+                http_port = int(line.rsplit(":", 1)[1])
+        clients = {f"llrp {i + 1}": Counter(lambda port=port: llrp_reads(port))
+                   for i, port in enumerate(llrp_ports)}
+        clients["websocket"] = Counter(lambda: frame_reads(http_port))
+        clients["mqtt"] = Counter(lambda: mqtt_reads(broker_port))
+        time.sleep(5)
+        begin, used, at = time.monotonic(), processor_seconds(server), status(http_port)["time"]
+        counts = {name: client.count for name, client in clients.items()}
+        time.sleep(asked.seconds)
+        passed = time.monotonic() - begin
+        rates = {name: (client.count - counts[name]) / passed for name, client in clients.items()}
+        pace = (status(http_port)["time"] - at) / passed
+        share = (processor_seconds(server) - used) / passed
+        return rates, pace, share, memory_mb(server)
+    finally:
+        server.terminate()
+        server.wait()
+        broker.terminate()
+        broker.wait()
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--tagfield", default=SOURCE / "build/release/bin/tagfield")
+    arguments.add_argument("--tags", type=int, default=10_000)
+    arguments.add_argument("--readers", type=int, default=4)
+    arguments.add_argument("--seconds", type=float, default=20)
+    asked = arguments.parse_args()
+    with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:
+        rates, pace, share, memory = measure(asked, pathlib.Path(folder))
+    for name, rate in rates.items():
+        print(f"{name:<10} {rate:8.0f} reads/s")
+    print(f"pace       {pace:8.3f} of real time")
+    print(f"server     {share:8.2f} of a core, {memory:.0f} MB")
+
+
+if __name__ == "__main__":
+    main()
