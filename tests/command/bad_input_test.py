@@ -580,7 +580,7 @@ def arguments(context):
     localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
     for command, says in (
             ([], "expected run, localize, track, calibrate, report, check, explain, coverage, bench, "
-             "events, stream or gazebo"),
+             "events, stream, serve, view or gazebo"),
             (["ran"], "ran"), (["frobnicate", path], "frobnicate"),
             (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),

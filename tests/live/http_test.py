@@ -198,10 +198,15 @@ def pages_get_frames(context):
 def what_others_change_is_told_while_paused(context):
     with served(context, context.shipped(PORTAL), "--paused") as server:
         client = websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
-        time.sleep(0.2)
+        first = json.loads(client.recv())
+        check(first["paused"] and not first.get("changed"), f"frame of a new client: {first}")
         server.post("/api/tags/tag_01/move", {"position": [1, 1, 1]})
         frame = json.loads(client.recv())
         check(frame["paused"] and frame.get("changed"), f"frame after a move: {frame}")
+        server.post("/api/step", {"seconds": 0.1})
+        while not frame["paused"] or frame["time"] == 0:
+            frame = json.loads(client.recv())
+        check_near(frame["time"], 0.1, 1e-9, "time of the frame after a step")
         client.close()
 
 

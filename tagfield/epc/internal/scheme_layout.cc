@@ -10,20 +10,20 @@
 namespace tagfield {
 namespace {
 
-using enum EpcScheme;
+using S = EpcScheme;
 
 constexpr std::array<SchemeLayout, 11> kLayouts = {{
-    {kSgtin, "sgtin", 0x30, "item reference", 44, 13, true, "serial number", 38},
-    {kSscc, "sscc", 0x31, "serial reference", 58, 17, true, "", 0},
-    {kSgln, "sgln", 0x32, "location reference", 41, 12, true, "extension", 41},
-    {kGrai, "grai", 0x33, "asset type", 44, 12, true, "serial number", 38},
-    {kGiai, "giai", 0x34, "individual asset reference", 82, 25, false, "", 0},
-    {kGsrn, "gsrn", 0x2D, "service reference", 58, 17, true, "", 0},
-    {kGsrnp, "gsrnp", 0x2E, "service reference", 58, 17, true, "", 0},
-    {kGdti, "gdti", 0x2C, "document type", 41, 12, true, "serial number", 41},
-    {kCpi, "cpi", 0x3C, "component or part reference", 51, 15, false, "serial number", 31},
-    {kGid, "gid", 0x35, "", 0, 0, false, "serial number", 36},
-    {kUsdod, "usdod", 0x2F, "", 0, 0, false, "serial number", 36},
+    {S::kSgtin, "sgtin", 0x30, "item reference", 44, 13, true, "serial number", 38},
+    {S::kSscc, "sscc", 0x31, "serial reference", 58, 17, true, "", 0},
+    {S::kSgln, "sgln", 0x32, "location reference", 41, 12, true, "extension", 41},
+    {S::kGrai, "grai", 0x33, "asset type", 44, 12, true, "serial number", 38},
+    {S::kGiai, "giai", 0x34, "individual asset reference", 82, 25, false, "", 0},
+    {S::kGsrn, "gsrn", 0x2D, "service reference", 58, 17, true, "", 0},
+    {S::kGsrnp, "gsrnp", 0x2E, "service reference", 58, 17, true, "", 0},
+    {S::kGdti, "gdti", 0x2C, "document type", 41, 12, true, "serial number", 41},
+    {S::kCpi, "cpi", 0x3C, "component or part reference", 51, 15, false, "serial number", 31},
+    {S::kGid, "gid", 0x35, "", 0, 0, false, "serial number", 36},
+    {S::kUsdod, "usdod", 0x2F, "", 0, 0, false, "serial number", 36},
 }};
 
 template <class Predicate>
