@@ -244,6 +244,10 @@ class Api::Impl {
   }
   ApiAnswer antennas(Call& call) { return ApiResponse{200, json_text(antennas_json(call.world))}; }
   ApiAnswer tags(Call& call) { return ApiResponse{200, json_text(tags_json(call.world))}; }
+  ApiAnswer located(Call& /*call*/) {
+    if (!estimates) throw Error("tags are not located here; 'tagfield serve --locate' does");
+    return ApiResponse{200, json_text(estimates_json(*estimates))};
+  }
   ApiAnswer explain(Call& call) {
     return ApiResponse{200, json_text(to_json(call.world.explain(word_in(call.target, "antenna"),
                                                                  word_in(call.target, "tag"))))};
@@ -357,6 +361,7 @@ class Api::Impl {
   Json solids;
   Json paths;
   std::uint64_t seed;
+  std::shared_ptr<const LiveEstimates> estimates;
 };
 
 const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
@@ -365,6 +370,7 @@ const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
       {"GET", "/api/scene", &Impl::scene},
       {"GET", "/api/antennas", &Impl::antennas},
       {"GET", "/api/tags", &Impl::tags},
+      {"GET", "/api/estimates", &Impl::located},
       {"GET", "/api/explain", &Impl::explain},
       {"GET", "/api/coverage", &Impl::coverage},
       {"POST", "/api/pause", &Impl::pause},
@@ -391,6 +397,10 @@ Api::Api(const Scene& scene, const Scenario& scenario, std::uint64_t seed)
 Api::~Api() = default;
 Api::Api(Api&&) noexcept = default;
 Api& Api::operator=(Api&&) noexcept = default;
+
+void Api::add(std::shared_ptr<const LiveEstimates> estimates) {
+  impl_->estimates = std::move(estimates);
+}
 
 std::vector<std::string> Api::routes() {
   std::vector<std::string> all;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "tagfield/live/live_estimates.h"
 #include "tagfield/live/live_world.h"
 #include "tagfield/world/scene.h"
 
@@ -39,6 +40,9 @@ class Api {
   ~Api();
   Api(Api&&) noexcept;
   Api& operator=(Api&&) noexcept;
+
+  /// Where tags are, as far as reads say; before it answers.
+  void add(std::shared_ptr<const LiveEstimates> estimates);
 
   /// For the thread that runs `world`. Never throws: what is wrong is a response of its own, 4xx
   /// with {"error": "one line"}. `stop` ends what is being worked out.

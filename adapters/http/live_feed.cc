@@ -92,14 +92,15 @@ void LiveFeed::tell_reads(const LiveWorld& world) {
 void LiveFeed::tell_frame(const LiveWorld& world) {
   const Going going{world.now(), world.is_paused(), world.speed(), world.revision()};
   const bool is_new = has_new_client_.exchange(false);
-  if (going == told_ && last_.empty() && !is_new) return;
-  const auto frame = std::make_shared<const std::string>(frame_of(world, going));
+  const bool has_estimates = estimates_ && estimates_->newest() != estimate_told_;
+  if (going == told_ && last_.empty() && !has_estimates && !is_new) return;
+  const auto frame = std::make_shared<const std::string>(frame_of(world, going, is_new));
   told_ = going;
   last_.clear();
   tell(frame_clients_, has_frame_clients_, frame, &FrameClient::on_frame);
 }
 
-std::string LiveFeed::frame_of(const LiveWorld& world, const Going& going) {
+std::string LiveFeed::frame_of(const LiveWorld& world, const Going& going, bool is_new) {
   Json frame = {{"time", to_seconds(going.now)},
                 {"pace", world.pace()},
                 {"paused", going.is_paused},
@@ -123,6 +124,15 @@ std::string LiveFeed::frame_of(const LiveWorld& world, const Going& going) {
                               read.frequency_hz, to_seconds(read.stamp), last.count});
   }
   if (going.revision != told_.revision) frame["changed"] = true;
+  if (estimates_) {
+    const auto fresh = estimates_->since(is_new ? 0 : estimate_told_);
+    if (!fresh.empty()) estimate_told_ = fresh.back().number;
+    frame["estimates"] = estimate_rows(fresh);
+  }
+  if (lasers_) {
+    Json scans = lasers_->scans(world, is_new);
+    if (!scans.is_null()) frame["scans"] = std::move(scans);
+  }
   return json_text(frame);
 }
 

@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/http/laser_view.h"
 #include "tagfield/files/read_json.h"
+#include "tagfield/live/live_estimates.h"
 #include "tagfield/live/live_world.h"
 #include "tagfield/stream/listeners.h"
 
@@ -50,6 +52,10 @@ class LiveFeed final : public ReadListener, public LiveMember {
   /// `start`: UTC at the simulated time 0, since 1970.
   explicit LiveFeed(Time start) : start_(start) {}
 
+  // What frames tell besides; before the world runs.
+  void add(std::shared_ptr<const LiveEstimates> estimates) { estimates_ = std::move(estimates); }
+  void add(std::unique_ptr<LaserView> lasers) { lasers_ = std::move(lasers); }
+
   // From any thread; a client that is no more is forgotten.
   void add(std::weak_ptr<FrameClient> client);
   void add(std::weak_ptr<ReadClient> client);
@@ -81,7 +87,7 @@ class LiveFeed final : public ReadListener, public LiveMember {
             const Message& message, void (Client::*take)(Message));
   void tell_reads(const LiveWorld& world);
   void tell_frame(const LiveWorld& world);
-  std::string frame_of(const LiveWorld& world, const Going& going);
+  std::string frame_of(const LiveWorld& world, const Going& going, bool is_new);
 
   std::mutex lock_;  ///< Of the clients.
   std::vector<std::weak_ptr<FrameClient>> frame_clients_;
@@ -98,6 +104,9 @@ class LiveFeed final : public ReadListener, public LiveMember {
   std::map<std::pair<std::string, std::string>, LastRead> last_;  ///< By tag and antenna.
   std::chrono::steady_clock::time_point framed_{};
   Going told_;
+  std::shared_ptr<const LiveEstimates> estimates_;
+  std::uint64_t estimate_told_ = 0;
+  std::unique_ptr<LaserView> lasers_;
 };
 
 }  // namespace tagfield::http

@@ -137,11 +137,7 @@ Json estimates_of(const RunFiles& run) {
     const Candidate& place = estimate.candidates.front();
     Json row = {estimate.tag};
     for (const Json& number : short_point(place.p_WT)) row.push_back(number);
-    // Without a covariance it is as well known either way.
-    const double equal = 0.5 * place.expected_error_m * place.expected_error_m;
-    const auto& known = place.covariance;
-    row.push_back(known ? Json{(*known)(0, 0), (*known)(0, 1), (*known)(1, 1)}
-                        : Json{equal, 0.0, equal});
+    row.push_back(covariance_json(place));
     all.push_back(std::move(row));
   }
   return all;

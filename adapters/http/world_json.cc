@@ -207,4 +207,54 @@ Json tags_json(const LiveWorld& world) {
   return {{"tags", std::move(all)}};
 }
 
+Json covariance_json(const Candidate& place) {
+  if (!place.covariance) {
+    const double equal = 0.5 * place.expected_error_m * place.expected_error_m;
+    return {equal, 0.0, equal};
+  }
+  const Eigen::Matrix3d& known = *place.covariance;
+  return {known(0, 0), known(0, 1), known(1, 1)};
+}
+
+Json estimate_rows(const std::vector<LiveEstimate>& estimates) {
+  Json all = Json::array();
+  for (const LiveEstimate& one : estimates) {
+    const TagEstimate& estimate = one.estimate;
+    Json row = {estimate.tag};
+    if (estimate.verdict == Verdict::kLocated) {
+      const Candidate& place = estimate.candidates.front();
+      for (const double number : {place.p_WT.x(), place.p_WT.y(), place.p_WT.z()}) {
+        row.push_back(number);
+      }
+      row.push_back(covariance_json(place));
+    } else {
+      row.push_back(nullptr);
+    }
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+Json estimates_json(const LiveEstimates& estimates) {
+  Json all = Json::array();
+  for (const LiveEstimate& one : estimates.since(0)) {
+    const TagEstimate& estimate = one.estimate;
+    Json candidates = Json::array();
+    for (const Candidate& place : estimate.candidates) {
+      candidates.push_back({{"position", point_json(place.p_WT)},
+                            {"covariance", covariance_json(place)},
+                            {"expectedError", place.expected_error_m},
+                            {"rms", place.rms_m}});
+    }
+    all.push_back({{"id", estimate.tag},
+                   {"verdict", to_string(estimate.verdict)},
+                   {"reason", estimate.reason},
+                   {"method", one.method},
+                   {"time", to_seconds(one.last_read)},
+                   {"reads", estimate.reads},
+                   {"candidates", std::move(candidates)}});
+  }
+  return {{"estimates", std::move(all)}, {"warnings", estimates.warnings()}};
+}
+
 }  // namespace tagfield::http

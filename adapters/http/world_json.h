@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/live/live_estimates.h"
 #include "tagfield/live/live_world.h"
 #include "tagfield/poses/rigid_transform.h"
 #include "tagfield/world/scene.h"
@@ -33,5 +34,12 @@ Json beam_json(const AntennaParameters& antenna);
 Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port);
 Json antennas_json(const LiveWorld& world);
 Json tags_json(const LiveWorld& world);
+
+/// [xx, xy, yy] of the place's covariance [m²]; where it is not told as well known either way.
+Json covariance_json(const Candidate& place);
+/// [tag, x, y, z, [xx, xy, yy]] of each that is located, [tag, null] of the others.
+Json estimate_rows(const std::vector<LiveEstimate>& estimates);
+/// All that is known of them.
+Json estimates_json(const LiveEstimates& estimates);
 
 }  // namespace tagfield::http

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "adapters/http/admission.h"
 #include "adapters/http/http_server.h"
+#include "adapters/http/laser_view.h"
 #include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/mqtt_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/start_time.h"
+#include "tagfield/experiment/experiment.h"
+#include "tagfield/live/live_estimates.h"
 #include "tagfield/planning/moment.h"
 
 namespace tagfield {
@@ -24,6 +28,9 @@ struct ServeArguments {
   std::optional<std::uint16_t> llrp;
   std::string start;
   MqttArguments mqtt;
+  bool locates = false;
+  std::string method;  ///< As the scenario says where empty.
+  double window_s = 120.0;
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
@@ -99,6 +106,26 @@ class Closing {
   llrp::LlrpServer* server_;
 };
 
+std::shared_ptr<LiveEstimates> live_estimates(const ServeArguments& arguments,
+                                              const Scenario& scenario) {
+  if (!arguments.locates) return nullptr;
+  LiveEstimateOptions options;
+  options.localization = localization_options(scenario, 1);
+  if (!arguments.method.empty()) options.localization.method = arguments.method;
+  options.window = duration_from_seconds(arguments.window_s);
+  return std::make_shared<LiveEstimates>(std::move(options));
+}
+
+/// How long an end waits for an estimate that is being worked out.
+constexpr std::chrono::milliseconds kPatience(300);
+
+/// Ends the process, all having been sent and said, without an estimate that would take longer.
+void end_estimates(LiveEstimates* estimates) {
+  if (estimates == nullptr || estimates->stop(kPatience)) return;
+  std::fflush(nullptr);
+  std::_Exit(kExitOk);
+}
+
 void print_addresses(const llrp::LlrpServer& server) {
   for (const llrp::LlrpAddress& reader : server.addresses()) {
     fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
@@ -125,6 +152,8 @@ int serve(ServeArguments arguments) {
   if (llrp) attach(llrp, outlets);
   const MqttRun mqtt =
       attach_mqtt(arguments.mqtt, start_time("serve", arguments.start, Time{}), outlets);
+  const std::shared_ptr<LiveEstimates> estimates = live_estimates(arguments, scenario);
+  if (estimates) attach(estimates, outlets);
   LiveWorld world(scenario, seed, outlets, options);
   world.attach(feed);
   if (mqtt.events) world.attach(std::make_shared<EventClock>(mqtt.events));
@@ -135,6 +164,13 @@ int serve(ServeArguments arguments) {
     print_addresses(*llrp);
   }
   http::Api api(loaded.scene, scenario, seed);
+  if (estimates) {
+    api.add(estimates);
+    feed->add(estimates);
+  }
+  if (arguments.http) {
+    feed->add(std::make_unique<http::LaserView>(loaded.scene, scenario, seed));
+  }
   http::LiveAnswerer answerer(world, api);
   std::optional<http::HttpServer> server;
   if (arguments.http) {
@@ -146,6 +182,9 @@ int serve(ServeArguments arguments) {
   catch_interrupts();
   world.run(interrupted());
   finish(mqtt, world.now());
+  server.reset();
+  if (llrp) llrp->close();
+  end_estimates(estimates.get());
   return kExitOk;
 }
 
@@ -168,6 +207,17 @@ void add_serve_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   add_mqtt_options(*command, arguments->mqtt);
   add_start_option(*command, arguments->start);
+  command->add_flag("--locate", arguments->locates,
+                    "Locate tags while reads come in; the page shows where, and how sure that is, "
+                    "as /api/estimates does");
+  command
+      ->add_option("--method", arguments->method, "By which method (default: as the scenario says)")
+      ->needs("--locate");
+  command
+      ->add_option("--window", arguments->window_s,
+                   "For how long a read counts for that [s] (default 120)")
+      ->check(CLI::Range(0.1, 1e6))
+      ->needs("--locate");
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "
                       "machine alone)");

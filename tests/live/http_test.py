@@ -5,6 +5,7 @@
 """
 
 import json
+import math
 import pathlib
 import random
 import signal
@@ -93,6 +94,7 @@ def all_that_openapi_describes_is_so(context):
 
         for path in ("status", "scene", "antennas", "tags", "explain", "coverage"):
             ask("GET", f"/api/{path}")
+        ask("GET", "/api/estimates", expected=400)  # without --locate
         ask("POST", "/api/speed", {"speed": 2})
         ask("POST", "/api/pause")
         ask("POST", "/api/step", {"seconds": 0.25})
@@ -192,6 +194,79 @@ def pages_get_frames(context):
                     "antennas that move")
         robots = [frame["robots"][0] for frame in seen]
         check(robots[0][1:3] != robots[-1][1:3], "the robot stands")
+
+
+@case
+def tags_are_located_while_reads_come_in(context):
+    with served(context, context.shipped("paper_warehouse"), "--speed", "10", "--locate") as server:
+        contract = Contract(server)
+        truth = {tag["id"]: tag["position"] for tag in server.get("/api/tags")["tags"]}
+        first = next(frames(server, 1))
+        check(len(first["estimates"]) < len(truth), "all tags are located from the start")
+        server.wait_for(lambda status: status["time"] > 100, "the end of the path", 30)
+        server.post("/api/pause")
+        # What was read is still worked on, for as long as other work leaves time for.
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            answer = server.get("/api/estimates")
+            contract.check("GET", "/api/estimates", 200, answer)
+            if len([one for one in answer["estimates"] if one["verdict"] == "located"]) == 10:
+                break
+            time.sleep(0.2)
+        check_equal({one["id"] for one in answer["estimates"]}, set(truth), "tags with an estimate")
+        for one in answer["estimates"]:
+            check_equal(one["verdict"], "located", f"{one['id']}: {one['reason']}, verdict")
+            place = one["candidates"][0]
+            error = math.dist(place["position"][:2], truth[one["id"]][:2])
+            check_between(error, 0, 0.02 + 5 * place["expectedError"], f"error of {one['id']} [m]")
+        # Who looks only now gets all of them at once.
+        rows = {row[0]: row[1:] for row in next(frames(server, 1))["estimates"]}
+        check_equal(set(rows), set(truth), "tags with an estimate in the frame")
+        for one in answer["estimates"]:
+            check_near(rows[one["id"]][0], one["candidates"][0]["position"][0], 0.05, "x of an estimate")
+
+
+def turned(q, v):
+    """v turned by the quaternion [x, y, z, w]."""
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    t = [2 * n for n in cross(q[:3], v)]
+    return [v[i] + q[3] * t[i] + cross(q[:3], t)[i] for i in range(3)]
+
+
+def distance_to_box(origin, direction, solid):
+    """Along the ray to the box, by its slabs; infinite where it is missed."""
+    *p, qx, qy, qz, qw = solid["pose"]
+    back = [-qx, -qy, -qz, qw]
+    o = turned(back, [origin[i] - p[i] for i in range(3)])
+    d = turned(back, direction)
+    enter, leave = 0.0, math.inf
+    for i in range(3):
+        half = solid["box"][i] / 2
+        if abs(d[i]) < 1e-12:
+            if abs(o[i]) > half:
+                return math.inf
+            continue
+        near, far = sorted(((-half - o[i]) / d[i], (half - o[i]) / d[i]))
+        enter, leave = max(enter, near), min(leave, far)
+    return enter if enter <= leave else math.inf
+
+
+@case
+def lasers_end_where_things_stand(context):
+    with served(context, context.shipped("paper_warehouse"), "--paused") as server:
+        boxes = [solid for solid in server.get("/api/scene")["solids"] if "box" in solid]
+        (scan,) = next(frames(server, 1))["scans"]
+        check_equal(scan["robot"], server.get("/api/antennas")["antennas"][0]["robot"], "robot")
+        met = 0
+        for i, distance in enumerate(scan["ranges"]):
+            angle = scan["angle_min"] + i * scan["angle_step"]
+            beam = turned(scan["origin"][3:], [math.cos(angle), math.sin(angle), 0])
+            nearest = min(distance_to_box(scan["origin"][:3], beam, box) for box in boxes)
+            # Five deviations of its noise; what is no box stands before it.
+            check(distance < nearest + 0.055, f"beam {i} of {distance} m goes through {nearest} m")
+            met += abs(distance - nearest) < 0.055
+        check(met > 100, f"only {met} of {len(scan['ranges'])} beams end on boxes")
 
 
 @case
@@ -356,7 +431,7 @@ def who_falls_behind_loses_its_own_oldest(context):
 
 @case
 def it_ends_within_a_second(context):
-    with served(context, context.shipped(PORTAL)) as server:
+    with served(context, context.shipped("warehouse_physics"), "--locate") as server:
         clients = [websocket.create_connection(f"ws://127.0.0.1:{server.port}/api/live", timeout=20)
                    for _ in range(20)]
         begin = time.monotonic()

@@ -125,9 +125,9 @@ export class Live {
     for (const [tag, x, y, z, covariance] of frame.estimates ?? []) {
       world.setEstimate(tag, x, y, z, covariance);
     }
-    if (frame.scan !== undefined && (frame.scan || world.scan)) {
-      world.scan = frame.scan;
-      world.changed.add("scan");
+    if (frame.scans) {
+      world.scans = frame.scans;
+      world.changed.add("scans");
     }
     if (frame.changed) this.#refetch();
     world.touch("time", "reads");

@@ -47,7 +47,7 @@ export class World {
     this.antennaIndex = new Map();
     this.robots = new Map();     // name → [x, y, z, qx, qy, qz, qw]
     this.estimates = new Map();  // tag's index → {position, covariance}
-    this.scan = null;
+    this.scans = [];  // One a robot.
     this.log = new ReadLog(this.live ? LIVE_READS : 0);
     this.counted = 0;  // Reads of the log that are in lastRssi.
     this.newReads.length = 0;
@@ -74,7 +74,7 @@ export class World {
     this.selection = null;
     this.wanted = selected;
     this.touch(
-      "scene", "antennas", "tags", "robots", "tags-list", "reads", "estimates", "scan",
+      "scene", "antennas", "tags", "robots", "tags-list", "reads", "estimates", "scans",
       "selection");
   }
 
@@ -171,7 +171,11 @@ export class World {
 
   setEstimate(tag, x, y, z, covariance) {
     const index = this.tagIndex.get(tag);
-    if (index !== undefined) this.estimates.set(index, {position: [x, y, z], covariance});
+    if (index !== undefined && x !== null) {
+      this.estimates.set(index, {position: [x, y, z], covariance});
+    } else if (index !== undefined) {
+      this.estimates.delete(index);  // Where it is can't be told any more.
+    }
     this.changed.add("estimates");
   }
 

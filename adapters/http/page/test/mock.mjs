@@ -150,7 +150,7 @@ function advance(seconds) {
     antennas: latestPoses(run.antenna_poses),
     tags: world.moved,
     reads,
-    scan: robots.length ? scanAt(robots[0].slice(1)) : null,
+    scans: robots.map((robot) => scanAt(robot.slice(1))),
     estimates: Math.floor(world.time) > Math.floor(before) ? run.estimates : [],
     dropped: 0
   };

@@ -58,7 +58,7 @@ export class Robots {
   update(changed) {
     if (changed.has("robots")) this.#bodies();
     if (changed.has("robots") || changed.has("poses") || changed.has("antennas")) this.#masts();
-    if (changed.has("scan")) this.#scan();
+    if (changed.has("scans")) this.#scans();
   }
 
   #bodies() {
@@ -96,31 +96,36 @@ export class Robots {
     });
   }
 
-  #scan() {
-    const {scan} = this.world;
-    this.scan.visible = Boolean(scan);
-    if (!scan) return;
-    const n = scan.ranges.length;
+  #scans() {
+    const {scans} = this.world;
+    const most = scans.reduce((sum, scan) => sum + scan.ranges.length, 0);
+    this.scan.visible = most > 0;
+    if (most === 0) return;
     let attribute = this.scan.geometry.getAttribute("position");
-    if (!attribute || attribute.count < n) {
+    if (!attribute || attribute.count < most) {
       this.scan.geometry.dispose();
-      attribute = new BufferAttribute(new Float32Array(3 * n), 3).setUsage(DynamicDrawUsage);
+      attribute = new BufferAttribute(new Float32Array(3 * most), 3).setUsage(DynamicDrawUsage);
       this.scan.geometry.setAttribute("position", attribute);
     }
+    let drawn = 0;
+    for (const scan of scans) drawn = this.#ends(scan, attribute.array, drawn);
+    attribute.needsUpdate = true;
+    this.scan.geometry.setDrawRange(0, drawn);
+  }
+
+  // Where the scan's beams end, from the point of this number on; the number after the last.
+  #ends(scan, points, drawn) {
     const [x, y, z, ...q] = scan.origin;
     this.laser.compose(
       new Vector3(x, y, z), new Quaternion(...q).normalize(), new Vector3(1, 1, 1));
     const p = new Vector3();
-    let drawn = 0;
-    for (let i = 0; i < n; ++i) {
-      const range = scan.ranges[i];
-      if (!(range > 0)) continue;
+    scan.ranges.forEach((range, i) => {
+      if (!(range > 0)) return;
       const angle = scan.angle_min + i * scan.angle_step;
       p.set(range * Math.cos(angle), range * Math.sin(angle), 0).applyMatrix4(this.laser);
-      p.toArray(attribute.array, 3 * drawn++);
-    }
-    attribute.needsUpdate = true;
-    this.scan.geometry.setDrawRange(0, drawn);
+      p.toArray(points, 3 * drawn++);
+    });
+    return drawn;
   }
 
   // Of the first robot, else of the first antenna that moves.

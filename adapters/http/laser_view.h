@@ -1,0 +1,32 @@
+/// @file
+/// What the robots' lasers see, for those who watch.
+#pragma once
+
+#include <chrono>
+#include <nlohmann/json_fwd.hpp>
+
+#include "tagfield/laser/simulated_laser.h"
+#include "tagfield/live/live_world.h"
+#include "tagfield/world/ray_scene.h"
+
+namespace tagfield::http {
+
+/// Each robot has the laser that the scenario's `navigation` describes.
+class LaserView {
+ public:
+  LaserView(const Scene& scene, const Scenario& scenario, std::uint64_t seed);
+
+  /// A scan a robot: {"robot", "origin": the scanner's pose [x, y, z, qx, qy, qz, qw], "angle_min",
+  /// "angle_step" [rad], "ranges" [m], 0 where nothing is within range}. Null where the last scans
+  /// still hold, or were asked for a tenth of a second of real time ago, unless it is `needed`.
+  nlohmann::ordered_json scans(const LiveWorld& world, bool needed);
+
+ private:
+  RayScene rays_;
+  LaserParameters laser_;
+  std::uint64_t seed_;
+  Time told_{Duration::min()};
+  std::chrono::steady_clock::time_point told_at_{};
+};
+
+}  // namespace tagfield::http
