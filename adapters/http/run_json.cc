@@ -164,6 +164,15 @@ Json robots_in(const std::string& folder) {
   return robots;
 }
 
+/// What of `text` is between the first `begin` and the next `end`; "" where they are not there.
+std::string_view between(std::string_view text, std::string_view begin, std::string_view end) {
+  const std::size_t from = text.find(begin);
+  if (from == std::string_view::npos) return {};
+  const std::size_t first = from + begin.size();
+  const std::size_t last = text.find(end, first);
+  return last == std::string_view::npos ? std::string_view{} : text.substr(first, last - first);
+}
+
 }  // namespace
 
 std::string scene_json(const ScenarioWithWorld& loaded) {
@@ -216,22 +225,23 @@ std::string run_json(const RunFiles& run, const std::string& folder) {
   return json_text(json);
 }
 
-std::string view_page(const std::string& run) {
+std::optional<RunView> run_view(const std::string& folder) {
   const std::string_view page = page_file();
-  const std::size_t script = page.find("<script");
-  if (script == std::string_view::npos) return "";
-  std::string view(page.substr(0, script));
-  view += "<script type=\"application/json\" id=\"tagfield-run\">";
-  for (const char c : run) {
-    // No text of the run may end the element.
+  const std::string_view hash = between(page, "script-src '", "'");
+  const std::string_view script = between(page, "<script>", "</script>");
+  if (hash.empty() || script.empty()) return std::nullopt;
+  std::string html = "<div id=\"tagfield-view\"></div>\n";
+  html += "<script type=\"application/json\" id=\"tagfield-run\">";
+  // No text of the run may end the element.
+  for (const char c : run_json(read_run_files(folder), folder)) {
     if (c == '<') {
-      view += "\\u003c";
+      html += "\\u003c";
     } else {
-      view += c;
+      html += c;
     }
   }
-  view += "</script>";
-  return view.append(page.substr(script));
+  html.append("</script>\n<script>").append(script).append("</script>\n");
+  return RunView{std::move(html), std::string(hash)};
 }
 
 }  // namespace tagfield::http

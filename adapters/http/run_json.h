@@ -2,9 +2,11 @@
 /// A run's folder as JSON for the page, which shows it with a slider over its time.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tagfield/planning/link_explanation.h"
+#include "tagfield/report/page.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
@@ -19,8 +21,8 @@ std::string scene_json(const ScenarioWithWorld& loaded);
 /// is in it. Throws Error where one of the files is malformed.
 std::string run_json(const RunFiles& run, const std::string& folder);
 
-/// The page with the run inside: one file that needs nothing else. "" where the program was built
-/// without the page.
-std::string view_page(const std::string& run);
+/// What report.html embeds of the run in `folder`; none where the program was built without the
+/// page. Throws Error as run_json() does.
+std::optional<RunView> run_view(const std::string& folder);
 
 }  // namespace tagfield::http

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "adapters/http/run_json.h"
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
@@ -256,7 +257,8 @@ int localize(const LocalizeArguments& arguments) {
   stage(recording, loaded, options, result, folder);
   folder.add("summary.json", to_json(summary));
   if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
-  stage_report(folder.staging().string(), folder);
+  const std::string staging = folder.staging().string();
+  stage_report(staging, http::run_view(staging), folder);
   folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
                  "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
   fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "adapters/http/run_json.h"
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -14,7 +15,7 @@ namespace {
 int report(const LocalizeArguments& arguments) {
   if (is_bag(arguments.recording)) return localize(arguments);
   if (!arguments.out.empty()) throw Error("report: --out goes with a bag only");
-  write_report(arguments.recording);
+  write_report(arguments.recording, http::run_view(arguments.recording));
   fmt::print("page: {}/report.html\n", arguments.recording);
   return kExitOk;
 }

@@ -73,14 +73,6 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   folder.add("scene.json", http::scene_json(loaded));
 }
 
-/// The run to be watched, and the report, which leads to it.
-void stage_pages(StagedFolder& folder) {
-  const std::string staging = folder.staging().string();
-  const std::string view = http::view_page(http::run_json(read_run_files(staging), staging));
-  if (!view.empty()) folder.add("view.html", view);
-  stage_report(staging, folder);
-}
-
 /// The first seed's tables go into `folder` while it runs.
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
                                        const ScenarioWithWorld& loaded,
@@ -136,19 +128,10 @@ void print_result(const Summary& summary, const std::string& out, bool page) {
 
 /// What of another run in the same folder does not belong to this one.
 const std::vector<std::filesystem::path>& stale_files() {
-  static const std::vector<std::filesystem::path> all = {"tag_heights.csv",
-                                                         "reference_tags.csv",
-                                                         "corrected_poses.csv",
-                                                         "top_view.json",
-                                                         "map.pgm",
-                                                         "map.yaml",
-                                                         "mapping_path.csv",
-                                                         "truth/mapping_path.csv",
-                                                         "report.html",
-                                                         "figures",
-                                                         "scene.json",
-                                                         "view.html",
-                                                         "INCOMPLETE"};
+  static const std::vector<std::filesystem::path> all = {
+      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json", "map.pgm",
+      "map.yaml",        "mapping_path.csv",   "truth/mapping_path.csv", "report.html",   "figures",
+      "scene.json",      "INCOMPLETE"};
   return all;
 }
 
@@ -206,7 +189,10 @@ int run(const RunArguments& arguments) {
   stage_run(loaded, runs.front(), folder);
   folder.add("summary.json", to_json(summary));
   if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
-  if (!arguments.no_page) stage_pages(folder);
+  if (!arguments.no_page) {
+    const std::string staging = folder.staging().string();
+    stage_report(staging, http::run_view(staging), folder);
+  }
   folder.commit(stale_files());
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;

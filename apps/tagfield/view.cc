@@ -63,7 +63,7 @@ void add_view_command(CLI::App& app, Action& chosen) {
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at (default 127.0.0.1, by this machine alone)");
   command->footer(
-      "A run's folder holds the same as view.html, which needs no server.\n"
+      "report.html in a run's folder shows the same without a server.\n"
       "What is happening now is shown by 'tagfield serve'.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
 }

@@ -13,10 +13,14 @@
 namespace tagfield {
 namespace {
 
-/// Nothing may be fetched or run: only the page's own style counts.
-constexpr const char* kPolicy =
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-    "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n";
+/// Only the page's own style counts, and the script with this hash, with the pictures that it
+/// makes.
+std::string policy(const std::string& script_hash) {
+  const std::string script =
+      script_hash.empty() ? "" : "script-src '" + script_hash + "'; img-src data: blob:; ";
+  return "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; " + script +
+         "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n";
+}
 
 std::string figures_html(const std::vector<Figure>& figures) {
   std::string drawn;
@@ -27,17 +31,12 @@ std::string figures_html(const std::vector<Figure>& figures) {
   return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
 }
 
-/// The run to be watched, where it stands beside the page.
-std::string link_to_view(bool has_view) {
-  return has_view ? "<p><a href=\"view.html\">Watch this run in 3D</a>, with its world, reads and "
-                    "paths over time.</p>\n"
-                  : "";
-}
-
-std::string page_of(const Summary& summary, const std::vector<Figure>& figures, bool has_view) {
-  return page_head(summary.scenario + " – Tagfield report") + "<body>\n" + page_header(summary) +
-         "<main>\n" + key_numbers(summary) + link_to_view(has_view) + run_facts(summary) +
-         methods_table(summary) + navigation_table(summary) + effects_table(summary) +
+std::string page_of(const Summary& summary, const std::vector<Figure>& figures,
+                    const std::optional<RunView>& view) {
+  return page_head(summary.scenario + " – Tagfield report", view ? view->script_hash : "") +
+         "<body>\n" + page_header(summary) + "<main>\n" + key_numbers(summary) +
+         run_facts(summary) + methods_table(summary) + navigation_table(summary) +
+         effects_table(summary) + (view ? "<h2>The run over time</h2>\n" + view->html : "") +
          "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) +
          "</main>\n" + page_footer() + "</body>\n</html>\n";
 }
@@ -49,15 +48,16 @@ void require_run_folder(const std::string& folder) {
 
 }  // namespace
 
-std::string page_head(const std::string& title) {
+std::string page_head(const std::string& title, const std::string& script_hash) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
-         std::string(kPolicy) +
+         policy(script_hash) +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
          escaped(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n";
 }
 
-void stage_report(const std::string& run_folder, StagedFolder& folder) {
+void stage_report(const std::string& run_folder, const std::optional<RunView>& view,
+                  StagedFolder& folder) {
   const RunFiles run = read_run_files(run_folder);
   const std::vector<Figure> figures = all_figures(run);
   for (const Figure& figure : figures) {
@@ -65,14 +65,13 @@ void stage_report(const std::string& run_folder, StagedFolder& folder) {
     folder.add("figures/" + figure.name + ".svg",
                standalone_svg(figure.svg, figure.title, figure.caption));
   }
-  folder.add("report.html",
-             page_of(run.summary, figures, std::filesystem::exists(run_folder + "/view.html")));
+  folder.add("report.html", page_of(run.summary, figures, view));
 }
 
-void write_report(const std::string& run_folder) {
+void write_report(const std::string& run_folder, const std::optional<RunView>& view) {
   require_run_folder(run_folder);
   StagedFolder folder(run_folder);
-  stage_report(run_folder, folder);
+  stage_report(run_folder, view, folder);
   folder.commit({"figures"});
 }
 

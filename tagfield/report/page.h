@@ -2,23 +2,31 @@
 /// The report: one HTML page and its figures, drawn from the files in a run's folder.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace tagfield {
 
 class StagedFolder;
 
+/// What shows the run in three dimensions over time, put into the page as it is.
+struct RunView {
+  std::string html;         ///< With a script.
+  std::string script_hash;  ///< Of that script, "sha256-…": the only one that the page lets run.
+};
+
 /// Draws report.html and figures/*.svg in a folder that holds summary.json, reads.csv,
 /// antenna_poses.csv and, where the truth is known, truth/ and top_view.json. Figures of an older
 /// report vanish. The same files give the same bytes. Throws Error if a file that must be there is
 /// missing or malformed; then nothing is replaced.
-void write_report(const std::string& run_folder);
+void write_report(const std::string& run_folder, const std::optional<RunView>& view = std::nullopt);
 
 /// The same from the files in `run_folder`, as part of what is about to appear in `folder`.
-void stage_report(const std::string& run_folder, StagedFolder& folder);
+void stage_report(const std::string& run_folder, const std::optional<RunView>& view,
+                  StagedFolder& folder);
 
-/// A page from its first byte up to its body: nothing may be fetched or run. `title` is escaped
-/// here.
-std::string page_head(const std::string& title);
+/// A page from its first byte up to its body: nothing may be fetched, and nothing run but the
+/// script of this hash, if there is one. `title` is escaped here.
+std::string page_head(const std::string& title, const std::string& script_hash = "");
 
 }  // namespace tagfield

@@ -90,7 +90,7 @@ footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
 @media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}
 .told tbody th{white-space:normal}}
-@media print{.figures{columns:1}}
+@media print{.figures{columns:1}#tagfield-view{display:none}}
 )";
 
 }  // namespace

@@ -373,7 +373,7 @@ def names_of_tags_that_csv_html_and_svg_would_stumble_over(context):
     check_equal({row["tag"] for row in read_csv(folder / "reads.csv")}, set(odd), "tags read")
     check_equal({tag["id"] for tag in read_json(folder / "summary.json")["tags"]}, set(odd), "tags")
     page = (folder / "report.html").read_text(encoding="utf-8")
-    check("<script" not in page, "a tag's name became markup")
+    check("<script>alert" not in page, "a tag's name became markup")
     check_in("&lt;script&gt;alert(1)&lt;/script&gt;", page, "the page")
     context.run_well("localize", folder / "reads.csv", "--poses", folder / "antenna_poses.csv",
                      "--tag-heights", folder / "tag_heights.csv", "--out", "again")

@@ -202,7 +202,7 @@ def webgl_or_skip(one):
 
 
 class Bundle:
-    """The page and the fragment, built once in the build's folder, with npm's packages."""
+    """The page, built once in the build's folder, with npm's packages."""
 
     def __init__(self, context):
         for program in ("node", "npm"):
@@ -211,15 +211,13 @@ class Bundle:
         self.modules = context.build / "adapters" / "http" / "node"
         self.source = context.source / "adapters" / "http" / "page"
         self.page = context.folder / "page.html"
-        self.viewer = context.folder / "viewer.html"
         made = run([self.source / "make", "npm", "node", self.modules, self.page],
                    cwd=context.folder)
         if made.code != 0 or not self.page.stat().st_size:
             raise Skip(made.out.strip() or made.err.strip())
-        self.build(self.page, self.viewer)
 
-    def build(self, *files):
-        made = run(["node", self.source / "build.mjs", *files, "--modules", self.modules])
+    def build(self, page):
+        made = run(["node", self.source / "build.mjs", page, "--modules", self.modules])
         check(made.code == 0, f"build.mjs: {made.err}")
 
 

@@ -57,7 +57,17 @@ const visible = [...document.querySelectorAll('figure')].map(figure => {
 const body = getComputedStyle(document.body);
 return {figures: visible, background: body.backgroundColor, ink: body.color,
         scroll: document.scrollingElement.scrollWidth, inner: window.innerWidth,
-        scripts: document.scripts.length};
+        scripts: [...document.scripts].map(script => script.type),
+        drawn: document.getElementById('tagfield-view')?.shadowRoot?.querySelector('canvas') != null};
+"""
+
+# Whether a script that somebody got into the page would run.
+ANOTHER_SCRIPT = """
+const script = document.createElement('script');
+script.textContent = 'window.hasRun = true';
+document.body.append(script);
+script.remove();
+return window.hasRun === true;
 """
 
 
@@ -77,7 +87,8 @@ def start_browser(profile):
             skip(f"{program} is not installed")
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
-    for flag in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
+    for flag in ("--headless=new", "--no-sandbox", "--disable-quic",
+                 "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                  "--no-first-run", "--disable-background-networking", "--disable-component-update",
                  "--disable-sync", "--hide-scrollbars", f"--user-data-dir={profile}"):
         options.add_argument(flag)
@@ -164,8 +175,13 @@ def view_faults(driver, page, theme, seen):
     for address in addresses:
         if address != page.as_uri():
             yield f"requests {address[:200]}"
-    if seen["scripts"]:
-        yield f"holds {seen['scripts']} scripts"
+    if seen["scripts"] not in ([], ["application/json", ""]):
+        yield f"holds scripts of the types {seen['scripts']}"
+    if seen["scripts"] and not seen["drawn"]:
+        yield "does not show the run"
+    if driver.execute_script(ANOTHER_SCRIPT):
+        yield "lets another script run than its own"
+    driver.get_log("browser")  # which says so
     if seen["scroll"] > seen["inner"]:
         yield f"scrolls sideways: {seen['scroll']} px wide in a window of {seen['inner']} px"
     if (luminance(seen["background"]) < 0.1) != (theme == "dark"):

@@ -1,11 +1,10 @@
 // Bundles the page: one file of HTML with script and style inside, which asks the network for
 // nothing.
 //
-//   node build.mjs OUT.html [VIEWER.html] [--modules DIR]
+//   node build.mjs OUT.html [--modules DIR]
 //
-// OUT.html is the page that the server hands out. VIEWER.html is the fragment that report.html
-// embeds: an element and the same script, which shows the run in <script type="application/json"
-// id="tagfield-run">. DIR holds node_modules (default: beside this file).
+// The server hands it out; a report takes its script, which then shows the run in <script
+// type="application/json" id="tagfield-run">. DIR holds node_modules (default: beside this file).
 
 import {createHash} from "node:crypto";
 import {readFileSync, writeFileSync} from "node:fs";
@@ -15,20 +14,23 @@ import {fileURLToPath, pathToFileURL} from "node:url";
 
 const HERE = path.dirname(fileURLToPath(import.meta.url));
 
+function usage() {
+  console.error("usage: node build.mjs OUT.html [--modules DIR]");
+  process.exit(2);
+}
+
 function parse(words) {
-  const outputs = [];
+  let output = null;
   let modules = HERE;
   for (let i = 0; i < words.length; ++i) {
     if (words[i] === "--modules" && i + 1 < words.length)
       modules = path.resolve(words[++i]);
+    else if (output === null && !words[i].startsWith("-"))
+      output = words[i];
     else
-      outputs.push(words[i]);
+      usage();
   }
-  if (outputs.length < 1 || outputs.length > 2 || outputs.some((word) => word.startsWith("-"))) {
-    console.error("usage: node build.mjs OUT.html [VIEWER.html] [--modules DIR]");
-    process.exit(2);
-  }
-  return {outputs, modules};
+  return output === null ? usage() : {output, modules};
 }
 
 async function bundle(modules) {
@@ -52,13 +54,9 @@ async function bundle(modules) {
     .replaceAll("<!--", "<\\!--");
 }
 
-// By a function, since "$" in the script must not be taken for a pattern.
-
-const {outputs, modules} = parse(process.argv.slice(2));
+const {output, modules} = parse(process.argv.slice(2));
 const script = await bundle(modules);
 const hash = createHash("sha256").update(script).digest("base64");
 const page = readFileSync(path.join(HERE, "page.html"), "utf8").replace("SCRIPT_HASH", hash);
-writeFileSync(outputs[0], page.replace("<!--script-->", () => `<script>${script}</script>`));
-if (outputs[1]) {
-  writeFileSync(outputs[1], `<div id="tagfield-view"></div>\n<script>${script}</script>\n`);
-}
+// By a function, since "$" in the script must not be taken for a pattern.
+writeFileSync(output, page.replace("<!--script-->", () => `<script>${script}</script>`));

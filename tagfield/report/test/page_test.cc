@@ -18,6 +18,17 @@ std::string page_of(const FolderPlan& plan) {
   return folder.text("report.html");
 }
 
+TEST(WriteReport, LetsNoScriptRunButTheViewsOwn) {
+  const RunFolder folder(FolderPlan{});
+  write_report(folder.path());
+  EXPECT_FALSE(holds(folder.text("report.html"), "script-src"));
+  write_report(folder.path(), RunView{"<div id=\"view\"></div>\n", "sha256-abc="});
+  const std::string page = folder.text("report.html");
+  EXPECT_TRUE(holds(page, "default-src 'none'; script-src 'sha256-abc='; "));
+  EXPECT_TRUE(holds(page, "<h2>The run over time</h2>\n<div id=\"view\"></div>\n"));
+  EXPECT_EQ(unbalanced_tag(page), "");
+}
+
 TEST(WriteReport, DrawsEachFigureOnThePageAndAsAFile) {
   const RunFolder folder(FolderPlan{});
   write_report(folder.path());
