@@ -2,18 +2,20 @@
 """What a live world costs under load: readers that read as fast as they can, told to LLRP, WebSocket
 and MQTT clients at once.
 
-    benchmarks/live_load.py [--tags 10000] [--readers 4] [--seconds 20]
+    benchmarks/live_load.py [--tags 10000] [--readers 4] [--seconds 20] [--watchers 100]
 
 Starts mosquitto and 'tagfield serve' in real time, an LLRP client a reader that asks for its fastest
 mode (FM0, 640 kHz) and a report for each tag, one WebSocket and one MQTT subscriber, and prints reads a
-second of each, the pace against real time, and the server's share of a core. Needs mosquitto,
-mosquitto-clients and python3-websocket.
+second of each, the pace against real time, and the server's share of a core. Watchers are so many more
+WebSocket clients, every other one of which never reads what it gets. Needs mosquitto, mosquitto-clients and
+python3-websocket.
 """
 
 import argparse
 import json
 import os
 import pathlib
+import select
 import socket
 import struct
 import subprocess
@@ -22,11 +24,12 @@ import tempfile
 import threading
 import time
 
+import websocket
+
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(SOURCE / "examples/07_llrp_client"), str(SOURCE / "tests/live"),
                 str(SOURCE / "tests/command")]
 from llrp_client import Reader, parameter  # noqa: E402
-
 
 
 def free_port():
@@ -81,8 +84,8 @@ class Counter(threading.Thread):
         try:
             for number in self.follow():
                 self.count += number
-        except (OSError, ValueError, EOFError):
-            pass
+        except (OSError, ValueError, EOFError, websocket.WebSocketException):
+            pass  # The server has ended.
 
 
 def llrp_reads(port):
@@ -95,19 +98,28 @@ def llrp_reads(port):
             yield body.count(b"\x8d\x30\x34")  # EPC-96, and how all of these EPCs begin
 
 
+def frames_of(port):
+    return websocket.create_connection(f"ws://127.0.0.1:{port}/api/live", timeout=60)
+
+
 def frame_reads(port):
-    import websocket
-    client = websocket.create_connection(f"ws://127.0.0.1:{port}/api/live", timeout=60)
+    client = frames_of(port)
     while True:
         frame = json.loads(client.recv())
         yield sum(read[6] for read in frame.get("reads", []))
 
 
-def mqtt_reads(port):
-    process = subprocess.Popen(["mosquitto_sub", "-h", "127.0.0.1", "-p", str(port), "-q", "1", "-t",
-                                "tagfield/#"], stdout=subprocess.PIPE)
-    while line := process.stdout.readline():
-        yield 1 if line else 0
+def watch(clients):
+    """Takes what every other one gets, unread."""
+    while readable := select.select([client.sock for client in clients[::2]], [], [], 5)[0]:
+        for one in readable:
+            if not one.recv(1 << 20):
+                return
+
+
+def mqtt_reads(subscriber):
+    while subscriber.stdout.readline():
+        yield 1
 
 
 def processor_seconds(process):
@@ -138,6 +150,8 @@ def measure(asked, folder):
     broker = subprocess.Popen(["/usr/sbin/mosquitto", "-p", str(broker_port)],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(0.5)
+    subscriber = subprocess.Popen(["mosquitto_sub", "-h", "127.0.0.1", "-p", str(broker_port), "-q", "1",
+                                   "-t", "tagfield/#"], stdout=subprocess.PIPE)
     server = subprocess.Popen(
         [asked.tagfield, "serve", scenario, "--http", "0", "--llrp", "0", "--mqtt",
          f"mqtt://127.0.0.1:{broker_port}/tagfield"], stdout=subprocess.PIPE)
@@ -152,7 +166,10 @@ def measure(asked, folder):
         clients = {f"llrp {i + 1}": Counter(lambda port=port: llrp_reads(port))
                    for i, port in enumerate(llrp_ports)}
         clients["websocket"] = Counter(lambda: frame_reads(http_port))
-        clients["mqtt"] = Counter(lambda: mqtt_reads(broker_port))
+        clients["mqtt"] = Counter(lambda: mqtt_reads(subscriber))
+        watchers = [frames_of(http_port) for _ in range(asked.watchers)]
+        if watchers:
+            threading.Thread(target=watch, args=(watchers,), daemon=True).start()
         time.sleep(5)
         begin, used, at = time.monotonic(), processor_seconds(server), status(http_port)["time"]
         counts = {name: client.count for name, client in clients.items()}
@@ -165,6 +182,8 @@ def measure(asked, folder):
     finally:
         server.terminate()
         server.wait()
+        subscriber.terminate()
+        subscriber.wait()
         broker.terminate()
         broker.wait()
 
@@ -174,6 +193,7 @@ def main():
     arguments.add_argument("--tagfield", default=SOURCE / "build/release/bin/tagfield")
     arguments.add_argument("--tags", type=int, default=10_000)
     arguments.add_argument("--readers", type=int, default=4)
+    arguments.add_argument("--watchers", type=int, default=0)
     arguments.add_argument("--seconds", type=float, default=20)
     asked = arguments.parse_args()
     with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:

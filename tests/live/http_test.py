@@ -8,14 +8,15 @@ import json
 import math
 import pathlib
 import random
+import shutil
 import signal
 import socket
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
-from common import (case, check, check_between, check_equal, check_in,  # noqa: E402
-                    check_near, main, read_csv)
+from common import (Skip, case, check, check_between, check_equal, check_in,  # noqa: E402
+                    check_near, main, read_csv, run)
 from served import served  # noqa: E402
 
 try:
@@ -194,6 +195,22 @@ def pages_get_frames(context):
                     "antennas that move")
         robots = [frame["robots"][0] for frame in seen]
         check(robots[0][1:3] != robots[-1][1:3], "the robot stands")
+
+
+@case
+def the_example_in_javascript_prints_reads(context):
+    if shutil.which("node") is None:
+        raise Skip("node is missing (scripts/setup --tests installs it)")
+    with served(context, context.shipped(PORTAL)) as server:
+        told = run(["node", context.source / "examples/08_live_client/reads.mjs",
+                    server.addresses["http"], "tag_01", "30"])
+        check_equal(told.code, 0, f"exit code of the example ({told.err})")
+        lines = told.out.splitlines()
+        check_equal(len(lines), 30, "lines")
+        check(all("dBm" in line for line in lines), f"lines without RSSI: {lines[0]}")
+        moved = [float(line.split("moved ")[1].split(" mm")[0]) for line in lines if "moved" in line]
+        check(len(moved) > 10, "no carrier came twice")
+        check_between(max(map(abs, moved)), 0, 0.25 * 299792458 / 902e6 * 1000, "largest change [mm]")
 
 
 @case
