@@ -25,6 +25,7 @@ namespace {
 constexpr double kMostPlace_m = 1e5;
 constexpr double kMostStep_s = 1e6;
 constexpr std::size_t kMostCoverageCells = 40'000;
+constexpr double kLeastCell_m = 0.25;  ///< Where nobody asks for another.
 /// What is added by others, besides the scenario's own.
 constexpr std::size_t kMostTags = 200'000;
 constexpr std::size_t kMostAntennas = 1'000;
@@ -123,9 +124,17 @@ struct CoverageQuestion {
   double height_m = 0.0;
 };
 
+double reach_of(double range_m) { return std::min(range_m, 100.0); }
+
+/// As small as there may be cells, and a few less, in centimetres.
+double fitting_cell(double range_m) {
+  const double most_in_a_row = std::sqrt(static_cast<double>(kMostCoverageCells)) - 2.0;
+  return std::ceil(100.0 * 2.0 * reach_of(range_m) / most_in_a_row) / 100.0;
+}
+
 /// Around the antenna, as far as it may read.
 CoverageGrid grid_around(const Eigen::Vector3d& p_WA, double range_m, double cell_m) {
-  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(std::min(range_m, 100.0));
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_of(range_m));
   const Eigen::AlignedBox2d region(p_WA.head<2>() - reach, p_WA.head<2>() + reach);
   return grid_over(region, cell_m, kMostCoverageCells);
 }
@@ -159,13 +168,14 @@ CoverageQuestion coverage_question(const LiveWorld& world, const Target& target,
   const RigidTransform X_WA = world.antenna_pose(antenna);
   question.samples = {{world.now(), {X_WA}, {}}};
   question.height_m = number_in(target, "height", -1e3, 1e3, 1.0);
-  const double cell_m = number_in(target, "cell", 0.01, 10.0, 0.25);
   CoverageRequest& request = question.request;
   request.antennas = {0};
   request.tag = scenario.tags.empty() || !scenario.tags.front().model ? default_tag_model()
                                                                       : scenario.tags.front().model;
   request.heights_m = {question.height_m};
   const double range_m = antenna_json(antenna.spec, X_WA, 1)["range"].get<double>();
+  const double cell_m =
+      number_in(target, "cell", 0.01, 10.0, std::max(kLeastCell_m, fitting_cell(range_m)));
   request.grid = grid_around(X_WA.translation, range_m, cell_m);
   request.seed = seed;
   return question;
@@ -238,7 +248,7 @@ class Api::Impl {
   ApiAnswer status(Call& call) { return done(call.world); }
   ApiAnswer scene(Call& call) {
     Json json = solids;
-    json["obstacles"] = obstacles_json(call.world);
+    json["obstacles"] = obstacles_json(call.world.scenario(), call.world.now());
     json["paths"] = paths;
     return ApiResponse{200, json_text(json)};
   }

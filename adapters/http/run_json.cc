@@ -12,6 +12,7 @@
 #include "adapters/http/world_json.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
+#include "tagfield/map/map_file.h"
 
 namespace tagfield::http {
 namespace {
@@ -164,6 +165,29 @@ Json robots_in(const std::string& folder) {
   return robots;
 }
 
+/// Rows from the origin's corner on, as one list of how many cells are of one kind and which that
+/// is: 0 free, 1 occupied, 2 neither.
+Json map_json(const std::string& path) {
+  Diagnostics unheard;
+  const OccupancyGrid grid = read_map(path, unheard);
+  Json runs = Json::array();
+  for (std::size_t i = 0; i < grid.cells.size();) {
+    const auto kind_of = [](std::int8_t cell) {
+      return is_free(cell) ? 0 : is_occupied(cell) ? 1 : 2;
+    };
+    const int kind = kind_of(grid.cells[i]);
+    const std::size_t begin = i;
+    while (i < grid.cells.size() && kind_of(grid.cells[i]) == kind) ++i;
+    runs.push_back(i - begin);
+    runs.push_back(kind);
+  }
+  return {{"resolution", grid.resolution_m},
+          {"origin", {grid.origin.x(), grid.origin.y()}},
+          {"width", grid.width},
+          {"height", grid.height},
+          {"runs", std::move(runs)}};
+}
+
 /// What of `text` is between the first `begin` and the next `end`; "" where they are not there.
 std::string_view between(std::string_view text, std::string_view begin, std::string_view end) {
   const std::size_t from = text.find(begin);
@@ -177,7 +201,7 @@ std::string_view between(std::string_view text, std::string_view begin, std::str
 
 std::string scene_json(const ScenarioWithWorld& loaded) {
   Json scene = solids_json(loaded.scene, loaded.scenario);
-  scene["obstacles"] = Json::array();
+  scene["obstacles"] = obstacles_json(loaded.scenario, Time{});
   scene["paths"] = paths_json(loaded.scenario);
   Json antennas = Json::array();
   std::map<std::string, std::size_t> ports;
@@ -197,6 +221,8 @@ std::string run_json(const RunFiles& run, const std::string& folder) {
                              {"solids", Json::array()},      {"meshes", Json::array()},
                              {"obstacles", Json::array()},   {"map", nullptr},
                              {"paths", Json::array()}};
+  const std::string map = folder + "/map.yaml";
+  if (std::filesystem::exists(map)) json["scene"]["map"] = map_json(map);
   json["antennas"] = antennas_of(run, known);
   Numbers tags;
   json["tags"] = tags_of(run, tags);

@@ -115,17 +115,34 @@ Json solids_json(const Scene& scene, const Scenario& scenario) {
           {"map", nullptr}};
 }
 
-Json obstacles_json(const LiveWorld& world) {
+Json obstacle_json(const ObstacleSpec& obstacle, Time now) {
+  const Eigen::Vector3d p_W = held_pose_at(obstacle.motion, now).translation;
+  const BodySpec body = obstacle.body.value_or(BodySpec{});
+  Json json = {{"name", obstacle.name},
+               {"position", {p_W.x(), p_W.y()}},
+               {"size", {obstacle.size_m.x(), obstacle.size_m.y()}},
+               {"radius", obstacle.radius_m},
+               {"yaw", obstacle.yaw_rad},
+               {"height", body.height_m},
+               {"material", body.material.name}};
+  if (obstacle.motion.size() > 1) {
+    json["motion"] = Json::array();
+    for (const StampedPose& pose : obstacle.motion) {
+      const Eigen::Vector3d& p = pose.X_WB.translation;
+      json["motion"].push_back({to_seconds(pose.stamp), p.x(), p.y()});
+    }
+  }
+  if (obstacle.appears > Time{}) json["appears"] = to_seconds(obstacle.appears);
+  if (obstacle.disappears) json["disappears"] = to_seconds(*obstacle.disappears);
+  return json;
+}
+
+Json obstacles_json(const Scenario& scenario, Time now) {
   Json all = Json::array();
-  for (const ObstacleSpec& obstacle : world.scenario().obstacles) {
-    if (!is_there(obstacle, world.now())) continue;
-    const Eigen::Vector3d p_W = held_pose_at(obstacle.motion, world.now()).translation;
-    all.push_back({{"name", obstacle.name},
-                   {"position", {p_W.x(), p_W.y()}},
-                   {"size", {obstacle.size_m.x(), obstacle.size_m.y()}},
-                   {"radius", obstacle.radius_m},
-                   {"yaw", obstacle.yaw_rad},
-                   {"height", obstacle.body ? obstacle.body->height_m : BodySpec{}.height_m}});
+  for (const ObstacleSpec& obstacle : scenario.obstacles) {
+    if (!obstacle.disappears || now < *obstacle.disappears) {
+      all.push_back(obstacle_json(obstacle, now));
+    }
   }
   return all;
 }

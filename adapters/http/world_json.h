@@ -23,8 +23,9 @@ Json pose_json(const RigidTransform& X);
 
 /// The world at rest: solids with their shapes and what each is made of, meshes once each.
 Json solids_json(const Scene& scene, const Scenario& scenario);
-/// Those that are there now.
-Json obstacles_json(const LiveWorld& world);
+/// Those that are there `now` or will be, where they are; with their motion, and when they come and
+/// go, where they do.
+Json obstacles_json(const Scenario& scenario, Time now);
 /// Waypoints of robots, from where they start.
 Json paths_json(const Scenario& scenario);
 

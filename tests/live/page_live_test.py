@@ -513,6 +513,59 @@ def report_holds_the_same_view(context):
 
 
 @case
+def a_recorded_map_lies_on_the_floor(context):
+    shared = shared_of(context)
+    one = shared.chromium
+    one.screen()
+    folder = context.simulate("z_axis", name="mapped")
+    # Three columns, two rows; an image begins with the last row: free, occupied, unknown.
+    (folder / "map.pgm").write_bytes(b"P5 3 2 255\n" + bytes([254, 254, 0, 0, 205, 254]))
+    (folder / "map.yaml").write_text("image: map.pgm\nresolution: 0.5\norigin: [-1, -2, 0]\nnegate: 0\n"
+                                     "occupied_thresh: 0.65\nfree_thresh: 0.196\n", encoding="utf-8")
+    context.run_well("report", folder)
+    one.open((folder / "report.html").as_uri())
+    one.wait("view.stage.frames > 0", "a frame was drawn")
+    check_equal(one.ask("world.scene.map"),
+                {"resolution": 0.5, "origin": [-1, -2], "width": 3, "height": 2,
+                 "runs": [1, 1, 1, 2, 3, 0, 1, 1]}, "the map")
+    place, opacities = one.ask("""(() => {
+      const map = view.drawing.ground.group.children.find((one) => one.material.map);
+      const cells = [...map.material.map.image.data].filter((value, i) => i % 4 === 3);
+      return [map.position.toArray(), cells.map((value) => value > 0 ? (value > 100 ? 1 : 2) : 0)];
+    })()""")
+    check_near(place[0], -0.25, 1e-9, "x of the map's middle")
+    check_near(place[1], -1.5, 1e-9, "y of the map's middle")
+    check_equal(opacities, [1, 2, 0, 0, 0, 1], "cells: free 0, occupied 1, unknown 2")
+
+
+@case
+def bodies_walk_and_come_and_go(context):
+    shared = shared_of(context)
+    one = shared.chromium
+    one.screen()
+    text = context.shipped("portal").read_text(encoding="utf-8")
+    text = text.replace("../", f"{context.source}/") + (
+        "\nobstacles:\n"
+        "  - {name: worker, radius_m: 0.25, trajectory: [[0, -1, -2], [4, -1, 2], [8, 1, 2]]}\n"
+        "  - {name: pallet, size: [1, 0.8], position: [1, 1], material: cardboard, disappears_s: 6}\n")
+    with served(context, context.write("people.yaml", text), "--paused", "--speed",
+                "20") as server:
+        one.open(server.addresses["http"])
+        one.wait("view.stage.frames > 0 && world.scene.obstacles.length === 2", "the bodies are there")
+        for time_s, place, stands in ((0, [-1, -2], True), (3, [-1, 1], True), (7, [0.5, 2], False)):
+            if time_s > 0:
+                server.post("/api/step", {"seconds": time_s - server.get("/api/status")["time"]})
+            one.wait(f"Math.abs(world.time - {time_s}) < 1e-6 && world.paused", f"{time_s} s")
+            one.still()
+            worker, pallet = one.ask("view.drawing.solids.passing.map(({mesh}) => "
+                                     "[mesh.visible, mesh.position.x, mesh.position.y])")
+            check(worker[0], "the worker is not drawn")
+            check_near(worker[1], place[0], 1e-4, f"x of the worker at {time_s} s")
+            check_near(worker[2], place[1], 1e-4, f"y of the worker at {time_s} s")
+            check_equal(pallet[0], stands, f"the pallet at {time_s} s")
+
+
+@case
 def real_server_is_shown(context):
     shared = shared_of(context)
     if context.run("serve", "--help").code != 0:

@@ -19,7 +19,7 @@ export class Drawing {
   constructor(canvas, world, scale) {
     this.world = world;
     this.stage = new Stage(canvas);
-    this.solids = new Solids(this.stage);
+    this.solids = new Solids(this.stage, world);
     this.ground = new Ground(this.stage);
     this.tags = new Tags(this.stage, world, scale);
     this.antennas = new Antennas(this.stage, world);
@@ -43,6 +43,7 @@ export class Drawing {
 
   update(changed) {
     if (changed.has("scene")) this.#scene();
+    if (changed.has("time")) this.solids.place();
     for (const layer of [this.tags, this.antennas, this.robots, this.estimates])
       layer.update(changed);
   }

@@ -1,9 +1,12 @@
 // Floor, metre grid, map and the robots' paths.
 
 import {
-  Box3, BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments,
-  Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, TextureLoader, Vector3
+  Box3, BufferAttribute, BufferGeometry, Color, DataTexture, Group, Line, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeometry, SRGBColorSpace, Vector3
 } from "three";
+
+// Free, occupied, neither: red, green, blue, opacity.
+const MAP_COLORS = [[255, 255, 255, 0], [30, 41, 59, 220], [100, 116, 139, 70]];
 
 // Lines each `step` metres, but for those at multiples of `skip`.
 function gridLines({min, max}, step, skip, height) {
@@ -68,19 +71,24 @@ export class Ground {
       new LineBasicMaterial({color: new Color(this.theme.grid), transparent: true, opacity}));
   }
 
-  #map({resolution, origin, width, height, png}) {
-    if (!png?.startsWith("data:image/")) return;
-    new TextureLoader().load(png, (texture) => {
-      texture.magFilter = NearestFilter;
-      texture.colorSpace = SRGBColorSpace;
-      const [w, h] = [width * resolution, height * resolution];
-      const plane = new Mesh(
-        new PlaneGeometry(w, h),
-        new MeshBasicMaterial({map: texture, transparent: true, opacity: 0.55, depthWrite: false}));
-      plane.position.set(origin[0] + w / 2, origin[1] + h / 2, 0.006);
-      this.group.add(plane);
-      this.stage.invalidate();
-    });
+  // Free cells stay clear, occupied ones are dark, the rest is a haze.
+  #map({resolution, origin, width, height, runs}) {
+    const cells = new Uint8Array(4 * width * height);
+    let at = 0;
+    for (let i = 0; i + 1 < runs.length; i += 2) {
+      const color = MAP_COLORS[runs[i + 1]];
+      for (let k = 0; k < runs[i] && at < cells.length; ++k, at += 4) cells.set(color, at);
+    }
+    const texture = new DataTexture(cells, width, height);
+    texture.magFilter = NearestFilter;
+    texture.colorSpace = SRGBColorSpace;
+    texture.needsUpdate = true;
+    const [w, h] = [width * resolution, height * resolution];
+    const plane = new Mesh(
+      new PlaneGeometry(w, h),
+      new MeshBasicMaterial({map: texture, transparent: true, depthWrite: false}));
+    plane.position.set(origin[0] + w / 2, origin[1] + h / 2, 0.006);
+    this.group.add(plane);
   }
 
   #path(points) {

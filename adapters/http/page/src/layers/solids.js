@@ -42,13 +42,28 @@ function meshGeometry({vertices, triangles}) {
   return geometry;
 }
 
+// Where an obstacle is at a time, [x, y]; null where it is not there then.
+export function obstaclePlace({position, motion, appears, disappears}, time) {
+  if (time < (appears ?? -Infinity) || time >= (disappears ?? Infinity)) return null;
+  if (!motion) return position;
+  const after = motion.findIndex(([t]) => t > time);
+  if (after < 0) return motion.at(-1).slice(1);
+  if (after === 0) return motion[0].slice(1);
+  const [[t0, x0, y0], [t1, x1, y1]] = [motion[after - 1], motion[after]];
+  const share = (time - t0) / (t1 - t0);
+  return [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
+}
+
+const isThereForGood = ({motion, appears, disappears}) =>
+  !motion && appears === undefined && disappears === undefined;
+
 // Obstacles stand on the floor; the server gives them apart from the solids, since they come and
 // go.
 function obstacleSolid(obstacle) {
   const [x, y] = obstacle.position;
   const height = obstacle.height;
   const pose = [x, y, height / 2, 0, 0, Math.sin(obstacle.yaw / 2), Math.cos(obstacle.yaw / 2)];
-  const solid = {name: obstacle.name, material: obstacle.material ?? "wood", pose};
+  const solid = {name: obstacle.name, material: obstacle.material || "wood", pose};
   if (obstacle.size && obstacle.size[0] > 0)
     solid.box = [...obstacle.size, height];
   else
@@ -115,11 +130,13 @@ void main() {
 }
 
 export class Solids {
-  constructor(stage) {
+  constructor(stage, world) {
     this.stage = stage;
+    this.world = world;
     this.group = new Group();
     stage.scene.add(this.group);
     this.screens = [];
+    this.passing = [];  // Obstacles that move, come or go, each with its mesh.
     this.inside = new Vector3();
     this.edgeColor = new Color("#000000");
   }
@@ -145,7 +162,8 @@ export class Solids {
   set(scene) {
     this.#clear();
     const solids =
-      [...scene.solids, ...scene.obstacles.map(obstacleSolid)].filter((one) => one.pose);
+      [...scene.solids, ...scene.obstacles.filter(isThereForGood).map(obstacleSolid)].filter(
+        (one) => one.pose);
     const boxes = solids.map((solid) => boxOf(solid, scene.meshes));
     const bounds = new Box3();
     boxes.forEach((box) => {
@@ -172,7 +190,22 @@ export class Solids {
       if (kept.includes(solid) && solid.mesh !== undefined)
         this.#mesh(solid, boxes[i], bounds, scene);
     });
+    this.passing = scene.obstacles.filter((one) => !isThereForGood(one)).map((obstacle) => {
+      const mesh = this.#single(obstacleSolid(obstacle), scene);
+      this.group.add(mesh);
+      return {obstacle, mesh};
+    });
+    this.place();
     return bounds.isEmpty() ? null : bounds;
+  }
+
+  // Puts what moves where it is now.
+  place() {
+    for (const {obstacle, mesh} of this.passing) {
+      const at = obstaclePlace(obstacle, this.world.time);
+      mesh.visible = Boolean(at);
+      if (at) mesh.position.set(at[0], at[1], mesh.position.z);
+    }
   }
 
   #instances(shape, glass, solids) {
