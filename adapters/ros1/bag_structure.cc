@@ -1,13 +1,15 @@
 #include "adapters/ros1/bag_structure.h"
 
+#include <bzlib.h>
 #include <fmt/format.h>
+#include <roslz4/lz4s.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -23,9 +25,13 @@ enum Operation : std::uint8_t {
   kBagHeader = 3,
   kIndex = 4,
   kChunk = 5,
+  kChunkInfo = 6,
   kConnection = 7
 };
 constexpr std::size_t kIndexEntry = 12;  ///< A time and an offset.
+constexpr std::size_t kInfoEntry = 8;    ///< A connection and a count.
+/// A chunk without compression. rosbag makes them of 768 KiB, or one message.
+constexpr std::uint32_t kMostChunk = 1U << 28U;
 
 /// What is wrong, without the file.
 struct Damage {
@@ -54,52 +60,103 @@ std::string_view cut_counted(std::string_view& bytes) {
   return cut(bytes, size);
 }
 
-/// The field `name` of a record's header, "name=value" among others.
-std::string_view field(std::string_view header, std::string_view name) {
-  while (!header.empty()) {
-    const std::string_view entry = cut_counted(header);
-    const std::size_t equals = entry.find('=');
-    if (equals != std::string_view::npos && entry.substr(0, equals) == name) {
-      return entry.substr(equals + 1);
+/// The header of a record, "name=value" fields, each after its size. All of them are looked
+/// through: rosbag reads beyond the end of a header whose last field is longer than what is left.
+class Header {
+ public:
+  explicit Header(std::string_view bytes) : bytes_(bytes) {
+    while (!bytes.empty()) {
+      if (cut_counted(bytes).find('=') == std::string_view::npos) {
+        throw Damage{"a field of a record has no value"};
+      }
     }
   }
-  throw Damage{fmt::format("a record has no field '{}'", name)};
-}
+  [[nodiscard]] std::string_view text(std::string_view name) const {
+    std::string_view rest = bytes_;
+    while (!rest.empty()) {
+      const std::string_view entry = cut_counted(rest);
+      const std::size_t equals = entry.find('=');
+      if (entry.substr(0, equals) == name) return entry.substr(equals + 1);
+    }
+    throw Damage{fmt::format("a record has no field '{}'", name)};
+  }
+  template <typename Number>
+  [[nodiscard]] Number number(std::string_view name) const {
+    return number_in<Number>(text(name));
+  }
+  [[nodiscard]] std::uint8_t operation() const { return number<std::uint8_t>("op"); }
 
-/// The chunk that the next index records are about.
-struct Chunk {
-  std::uint32_t size = 0;                            ///< Without compression.
-  std::optional<std::vector<std::uint32_t>> begins;  ///< Of its records, rising, if not compressed.
+ private:
+  std::string_view bytes_;
 };
 
-Chunk chunk_of(std::string_view header, std::string_view data) {
-  Chunk chunk;
-  chunk.size = number_in<std::uint32_t>(field(header, "size"));
-  if (field(header, "compression") != "none") return chunk;
-  if (data.size() != chunk.size) throw Damage{"a chunk has a wrong size"};
-  chunk.begins.emplace();
-  std::string_view rest = data;
+/// A chunk's records as they were before compression, into `unpacked` where there was any.
+std::string_view records_of(const Header& header, std::string_view data, std::string& unpacked) {
+  const auto size = header.number<std::uint32_t>("size");
+  const std::string_view compression = header.text("compression");
+  if (size > kMostChunk) throw Damage{"a chunk has over 256 MiB"};
+  if (compression == "none") {
+    if (data.size() != size) throw Damage{"a chunk has a wrong size"};
+    return data;
+  }
+  unpacked.resize(size);
+  std::string packed(data);  // Neither library says that it leaves its input alone.
+  auto unpacked_size = size;
+  const auto packed_size = static_cast<unsigned>(packed.size());
+  const bool whole = compression == "bz2"
+                         ? BZ2_bzBuffToBuffDecompress(unpacked.data(), &unpacked_size,
+                                                      packed.data(), packed_size, 0, 0) == BZ_OK
+                         : compression == "lz4" && roslz4_buffToBuffDecompress(
+                                                       packed.data(), packed_size, unpacked.data(),
+                                                       &unpacked_size) == ROSLZ4_OK;
+  if (!whole || unpacked_size != size) throw Damage{"a chunk can't be decompressed"};
+  return unpacked;
+}
+
+/// rosbag leaks what it had read of a bag where it finds a field missing.
+void check_connection(const Header& header, std::string_view data) {
+  (void)header.number<std::uint32_t>("conn");
+  (void)header.text("topic");
+  const Header description(data);
+  for (const char* name : {"type", "md5sum", "message_definition"}) (void)description.text(name);
+}
+
+/// Where a chunk's messages begin, rising.
+std::vector<std::uint32_t> message_begins(std::string_view records) {
+  std::vector<std::uint32_t> begins;
+  std::string_view rest = records;
   while (!rest.empty()) {
-    const auto begin = static_cast<std::uint32_t>(data.size() - rest.size());
-    const auto operation = number_in<std::uint8_t>(field(cut_counted(rest), "op"));
-    cut_counted(rest);
-    if (operation == kMessage) chunk.begins->push_back(begin);
-    if (operation != kMessage && operation != kConnection) {
+    const auto begin = static_cast<std::uint32_t>(records.size() - rest.size());
+    const Header header(cut_counted(rest));
+    const std::string_view data = cut_counted(rest);
+    if (header.operation() == kMessage) {
+      (void)header.number<std::uint32_t>("conn");
+      (void)header.number<std::uint64_t>("time");
+      begins.push_back(begin);
+    } else if (header.operation() == kConnection) {
+      check_connection(header, data);
+    } else {
       throw Damage{"a chunk holds a record of another kind"};
     }
   }
-  return chunk;
+  return begins;
 }
 
-void check_index(std::string_view header, std::string_view data, const Chunk& chunk) {
-  const auto count = number_in<std::uint32_t>(field(header, "count"));
-  if (data.size() != count * kIndexEntry) throw Damage{"an index has a wrong size"};
+void require_version_1(const Header& header) {
+  if (header.number<std::uint32_t>("ver") != 1) throw Damage{"a record is of another version"};
+}
+
+void check_index(const Header& header, std::string_view data,
+                 const std::vector<std::uint32_t>& begins) {
+  require_version_1(header);
+  (void)header.number<std::uint32_t>("conn");
+  const auto count = header.number<std::uint32_t>("count");
+  if (data.size() != std::uint64_t{count} * kIndexEntry) throw Damage{"an index has a wrong size"};
   while (!data.empty()) {
     const auto offset = number_in<std::uint32_t>(cut(data, kIndexEntry).substr(8));
-    const bool found = chunk.begins
-                           ? std::binary_search(chunk.begins->begin(), chunk.begins->end(), offset)
-                           : offset < chunk.size;
-    if (!found) throw Damage{"the index points at no message"};
+    if (!std::binary_search(begins.begin(), begins.end(), offset)) {
+      throw Damage{"the index points at no message"};
+    }
   }
 }
 
@@ -107,7 +164,7 @@ void check_index(std::string_view header, std::string_view data, const Chunk& ch
 class RecordFile {
  public:
   explicit RecordFile(const std::string& path)
-      : file_(path, std::ios::binary), left_(std::filesystem::file_size(path)) {}
+      : file_(path, std::ios::binary), size_(std::filesystem::file_size(path)), left_(size_) {}
 
   [[nodiscard]] std::string read(std::uint64_t size) {
     if (size > left_) throw Damage{"a record goes beyond its end"};
@@ -121,28 +178,79 @@ class RecordFile {
     return read(number_in<std::uint32_t>(read(sizeof(std::uint32_t))));
   }
   [[nodiscard]] bool at_end() const { return left_ == 0; }
+  [[nodiscard]] std::uint64_t position() const { return size_ - left_; }
 
  private:
   std::ifstream file_;
+  std::uint64_t size_;
   std::uint64_t left_;
 };
 
-/// Whether the bag was finished: an index position of 0 is there until the index is.
+/// Goes through a bag's records. What one leads to must be there: rosbag goes wherever it leads.
+class Walk {
+ public:
+  /// Whether the bag was finished: an index position of 0 is there until the index is.
+  bool through(RecordFile& file) {
+    while (!file.at_end()) {
+      const std::uint64_t position = file.position();
+      const std::string header_bytes = file.read_counted();
+      const std::string data = file.read_counted();
+      const Header header(header_bytes);
+      if (header.operation() == kBagHeader) {
+        index_position_ = header.number<std::uint64_t>("index_pos");
+        if (index_position_ == 0) return false;
+      }
+      take(header, data, position);
+    }
+    if (index_position_ != file.position() && starts_.count(index_position_) == 0) {
+      throw Damage{"the index is not where it is said to be"};
+    }
+    return true;
+  }
+
+ private:
+  void check_chunk_info(const Header& header, std::string_view data) const {
+    require_version_1(header);
+    for (const char* name : {"start_time", "end_time"}) (void)header.number<std::uint64_t>(name);
+    if (data.size() != std::uint64_t{header.number<std::uint32_t>("count")} * kInfoEntry) {
+      throw Damage{"what is said of a chunk has a wrong size"};
+    }
+    if (chunks_.count(header.number<std::uint64_t>("chunk_pos")) == 0) {
+      throw Damage{"a chunk is not where it is said to be"};
+    }
+  }
+  void take(const Header& header, std::string_view data, std::uint64_t position) {
+    starts_.insert(position);
+    switch (header.operation()) {
+      case kChunk:
+        chunks_.insert(position);
+        begins_ = message_begins(records_of(header, data, unpacked_));
+        break;
+      case kIndex:
+        check_index(header, data, begins_);
+        break;
+      case kConnection:
+        check_connection(header, data);
+        break;
+      case kChunkInfo:
+        check_chunk_info(header, data);
+        break;
+      default:
+        break;
+    }
+  }
+
+  std::uint64_t index_position_ = 1;  ///< None yet; of no record.
+  std::set<std::uint64_t> starts_;    ///< Of all records.
+  std::set<std::uint64_t> chunks_;
+  std::vector<std::uint32_t> begins_;  ///< Of the messages of the latest chunk.
+  std::string unpacked_;
+};
+
 bool look_through(const std::string& path) {
   RecordFile file(path);
   (void)file.read(kFirstLine.size());
-  Chunk chunk;
-  while (!file.at_end()) {
-    const std::string header = file.read_counted();
-    const std::string data = file.read_counted();
-    const auto operation = number_in<std::uint8_t>(field(header, "op"));
-    if (operation == kBagHeader && number_in<std::uint64_t>(field(header, "index_pos")) == 0) {
-      return false;
-    }
-    if (operation == kChunk) chunk = chunk_of(header, data);
-    if (operation == kIndex) check_index(header, data, chunk);
-  }
-  return true;
+  return Walk().through(file);
 }
 
 void require_bag(const std::string& path) {

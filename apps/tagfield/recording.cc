@@ -75,7 +75,7 @@ void choose_poses(const LocalizeArguments& arguments, const BagOptions& options,
   fail({arguments.recording, 0},
        fmt::format("has no poses of the antennas {}: {}no transforms (tf) from '{}' to the frames "
                    "of the reads",
-                   frames_of_reads(bag), automatic ? "neither tagfield_msgs/AntennaTruth nor " : "",
+                   frames_of_reads(bag), automatic ? "no tagfield_msgs/AntennaTruth and " : "",
                    fmt::join(options.frames, "', '")));
 }
 

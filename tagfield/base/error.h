@@ -9,10 +9,15 @@
 
 namespace tagfield {
 
+/// The message as one line of bounded length, whatever names and values from outside it quotes:
+/// control characters are escaped ("\n", "\x1b"), and of more than 4000 bytes the middle is left
+/// out.
+std::string as_one_line(const std::string& message);
+
 /// Bad input: a file, a parameter, a message from outside. `what()` is one line for a person.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message) : std::runtime_error(as_one_line(message)) {}
 };
 
 /// A place in a file that a person can go to.

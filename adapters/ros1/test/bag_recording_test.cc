@@ -484,5 +484,44 @@ TEST(ReadBag, GivesErrorOrAllForTornCopies) {
   EXPECT_GT(refused, 200U);
 }
 
+TEST(ReadBag, FollowsNoSizeOrPlaceInTheFileThatCannotBe) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(bag_in(folder));
+    write_turn(writer);
+  }
+  // What is said of a bag in which a byte is another: that so far after the last `before`.
+  const auto with_byte = [&](const std::string& before, std::ptrdiff_t offset, char byte) {
+    std::string bytes = folder.text_of("run.bag");
+    const std::size_t place = bytes.rfind(before) + before.size();
+    bytes.at(place + static_cast<std::size_t>(offset)) = byte;
+    const std::string path = folder.with("changed.bag", bytes);
+    return error_of([&] { recording_of(path); });
+  };
+  // The size before the last field of the file's header: rosbag would read what is beyond it.
+  EXPECT_TRUE(contains(with_byte("chunk_count=", -15, 0x7f), "a record goes beyond its end"));
+  EXPECT_TRUE(contains(with_byte("index_pos=", 0, 1), "the index is not where it is said to be"));
+  EXPECT_TRUE(contains(with_byte("chunk_pos=", 0, 1), "a chunk is not where it is said to be"));
+  EXPECT_TRUE(contains(with_byte("start_tim", 0, '_'), "a record has no field 'start_time'"));
+  EXPECT_TRUE(contains(with_byte("topi", 0, '_'), "a record has no field 'topic'"));
+}
+
+TEST(ReadBag, LooksIntoCompressedChunksToo) {
+  for (const char* compression : {"bz2", "lz4"}) {
+    const TemporaryFolder folder;
+    {
+      BagWriter writer(bag_in(folder), compression);
+      write_turn(writer);
+    }
+    std::string bytes = folder.text_of("run.bag");
+    const std::size_t name = bytes.find(std::string("compression=") + compression);
+    ASSERT_NE(name, std::string::npos);
+    bytes.at(name + 400) = static_cast<char>(bytes.at(name + 400) + 1);
+    const std::string path = folder.with("changed.bag", bytes);
+    EXPECT_TRUE(contains(error_of([&] { recording_of(path); }), "a chunk can't be decompressed"))
+        << compression;
+  }
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -40,5 +40,31 @@ TEST(Diagnostics, TellPlacesApart) {
   EXPECT_EQ(diagnostics.warnings(), (Lines{"w.sdf:1: odd", "w.sdf:2: odd"}));
 }
 
+TEST(AsOneLine, EscapesWhatATerminalWouldObey) {
+  EXPECT_EQ(as_one_line("tag 'a\nb\t\x1b[31m\x7f' ü"), "tag 'a\\nb\\t\\x1b[31m\\x7f' ü");
+  EXPECT_STREQ(Error("one\ntwo").what(), "one\\ntwo");
+  Diagnostics diagnostics;
+  diagnostics.warn("one\ntwo");
+  EXPECT_EQ(diagnostics.warnings().at(0), "one\\ntwo");
+}
+
+TEST(AsOneLine, LeavesOutTheMiddleOfWhatIsTooLong) {
+  EXPECT_EQ(as_one_line(std::string(4000, 'x')), std::string(4000, 'x'));
+  const std::string cut = as_one_line("begin" + std::string(10'000'000, 'x') + "end");
+  EXPECT_LT(cut.size(), 4010U);
+  EXPECT_EQ(cut.substr(0, 6), "beginx");
+  EXPECT_EQ(cut.substr(cut.size() - 4), "xend");
+  EXPECT_NE(cut.find("x … x"), std::string::npos);
+  // No character is cut in two: "ü" has two bytes, of which each cut falls between.
+  std::string odd = "x";
+  for (int i = 0; i < 3000; ++i) odd += "ü";
+  const std::string whole = as_one_line(odd);
+  for (std::size_t i = 1; i + 1 < whole.size(); ++i) {
+    if (whole[i] == '\xBC') {
+      EXPECT_EQ(whole[i - 1], '\xC3');
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tagfield

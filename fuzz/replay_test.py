@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""Each door takes its seeds as they are meant, and all that fuzzing ever found.
+
+    fuzz/replay_test.py BUILD
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from seeds import DOORS, write_all
+
+FINDINGS = pathlib.Path(__file__).resolve().parent / "findings"
+
+
+def main():
+    programs = pathlib.Path(sys.argv[1]) / "bin"
+    failed = []
+    with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:
+        write_all(folder)
+        for door in DOORS:
+            program = programs / f"fuzz_{door}"
+            if not program.exists():
+                print(f"skipped: {door}: {program.name} is not built")
+                continue
+            files = [path for place in (pathlib.Path(folder) / door, FINDINGS / door)
+                     for path in sorted(place.glob("*"))]
+            result = subprocess.run([program, *files], capture_output=True, timeout=300, check=False)
+            looked_at = result.stdout.decode().splitlines()
+            print(f"{door}: {len(looked_at)} of {len(files)} inputs")
+            if result.returncode != 0 or len(looked_at) != len(files):
+                failed.append(f"{door}: {looked_at[-1:]}: {result.stderr.decode()[-300:]}")
+    for line in failed:
+        print(f"FAILED {line}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,11 @@
+// A scenario's YAML, without a world that it could name outside.
+#include "fuzz/input.h"
+#include "tagfield/scenario/scenario_yaml.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tagfield;
+  return fuzz::refused_or_taken([&] {
+    Diagnostics unheard;
+    load_scenario(fuzz::folder().write("scenario.yaml", fuzz::text_of(data, size)), {}, unheard);
+  });
+}
