@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/base/utc.h"
@@ -27,6 +29,7 @@ struct EventsArguments {
   std::string recording;
   std::string spec;
   std::string epcis;
+  CaptureArguments capture;
   std::string start;
   bool json = false;
 };
@@ -134,6 +137,41 @@ class EpcisFile {
   std::shared_ptr<EpcisEvents> listener_;
 };
 
+/// Posts events to the repository that is asked for.
+class Capture {
+ public:
+  Capture(CaptureArguments arguments, const EventsSpec& spec, Time start) {
+    arguments.buffer = std::numeric_limits<std::size_t>::max();  // There are as many as there are.
+    client_ = capture_client(arguments);
+    if (!client_) return;
+    listener_ = std::make_shared<EpcisEvents>(
+        spec, start, false, [this](const std::string& event) { client_->capture(event); });
+  }
+
+  void attach_to(std::vector<std::shared_ptr<EventListener>>& listeners) const {
+    if (listener_) listeners.push_back(listener_);
+  }
+  /// Throws Error where the repository does not have all.
+  void finish() const {
+    if (!client_) return;
+    client_->finish(kPatience, {});
+    const CaptureCounts counts = client_->counts();
+    if (counts.captured == counts.taken) return;
+    throw Error(fmt::format("{}: captured {} of {} events", client_->name(), counts.captured,
+                            counts.taken));
+  }
+  [[nodiscard]] std::string text() const {
+    if (!client_) return "";
+    return fmt::format("EPCIS: {} events captured\n", client_->counts().captured);
+  }
+
+ private:
+  /// Longer than a request may take.
+  static constexpr std::chrono::milliseconds kPatience{35'000};
+  std::shared_ptr<CaptureClient> client_;
+  std::shared_ptr<EpcisEvents> listener_;
+};
+
 int events(const EventsArguments& arguments) {
   Diagnostics diagnostics;
   const EventsSpec spec = arguments.spec.empty() ? EventsSpec{} : read_events_spec(arguments.spec);
@@ -152,6 +190,8 @@ int events(const EventsArguments& arguments) {
     epcis = std::make_unique<EpcisFile>(arguments.epcis, spec, start);
     listeners.push_back(epcis->listener());
   }
+  const Capture capture(arguments.capture, spec, start);
+  capture.attach_to(listeners);
   EventStage stage(spec, listeners);
   for (const TagRead& read : reads) stage.on_read(read);
   stage.finish(last);
@@ -161,9 +201,11 @@ int events(const EventsArguments& arguments) {
   }
   print_warnings(diagnostics);
   if (epcis) epcis->write(start + last.time_since_epoch());
+  capture.finish();
   if (arguments.json) return kExitOk;
   fmt::print("{}", table->text());
   if (epcis) fmt::print("EPCIS: {} events in {}\n", epcis->count(), arguments.epcis);
+  fmt::print("{}", capture.text());
   return kExitOk;
 }
 
@@ -184,6 +226,7 @@ void add_events_command(CLI::App& app, Action& chosen) {
   command->add_option("--epcis", arguments->epcis,
                       "Write ObjectEvents of EPCIS 2.0 (JSON-LD) into this file: one document, or "
                       "an event on each line where it is called ….jsonl");
+  add_capture_options(*command, arguments->capture);
   add_start_option(*command, arguments->start);
   command->add_flag("--json", arguments->json, "Print each event as a line of JSON");
   command->footer(

@@ -12,7 +12,7 @@
 #include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "apps/tagfield/mqtt_arguments.h"
+#include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/experiment/experiment.h"
@@ -27,7 +27,7 @@ struct ServeArguments {
   std::optional<std::uint16_t> http;
   std::optional<std::uint16_t> llrp;
   std::string start;
-  MqttArguments mqtt;
+  MiddlewareArguments middleware;
   bool locates = false;
   std::string method;  ///< As the scenario says where empty.
   double window_s = 120.0;
@@ -150,13 +150,13 @@ int serve(ServeArguments arguments) {
   Outlets outlets;
   attach(feed, outlets);
   if (llrp) attach(llrp, outlets);
-  const MqttRun mqtt =
-      attach_mqtt(arguments.mqtt, start_time("serve", arguments.start, Time{}), outlets);
+  const MiddlewareRun middleware = attach_middleware(
+      arguments.middleware, start_time("serve", arguments.start, Time{}), outlets);
   const std::shared_ptr<LiveEstimates> estimates = live_estimates(arguments, scenario);
   if (estimates) attach(estimates, outlets);
   LiveWorld world(scenario, seed, outlets, options);
   world.attach(feed);
-  if (mqtt.events) world.attach(std::make_shared<EventClock>(mqtt.events));
+  if (middleware.events) world.attach(std::make_shared<EventClock>(middleware.events));
   const Closing closing(llrp.get());
   if (llrp) {
     world.attach(llrp);
@@ -181,7 +181,7 @@ int serve(ServeArguments arguments) {
   std::fflush(stdout);
   catch_interrupts();
   world.run(interrupted());
-  finish(mqtt, world.now());
+  finish(middleware, world.now());
   server.reset();
   if (llrp) llrp->close();
   end_estimates(estimates.get());
@@ -205,7 +205,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
                    "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
                    "Readers then read when a client tells them to")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
-  add_mqtt_options(*command, arguments->mqtt);
+  add_middleware_options(*command, arguments->middleware);
   add_start_option(*command, arguments->start);
   command->add_flag("--locate", arguments->locates,
                     "Locate tags while reads come in; the page shows where, and how sure that is, "

@@ -8,7 +8,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "apps/tagfield/mqtt_arguments.h"
+#include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/experiment/experiment.h"
@@ -21,7 +21,7 @@ struct StreamArguments {
   ScenarioArguments scenario;
   std::optional<double> speed;
   std::string start;
-  MqttArguments mqtt;
+  MiddlewareArguments middleware;
   int threads = default_threads();
 };
 
@@ -79,7 +79,7 @@ int stream(const StreamArguments& arguments) {
   const Time start = start_time("stream", arguments.start, Time{});
   const auto lines = std::make_shared<LinePrinter>(start);
   RunControl control;
-  const MqttRun mqtt = attach_mqtt(arguments.mqtt, start, control.outlets);
+  const MiddlewareRun middleware = attach_middleware(arguments.middleware, start, control.outlets);
   attach(lines, control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();
@@ -90,7 +90,7 @@ int stream(const StreamArguments& arguments) {
     const SeedRun run = simulate(scenario, arguments.scenario.seed.value_or(scenario.seed), control,
                                  world ? &*world : nullptr);
     lines->flush();
-    finish(mqtt, time_from_seconds(run.simulated_s));
+    finish(middleware, time_from_seconds(run.simulated_s));
     return run.complete ? kExitOk : kExitInterrupted;
   } catch (const OutputClosed&) {
     return kExitOk;
@@ -110,7 +110,7 @@ void add_stream_command(CLI::App& app, Action& chosen) {
                    "says by real_time, or else 1")
       ->check(CLI::Range(0.0, 1e6));
   add_start_option(*command, arguments->start);
-  add_mqtt_options(*command, arguments->mqtt);
+  add_middleware_options(*command, arguments->middleware);
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(

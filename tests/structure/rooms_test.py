@@ -39,6 +39,7 @@ GZ_JOINT = "adapters/gz/rfid_system.cc"
 ROSBAG2 = "adapters/rosbag2/"
 ARCHIVE = "adapters/archive/"
 MQTT = "adapters/mqtt/"
+EPCIS = "adapters/epcis/"
 # What containers of bytes may use.
 UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
 UNDER_ARCHIVE = (ARCHIVE, "tagfield/base/")
@@ -115,8 +116,8 @@ def adapter_fault(path, header):
     if path.startswith(ARCHIVE) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                      not header.startswith(UNDER_ARCHIVE)):
         return "adapters/archive/ knows neither RFID nor ROS"
-    if path.startswith(MQTT) and header.startswith((CLASSIC, ROS1, ROS2, *ALIENS)):
-        return "adapters/mqtt/ knows neither Gazebo nor ROS"
+    if path.startswith((MQTT, EPCIS)) and header.startswith((CLASSIC, ROS1, ROS2, *ALIENS)):
+        return "adapters/mqtt/ and epcis/ know neither Gazebo nor ROS"
     if path.startswith(ROSBAG2) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                      not header.startswith(UNDER_ROSBAG2)):
         return "adapters/rosbag2/ knows neither RFID nor messages"
@@ -340,7 +341,8 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/mcap/a.cc", '#include "tagfield/stream/truth.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", '#include "adapters/ros1/bag.h"\n', "knows neither RFID nor ROS"),
     ("adapters/mcap/a.cc", "#include <rosbag/bag.h>\n", "knows neither RFID nor ROS"),
-    ("adapters/mqtt/a.cc", '#include "adapters/ros2/cdr.h"\n', "knows neither Gazebo nor ROS"),
+    ("adapters/mqtt/a.cc", '#include "adapters/ros2/cdr.h"\n', "know neither Gazebo nor ROS"),
+    ("adapters/epcis/a.cc", "#include <ros/ros.h>\n", "know neither Gazebo nor ROS"),
     ("adapters/archive/a.cc", '#include "tagfield/stream/tag_read.h"\n',
      "adapters/archive/ knows neither RFID nor ROS"),
     ("adapters/rosbag2/a.cc", '#include "adapters/ros2/cdr.h"\n', "knows neither RFID nor messages"),

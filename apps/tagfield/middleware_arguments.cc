@@ -1,0 +1,104 @@
+#include "apps/tagfield/middleware_arguments.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "apps/tagfield/command_line.h"
+#include "tagfield/events/epcis.h"
+#include "tagfield/events/events_yaml.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::chrono::milliseconds kMomentAfterInterrupt(300);
+/// Longer than a request may take.
+constexpr std::chrono::milliseconds kCapturePatience(35'000);
+
+void tell_warning(const std::string& line) { fmt::print(stderr, "tagfield: warning: {}\n", line); }
+
+std::shared_ptr<MqttOutlet> broker_of(const MiddlewareArguments& arguments, Time start) {
+  if (arguments.broker.empty()) return nullptr;
+  MqttOptions options;
+  options.most_messages = arguments.buffer;
+  options.warn = tell_warning;
+  return std::make_shared<MqttOutlet>(arguments.broker, start, options);
+}
+
+}  // namespace
+
+void add_capture_options(CLI::App& command, CaptureArguments& arguments) {
+  CLI::Option* capture = command.add_option(
+      "--capture", arguments.url,
+      "Post ObjectEvents of EPCIS 2.0 to this repository: the address of its capture interface, "
+      "http[s]://[user:password@]host[:port]/path (docs/events.md)");
+  command
+      .add_option("--capture-header", arguments.headers,
+                  "Further line of those requests' header, 'Name: value', as a key that the "
+                  "repository asks for; can be repeated")
+      ->needs(capture);
+}
+
+std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments) {
+  if (arguments.url.empty()) return nullptr;
+  CaptureOptions options;
+  options.headers = arguments.headers;
+  options.most_events = arguments.buffer;
+  options.warn = tell_warning;
+  return std::make_shared<CaptureClient>(arguments.url, options);
+}
+
+void add_middleware_options(CLI::App& command, MiddlewareArguments& arguments) {
+  CLI::Option* mqtt = command.add_option(
+      "--mqtt", arguments.broker,
+      "Publish each read to this broker, too: mqtt://[user:password@]host[:port][/prefix], to "
+      "PREFIX/reads/READER (docs/events.md)");
+  command
+      .add_option("--mqtt-buffer", arguments.buffer,
+                  "Messages that are kept while the broker is away (default 100000)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
+      ->needs(mqtt);
+  add_capture_options(command, arguments.capture);
+  command.add_option("--spec", arguments.spec,
+                     "Which events there are, see 'tagfield events': with --mqtt they go to "
+                     "PREFIX/events, too; with --capture they are those that are posted");
+}
+
+MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start,
+                                Outlets& outlets) {
+  MiddlewareRun run;
+  const bool has_spec = !arguments.spec.empty();
+  if (has_spec && arguments.broker.empty() && arguments.capture.url.empty()) {
+    throw Error("--spec: events go to --mqtt or --capture, and neither is given");
+  }
+  const EventsSpec spec = has_spec ? read_events_spec(arguments.spec) : EventsSpec{};
+  std::vector<std::shared_ptr<EventListener>> listeners;
+  run.broker = broker_of(arguments, start);
+  if (run.broker) attach(run.broker, outlets);
+  if (run.broker && has_spec) listeners.push_back(run.broker);
+  run.capture = capture_client(arguments.capture);
+  if (run.capture) {
+    listeners.push_back(std::make_shared<EpcisEvents>(
+        spec, start, false,
+        [capture = run.capture](const std::string& event) { capture->capture(event); }));
+  }
+  if (listeners.empty()) return run;
+  run.events = std::make_shared<EventStage>(spec, listeners);
+  attach(run.events, outlets);
+  return run;
+}
+
+void finish(const MiddlewareRun& run, Time end) {
+  if (run.events) run.events->finish(end);
+  if (run.broker) {
+    run.broker->finish(interrupted() ? kMomentAfterInterrupt : MqttOptions{}.patience);
+  }
+  if (run.capture) {
+    // Ctrl-C may also come while it is waited.
+    const bool was_interrupted = interrupted();
+    run.capture->finish(was_interrupted ? kMomentAfterInterrupt : kCapturePatience,
+                        [was_interrupted] { return !was_interrupted && interrupted(); });
+  }
+}
+
+}  // namespace tagfield
