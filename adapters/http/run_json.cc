@@ -143,33 +143,26 @@ Json estimates_of(const RunFiles& run) {
   }
   return all;
 }
-Json known_scene(const std::string& folder) {
-  const std::string path = folder + "/scene.json";
-  if (!std::filesystem::exists(path)) return Json::object();
-  Json known = Json::parse(read_text_file(path), nullptr, false);
-  if (!known.is_object()) throw Error(fmt::format("{}: is no JSON object", path));
+
+Json known_scene(const std::string& text) {
+  if (text.empty()) return Json::object();
+  Json known = Json::parse(text, nullptr, false);
+  if (!known.is_object()) throw Error("the scene is no JSON object");
   return known;
 }
 
-/// By name; none where the folder does not tell.
-Json robots_in(const std::string& folder) {
-  const std::string path = folder + "/truth/robot_poses.csv";
+/// By name.
+Json robots_json(const std::vector<AntennaPose>& poses) {
   std::map<std::string, Trajectory> tracks;
-  if (std::filesystem::exists(path)) {
-    for (const AntennaPose& pose : read_poses_csv(path, "robot")) {
-      tracks[pose.antenna].push_back({pose.stamp, pose.X_WA});
-    }
-  }
+  for (const AntennaPose& pose : poses) tracks[pose.antenna].push_back({pose.stamp, pose.X_WA});
   Json robots = Json::object();
-  for (const auto& [name, poses] : tracks) robots[name] = track_json(poses);
+  for (const auto& [name, track] : tracks) robots[name] = track_json(track);
   return robots;
 }
 
 /// Rows from the origin's corner on, as one list of how many cells are of one kind and which that
 /// is: 0 free, 1 occupied, 2 neither.
-Json map_json(const std::string& path) {
-  Diagnostics unheard;
-  const OccupancyGrid grid = read_map(path, unheard);
+Json map_json(const OccupancyGrid& grid) {
   Json runs = Json::array();
   for (std::size_t i = 0; i < grid.cells.size();) {
     const auto kind_of = [](std::int8_t cell) {
@@ -212,8 +205,26 @@ std::string scene_json(const ScenarioWithWorld& loaded) {
   return json_text({{"scene", std::move(scene)}, {"antennas", std::move(antennas)}}) + "\n";
 }
 
-std::string run_json(const RunFiles& run, const std::string& folder) {
-  const Json known = known_scene(folder);
+Surroundings read_surroundings(const std::string& folder) {
+  namespace fs = std::filesystem;
+  Surroundings around;
+  const std::string scene = folder + "/scene.json";
+  if (fs::exists(scene)) {
+    around.scene = read_text_file(scene);
+    if (!Json::parse(around.scene, nullptr, false).is_object()) {
+      throw Error(fmt::format("{}: is no JSON object", scene));
+    }
+  }
+  const std::string map = folder + "/map.yaml";
+  Diagnostics unheard;
+  if (fs::exists(map)) around.map = read_map(map, unheard);
+  const std::string robots = folder + "/truth/robot_poses.csv";
+  if (fs::exists(robots)) around.robot_poses = read_poses_csv(robots, "robot");
+  return around;
+}
+
+std::string run_json(const RunFiles& run, const Surroundings& around) {
+  const Json known = known_scene(around.scene);
   Json json;
   json["scene"] = known.contains("scene")
                       ? known["scene"]
@@ -221,8 +232,7 @@ std::string run_json(const RunFiles& run, const std::string& folder) {
                              {"solids", Json::array()},      {"meshes", Json::array()},
                              {"obstacles", Json::array()},   {"map", nullptr},
                              {"paths", Json::array()}};
-  const std::string map = folder + "/map.yaml";
-  if (std::filesystem::exists(map)) json["scene"]["map"] = map_json(map);
+  if (around.map) json["scene"]["map"] = map_json(*around.map);
   json["antennas"] = antennas_of(run, known);
   Numbers tags;
   json["tags"] = tags_of(run, tags);
@@ -241,7 +251,7 @@ std::string run_json(const RunFiles& run, const std::string& folder) {
     last = std::max(last, read.stamp);
   }
   json["duration"] = first <= last ? Json{short_time(first), short_time(last)} : Json{0.0, 0.0};
-  json["robot_poses"] = robots_in(folder);
+  json["robot_poses"] = robots_json(around.robot_poses);
   json["tag_positions"] = Json::object();
   for (const auto& [tag, places] : run.true_places) {
     if (places.size() > 1) json["tag_positions"][tag] = places_json(places);
@@ -259,7 +269,7 @@ std::optional<RunView> run_view(const std::string& folder) {
   std::string html = "<div id=\"tagfield-view\"></div>\n";
   html += "<script type=\"application/json\" id=\"tagfield-run\">";
   // No text of the run may end the element.
-  for (const char c : run_json(read_run_files(folder), folder)) {
+  for (const char c : run_json(read_run_files(folder), read_surroundings(folder))) {
     if (c == '<') {
       html += "\\u003c";
     } else {

@@ -4,8 +4,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "tagfield/map/occupancy_grid.h"
 #include "tagfield/planning/link_explanation.h"
+#include "tagfield/poses/trajectory.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -16,13 +19,23 @@ namespace tagfield::http {
 /// (scene.json): what else there is to see, its tables tell.
 std::string scene_json(const ScenarioWithWorld& loaded);
 
-/// Of what is in `folder`, which `run` was read from: scene.json, where it is, and the robots' true
-/// poses, besides `run`. Of more than 200,000 reads every second, third, …
-/// is in it. Throws Error where one of the files is malformed.
-std::string run_json(const RunFiles& run, const std::string& folder);
+/// What there was around a run, besides its tables.
+struct Surroundings {
+  std::string scene;                     ///< As scene_json() gives it; "" where it is not known.
+  std::optional<OccupancyGrid> map;      ///< That robots found their way by.
+  std::vector<AntennaPose> robot_poses;  ///< True ones; `antenna` holds the robot's name.
+};
+
+/// Of a run's folder: scene.json, map.yaml and truth/robot_poses.csv, where they are. Throws Error
+/// where one of them is malformed.
+Surroundings read_surroundings(const std::string& folder);
+
+/// Of more than 200,000 reads every second, third, … is in it. Throws Error where the scene is
+/// none.
+std::string run_json(const RunFiles& run, const Surroundings& around);
 
 /// What report.html embeds of the run in `folder`; none where the program was built without the
-/// page. Throws Error as run_json() does.
+/// page. Throws Error as read_run_files() and read_surroundings() do.
 std::optional<RunView> run_view(const std::string& folder);
 
 }  // namespace tagfield::http

@@ -199,11 +199,16 @@ class Walk {
       if (header.operation() == kBagHeader) {
         index_position_ = header.number<std::uint64_t>("index_pos");
         if (index_position_ == 0) return false;
+        said_connections_ = header.number<std::uint32_t>("conn_count");
+        said_chunks_ = header.number<std::uint32_t>("chunk_count");
       }
       take(header, data, position);
     }
     if (index_position_ != file.position() && starts_.count(index_position_) == 0) {
       throw Damage{"the index is not where it is said to be"};
+    }
+    if (connections_ != said_connections_ || infos_ != said_chunks_) {
+      throw Damage{"the index has not as many records as it is said to have"};
     }
     return true;
   }
@@ -230,9 +235,11 @@ class Walk {
         check_index(header, data, begins_);
         break;
       case kConnection:
+        ++connections_;
         check_connection(header, data);
         break;
       case kChunkInfo:
+        ++infos_;
         check_chunk_info(header, data);
         break;
       default:
@@ -241,7 +248,11 @@ class Walk {
   }
 
   std::uint64_t index_position_ = 1;  ///< None yet; of no record.
-  std::set<std::uint64_t> starts_;    ///< Of all records.
+  std::uint64_t said_connections_ = 0;
+  std::uint64_t said_chunks_ = 0;
+  std::uint64_t connections_ = 0;  ///< Outside of chunks: of the index.
+  std::uint64_t infos_ = 0;
+  std::set<std::uint64_t> starts_;  ///< Of all records.
   std::set<std::uint64_t> chunks_;
   std::vector<std::uint32_t> begins_;  ///< Of the messages of the latest chunk.
   std::string unpacked_;

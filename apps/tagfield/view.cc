@@ -1,19 +1,25 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "adapters/http/http_server.h"
 #include "adapters/http/run_json.h"
+#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "tagfield/files/staged_folder.h"
 
 namespace tagfield {
 namespace {
 
 struct ViewArguments {
-  std::string folder;
+  std::string run;  ///< A folder, or a recording of ROS.
+  std::string scenario;
   std::uint16_t port = 8080;
   std::string listen = "127.0.0.1";
 };
@@ -40,9 +46,43 @@ class RunAnswerer final : public http::Answerer {
   std::string run_;
 };
 
+/// A folder's own scene goes before what others say of it.
+std::string run_in_folder(const ViewArguments& arguments) {
+  if (!arguments.scenario.empty()) {
+    throw Error("--scenario goes with a recording: a run's folder has its world");
+  }
+  finish_commit(arguments.run);
+  return http::run_json(read_run_files(arguments.run), http::read_surroundings(arguments.run));
+}
+
+std::string run_in_recording(const ViewArguments& arguments, Diagnostics& diagnostics) {
+  ProgressBar bar("reading");
+  BagOptions options;
+  options.on_progress = [&bar](double share) { bar.show(share); };
+  BagRecording bag = read_bag(arguments.run, options, diagnostics);
+  http::Surroundings around;
+  if (!arguments.scenario.empty()) {
+    ScenarioArguments of_scenario;
+    of_scenario.scenario = arguments.scenario;
+    around.scene = http::scene_json(load(of_scenario, diagnostics));
+  }
+  around.robot_poses = bag.truth.robot_poses;
+  if (bag.truth.tag_positions.empty()) {
+    diagnostics.warn({arguments.run, 0},
+                     "tells no tag's place, so that no tag is drawn: 'tagfield localize' finds "
+                     "places, and 'tagfield view' shows its folder");
+  }
+  const std::string name = std::filesystem::path(arguments.run).filename().string();
+  const RunFiles run = recorded_run(name, std::move(bag.reads), bag.believed.poses, bag.truth);
+  return http::run_json(run, around);
+}
+
 int view(const ViewArguments& arguments) {
-  const RunFiles run = read_run_files(arguments.folder);
-  RunAnswerer answerer(http::run_json(run, arguments.folder));
+  Diagnostics diagnostics;
+  const bool is_recording = is_bag(arguments.run);
+  RunAnswerer answerer(is_recording ? run_in_recording(arguments, diagnostics)
+                                    : run_in_folder(arguments));
+  print_warnings(diagnostics);
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
   fmt::print("http: {}\n", server.url());
   std::fflush(stdout);
@@ -57,13 +97,21 @@ void add_view_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command =
       app.add_subcommand("view", "Look at a run in the browser, with a slider over its time");
-  command->add_option("DIR", arguments->folder, "Folder of a run")->required();
+  command
+      ->add_option("RUN", arguments->run,
+                   "Folder of a run, or a recording of ROS (.mcap, .db3, .bag, a folder of them)")
+      ->required();
+  command->add_option("--scenario", arguments->scenario,
+                      "What a recording was made of: its world and its antennas' beams are drawn");
   command->add_option("--http", arguments->port, "Port of the page; 0 for any (default 8080)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at (default 127.0.0.1, by this machine alone)");
   command->footer(
-      "report.html in a run's folder shows the same without a server.\n"
+      "report.html in a run's folder shows the same without a server. A recording shows more with\n"
+      "the scenario that it was made of:\n"
+      "  tagfield run SCENARIO.yaml --mcap run.mcap\n"
+      "  tagfield view run.mcap --scenario SCENARIO.yaml\n"
       "What is happening now is shown by 'tagfield serve'.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
 }

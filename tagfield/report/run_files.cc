@@ -42,6 +42,19 @@ bool is_moving(const Trajectory& trajectory) {
   return box.sizes().norm() > kMovingExtent;
 }
 
+/// A recording has a row each update of an antenna that never moves, too: the first says all.
+void leave_out_rest(Trajectories& trajectories) {
+  for (auto& [antenna, trajectory] : trajectories) {
+    const RigidTransform first = trajectory.front().X_WB;
+    const bool rests =
+        std::all_of(trajectory.begin(), trajectory.end(), [&](const StampedPose& pose) {
+          return pose.X_WB.translation == first.translation &&
+                 pose.X_WB.rotation.coeffs() == first.rotation.coeffs();
+        });
+    if (rests) trajectory.resize(1);
+  }
+}
+
 /// Reads of an antenna without a pose have no track: no figure can place them.
 std::vector<AntennaTrack> tracks_of(const std::vector<TagRead>& reads, const Trajectories& believed,
                                     Trajectories truth) {
@@ -125,6 +138,28 @@ RunFiles read_run_files(const std::string& folder) {
   }
   if (run.summary.navigation) take_map(folder, run);
   run.tracks = tracks_of(run.reads, believed, std::move(truth));
+  return run;
+}
+
+RunFiles recorded_run(const std::string& name, std::vector<TagRead> reads,
+                      const std::vector<AntennaPose>& believed, const Truth& truth) {
+  RunFiles run;
+  run.summary.scenario = name;
+  run.reads = std::move(reads);
+  Trajectories true_poses = take_truth(truth, run);
+  std::map<std::string, std::size_t> counts = count_by_tag(run.reads);
+  for (const auto& [tag, places] : run.true_places) counts.emplace(tag, 0);
+  for (const auto& [tag, count] : counts) {
+    TagOutcome outcome;
+    outcome.estimate.tag = tag;
+    outcome.reads = count;
+    run.summary.tags.push_back(std::move(outcome));
+  }
+  Trajectories poses = by_antenna(believed);
+  for (const auto& [antenna, trajectory] : true_poses) poses.emplace(antenna, trajectory);
+  leave_out_rest(poses);
+  leave_out_rest(true_poses);
+  run.tracks = tracks_of(run.reads, poses, std::move(true_poses));
   return run;
 }
 

@@ -59,6 +59,12 @@ struct RunFiles {
 /// missing.
 RunFiles read_run_files(const std::string& folder);
 
+/// A recording as a run in which nothing was located: its reads, where its antennas were believed
+/// to be, and what is known of the truth; its summary has the tags. Without belief the truth stands
+/// for it.
+RunFiles recorded_run(const std::string& name, std::vector<TagRead> reads,
+                      const std::vector<AntennaPose>& believed, const Truth& truth);
+
 /// The moving (or resting) antenna with the most reads, or nullptr.
 const AntennaTrack* busiest_track(const RunFiles& run, bool moving);
 

@@ -87,9 +87,10 @@ def lines_until(process, word, seconds=60):
 
 
 @contextlib.contextmanager
-def served(context, scenario, *arguments, last="http"):
-    """Starts it, and ends it, on a port that is free. `last`: the last address that it tells."""
-    command = [context.tagfield, "serve", scenario, "--http", "0", *arguments]
+def served(context, scenario, *arguments, last="http", verb="serve"):
+    """Starts it, and ends it, on a port that is free. `last`: the last address that it tells. With `verb` "view" it is
+    a recorded run."""
+    command = [context.tagfield, verb, scenario, "--http", "0", *arguments]
     process = subprocess.Popen([str(word) for word in command], cwd=context.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, env=clean_environment())

@@ -11,10 +11,11 @@ import re
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "command"))
+sys.path[:0] = [str(HERE.parent / "command"), str(HERE.parent / "live")]
 from common import (  # noqa: E402  pylint: disable=wrong-import-position
     Skip, case, check, check_equal, check_in, main, read_csv, run)
 from npm import npm_packages  # noqa: E402  pylint: disable=wrong-import-position
+from served import served  # noqa: E402  pylint: disable=wrong-import-position
 
 START_NS = 1_700_000_000_000_000_000
 TOPICS = ("/text", "/pose", "/text/größer")  # of messages 0, 1, 2, 3, …
@@ -336,6 +337,42 @@ def tags_are_located_from_the_file_as_from_the_tables(context):
         check_equal((row["tag"], row["verdict"]), (other["tag"], other["verdict"]), "tag and verdict")
         for key in ("x_m", "y_m", "z_m"):
             check(abs(float(row[key]) - float(other[key])) < 1e-4, f"{row['tag']}: {key} differs")
+
+
+@case
+def the_page_shows_the_file_as_the_runs_folder(context):
+    """But for estimates, which a recording has none of."""
+    scenario = context.shipped("two_antennas")
+    folder = context.simulate("two_antennas", "--no-page", "--mcap", context.folder / "run.mcap")
+    with served(context, folder, verb="view") as server:
+        expected = server.get("/api/run")
+    with served(context, "run.mcap", "--scenario", scenario, verb="view") as server:
+        shown = server.get("/api/run")
+    with served(context, "run.mcap", verb="view") as server:
+        without = server.get("/api/run")
+    check(len(expected["reads"]["t"]) > 500 and expected["estimates"], "the run has no reads or estimates")
+    def reads_in(run):
+        tags, antennas = ([entry[key] for entry in run[name]] for name, key in (("tags", "id"), ("antennas", "name")))
+        reads = run["reads"]
+        return sorted(zip(reads["t"], (tags[i] for i in reads["tag"]), (antennas[i] for i in reads["antenna"]),
+                          reads["rssi"], reads["phase"]))
+
+    for one, other in zip(reads_in(shown), reads_in(expected), strict=True):
+        # The table's phases have fewer digits than the file's.
+        if one[:4] != other[:4] or abs(one[4] - other[4]) > 0.0011:
+            check(False, f"read {one} is {other} in the folder")
+            break
+    for key in ("tag_positions", "antennas", "robot_poses", "duration"):
+        check_equal(shown[key], expected[key], key)
+    check_equal([tag["position"] for tag in shown["tags"]], [tag["position"] for tag in expected["tags"]], "tags")
+    check_equal(list(shown["antenna_poses"]), list(expected["antenna_poses"]), "moving antennas")
+    check_equal(shown["scene"]["solids"], expected["scene"]["solids"], "the world")
+    check_equal(shown["estimates"], [], "estimates")
+    check_equal((without["scene"]["solids"], len(without["reads"]["t"])), ([], len(expected["reads"]["t"])),
+                "without the scenario")
+    result = context.run("view", folder, "--scenario", scenario)
+    check_equal(result.code, 2, "a folder with a scenario")
+    check_in("a run's folder has its world", result.err, "a folder with a scenario")
 
 
 @case
