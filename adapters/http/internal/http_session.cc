@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/bind_handler.hpp>
@@ -23,6 +24,10 @@ constexpr std::uint64_t kMostBody = 65'536;
 constexpr std::uint32_t kMostHeader = 16'384;
 /// To bring a request, and between two of them.
 constexpr std::chrono::seconds kPatience(30);
+
+/// For a client to take the last answer and stop sending.
+constexpr std::chrono::seconds kGoodbye(2);
+constexpr std::size_t kMostDrained = 1U << 20U;
 
 constexpr const char* kPagePolicy =
     "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; "
@@ -55,6 +60,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void send(Response response);
   void on_sent(bool is_last, beast::error_code error);
   void close();
+  void drain();
 
   ServerContext& context_;
   beast::tcp_stream stream_;
@@ -64,6 +70,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::optional<Response> response_;
   bool keep_alive_ = false;
   unsigned version_ = 11;
+  std::array<char, 4096> drained_{};
+  std::size_t drained_bytes_ = 0;
 };
 
 void HttpSession::read() {
@@ -209,6 +217,18 @@ void HttpSession::on_sent(bool is_last, beast::error_code error) {
 void HttpSession::close() {
   beast::error_code unheard;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, unheard);
+  stream_.expires_after(kGoodbye);
+  drain();
+}
+
+/// A socket that is closed before all was read resets the connection, and the answer gets lost that
+/// says why nothing more is read.
+void HttpSession::drain() {
+  stream_.async_read_some(asio::buffer(drained_),
+                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
+                            self->drained_bytes_ += bytes;
+                            if (!error && self->drained_bytes_ < kMostDrained) self->drain();
+                          });
 }
 
 }  // namespace
