@@ -6,10 +6,14 @@
 #include <cctype>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/random.h"
 #include "tagfield/epc/internal/scheme_layout.h"
 
 namespace tagfield {
 namespace {
+
+/// A tag tells the length of its EPC in 5 bits, as words of 16.
+constexpr std::size_t kMostBytes = 62;
 
 constexpr std::string_view kUrn = "urn:epc:";
 constexpr std::string_view kIdUrn = "urn:epc:id:";
@@ -134,6 +138,19 @@ std::string bits_of_id(const std::string& id) {
   if (!id.empty() && id.size() % 4 == 0 && is_hexadecimal(id)) return upper_case(id);
   const std::optional<Epc> epc = is_epc_uri(id) ? epc_of(id) : std::nullopt;
   return epc ? hex_of(epc_bytes(*epc)) : "";
+}
+
+std::string sent_bits(const std::string& id) {
+  const std::string bits = bits_of_id(id);
+  if (!bits.empty() && bits.size() <= 2 * kMostBytes) return bits;
+  if (id.size() > kMostBytes) {
+    return fmt::format("{:016X}{:08X}", stream_key(id), stream_key(id + "#") & 0xffff'ffffU);
+  }
+  std::string hex;
+  for (const char c : id) hex += fmt::format("{:02X}", static_cast<unsigned char>(c));
+  const std::size_t bytes = std::max(std::tuple_size_v<EpcBytes>, (id.size() + 1) / 2 * 2);
+  hex.resize(2 * bytes, '0');
+  return hex;
 }
 
 std::optional<Epc> epc_of(const std::string& id) {

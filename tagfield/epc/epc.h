@@ -71,6 +71,12 @@ bool is_hexadecimal(std::string_view text);
 /// whose number is a multiple of 4, as bits of tags come in words of 16. "" for all else.
 std::string bits_of_id(const std::string& id);
 
+/// The bits that a tag of this ID sends, as upper-case hexadecimal digits: those that bits_of_id()
+/// tells, of at most 62 bytes, which is what a tag has room for. Any other ID of at most 62 bytes
+/// is these bytes, with zeros after them up to a whole word and 96 bits; a longer one has 96 bits
+/// of a hash. Throws Error on a URI that is malformed.
+std::string sent_bits(const std::string& id);
+
 /// What a tag's ID says that is its EPC: a URI, or 24 hexadecimal digits of one of the schemes.
 /// None for all else.
 std::optional<Epc> epc_of(const std::string& id);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 #include "tagfield/base/utc.h"
@@ -14,7 +13,6 @@ namespace {
 
 constexpr const char* kContext =
     R"("@context":["https://ref.gs1.org/standards/epcis/2.0.0/epcis-context.jsonld"])";
-constexpr std::size_t kEpcBytes = 12;
 
 void append_if(const char* key, const std::string& value, const char* form, std::string& json) {
   if (value.empty()) return;
@@ -27,12 +25,7 @@ void append_if(const char* key, const std::string& value, const char* form, std:
 std::string epcis_name(const std::string& id) {
   const std::optional<Epc> epc = epc_of(id);
   if (epc) return id_uri(*epc);
-  std::string hex = bits_of_id(id);
-  if (!hex.empty()) return raw_uri(hex);
-  for (const char c : id) hex += fmt::format("{:02X}", static_cast<unsigned char>(c));
-  const std::size_t bytes = std::max(kEpcBytes, (id.size() + 1) / 2 * 2);
-  hex.resize(2 * bytes, '0');
-  return raw_uri(hex);
+  return raw_uri(sent_bits(id));
 }
 
 EpcisEvents::EpcisEvents(EventsSpec spec, Time start, bool has_context,

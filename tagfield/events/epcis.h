@@ -12,8 +12,7 @@
 namespace tagfield {
 
 /// What EPCIS calls a tag: its pure identity where its ID is an EPC of a scheme, else
-/// "urn:epc:raw:…" of its bits, which are the ID's hexadecimal digits, or the bytes of any other
-/// ID, zeros after them up to 96 bits.
+/// "urn:epc:raw:…" of the bits that it sends (sent_bits()).
 std::string epcis_name(const std::string& id);
 
 /// Makes ObjectEvents with action OBSERVE of what it is told: of each tag that is observed, or of

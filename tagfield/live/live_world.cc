@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tagfield/base/error.h"
+#include "tagfield/epc/epc.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/live/internal/live_clock.h"
 #include "tagfield/planning/moment.h"
@@ -278,6 +279,7 @@ void LiveWorld::advance(Duration simulated) {
 void LiveWorld::add_tag(const TagSpec& tag) {
   if (tag.motion.empty()) throw Error(fmt::format("tag '{}' has no position", tag.id));
   for (const StampedPose& pose : tag.motion) require_finite(pose.X_WB, "tag '" + tag.id + "'");
+  if (is_epc_uri(tag.id)) epc_from_uri(tag.id);
   impl_->simulation.add_tag(tag);
   std::vector<TagSpec>& tags = impl_->scenario.tags;
   // One of the same ID that has gone, or is still to come, gives way.

@@ -23,11 +23,19 @@ TEST(TagEpc, ShortIdsAreTheirBytes) {
   EXPECT_EQ(to_hex(epc_of_id("parcel_00012")), "70617263656C5F3030303132");
 }
 
-TEST(TagEpc, LongIdsHaveAHashEach) {
-  const Words one = epc_of_id("a parcel with a long name 1");
+/// As ASCII has them, with a zero up to a whole word.
+TEST(TagEpc, LongerIdsAreTheirBytesToo) {
+  EXPECT_EQ(to_hex(epc_of_id("a longer name")), "61206C6F6E676572206E616D6500");
+  EXPECT_EQ(epc_of_id(std::string(62, 'x')), Words(31, 0x7878));
+}
+
+TEST(TagEpc, IdsBeyondATagsRoomHaveAHashEach) {
+  const std::string name(62, 'x');
+  const Words one = epc_of_id(name + "1");
   EXPECT_EQ(one.size(), 6U);
-  EXPECT_EQ(one, epc_of_id("a parcel with a long name 1"));
-  EXPECT_NE(one, epc_of_id("a parcel with a long name 2"));
+  EXPECT_EQ(one, epc_of_id(name + "1"));
+  EXPECT_NE(one, epc_of_id(name + "2"));
+  EXPECT_EQ(epc_of_id(std::string(128, 'A')).size(), 6U);
 }
 
 }  // namespace

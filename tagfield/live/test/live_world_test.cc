@@ -219,6 +219,7 @@ TEST(LiveWorld, WhatCannotBeDoneChangesNothing) {
   LiveWorld world(plain(), 1, {}, fast());
   EXPECT_THROW(world.remove_tag("nobody"), Error);
   EXPECT_THROW(world.add_tag(tag_at("tag", {0.0, 0.0, 0.0})), Error);
+  EXPECT_THROW(world.add_tag(tag_at("urn:epc:id:sgtin:061.1", {0.0, 0.0, 0.0})), Error);
   EXPECT_THROW(world.move_tag("tag", from_translation({NAN, 0.0, 0.0})), Error);
   EXPECT_THROW(world.move_tag("tag", from_translation({1e6, 0.0, 0.0})), Error);
   EXPECT_THROW(world.detune_tag("tag", -1.0), Error);
