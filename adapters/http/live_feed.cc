@@ -78,7 +78,7 @@ void LiveFeed::tell_reads(const LiveWorld& world) {
   if (fresh_.empty()) return;
   // Numbered as they stand, and not as they happen to be heard.
   for (const LiveAntenna& antenna : world.antennas()) {
-    ports_.port_of(antenna.spec.parameters.reader, antenna.spec.parameters.name);
+    ports_.set(antenna.spec.parameters.reader, antenna.spec.parameters.name, antenna.port);
   }
   auto batch = std::make_shared<ReadLines>();
   batch->lines.reserve(fresh_.size());

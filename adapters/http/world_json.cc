@@ -76,15 +76,6 @@ std::vector<std::string> materials_of(const Scene& scene, const Scenario& scenar
   return names;
 }
 
-std::size_t port_of(const LiveWorld& world, const LiveAntenna& antenna) {
-  std::size_t port = 1;
-  for (const LiveAntenna& other : world.antennas()) {
-    if (&other == &antenna) break;
-    if (other.spec.parameters.reader == antenna.spec.parameters.reader) ++port;
-  }
-  return port;
-}
-
 }  // namespace
 
 std::string json_text(const Json& json) {
@@ -202,7 +193,8 @@ Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size
 Json antennas_json(const LiveWorld& world) {
   Json all = Json::array();
   for (const LiveAntenna& antenna : world.antennas()) {
-    Json json = antenna_json(antenna.spec, world.antenna_pose(antenna), port_of(world, antenna));
+    Json json = antenna_json(antenna.spec, world.antenna_pose(antenna),
+                             static_cast<std::size_t>(antenna.port));
     json["on"] = antenna.is_on;
     json["faulty"] = antenna.is_faulty;
     all.push_back(std::move(json));

@@ -147,10 +147,23 @@ std::uint16_t Ports::id_of(const std::string& antenna) const {
   return 0;
 }
 
-Ports ports_of(const LiveWorld& world, const std::string& reader) {
-  Ports ports;
+Ports ports_of(const LiveWorld& world, const std::string& reader, const Ports& before) {
+  Ports ports = before;
+  for (LiveAntenna& antenna : ports.antennas) antenna.is_faulty = true;
+  ports.is_empty.assign(ports.antennas.size(), true);
   for (const LiveAntenna& antenna : world.antennas()) {
-    if (antenna.spec.parameters.reader == reader) ports.antennas.push_back(antenna);
+    if (antenna.spec.parameters.reader != reader) continue;
+    const auto place = static_cast<std::size_t>(antenna.port - 1);
+    if (place >= ports.antennas.size()) {
+      // One that had come and gone between two looks was never there for its clients.
+      LiveAntenna none = antenna;
+      none.spec.parameters.name.clear();
+      none.is_faulty = true;
+      ports.antennas.resize(place + 1, none);
+      ports.is_empty.resize(place + 1, true);
+    }
+    ports.antennas[place] = antenna;
+    ports.is_empty[place] = false;
   }
   return ports;
 }

@@ -14,11 +14,13 @@ namespace tagfield::llrp {
 /// A reader's ports: antenna ID i is `antennas[i - 1]`.
 struct Ports {
   std::vector<LiveAntenna> antennas;
+  std::vector<bool> is_empty;  ///< Of each port: its antenna was taken away, and counts as faulty.
 
   /// 1 or more; 0 where it is none of the reader's.
   [[nodiscard]] std::uint16_t id_of(const std::string& antenna) const;
 };
-Ports ports_of(const LiveWorld& world, const std::string& reader);
+/// As the world is now, `before` being what its ports were.
+Ports ports_of(const LiveWorld& world, const std::string& reader, const Ports& before);
 
 /// What its antennas can send: of the paper's model 30 dBm alone.
 std::vector<double> powers_of(const Ports& ports);

@@ -114,7 +114,7 @@ void LlrpReader::disconnect(const ClientLine& line) {
 
 bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
   now_ = world.now();
-  ports_ = ports_of(world, name_);
+  ports_ = ports_of(world, name_, ports_);
   ByteWriter out;
   try {
     switch (message.type) {
@@ -425,7 +425,7 @@ void LlrpReader::start_those_due(LiveWorld& world, Time now) {
 }
 
 void LlrpReader::watch_antennas(const LiveWorld& world) {
-  ports_ = ports_of(world, name_);
+  ports_ = ports_of(world, name_, ports_);
   for (const LiveAntenna& antenna : ports_.antennas) {
     const std::string& name = antenna.spec.parameters.name;
     const auto known = faulty_.find(name);

@@ -269,6 +269,7 @@ ReaderDuty duty_of(const ReaderConfiguration& configuration, const Ports& ports,
     if (id > ports.antennas.size()) {
       throw Fault(Status::kFieldError, fmt::format("there is no antenna {}", id));
     }
+    if (ports.is_empty[id - 1U]) continue;
     duty.antennas.push_back(
         {ports.antennas[id - 1U].spec.parameters.name,
          power_at(setting_of(configuration, spec.settings, id).power_index, ports)});

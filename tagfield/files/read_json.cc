@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -15,6 +16,11 @@ int AntennaPorts::port_of(const std::string& reader, const std::string& antenna)
   int& port = ports_[{reader, antenna}];
   if (port == 0) port = ++counts_[reader];
   return port;
+}
+
+void AntennaPorts::set(const std::string& reader, const std::string& antenna, int port) {
+  ports_[{reader, antenna}] = port;
+  counts_[reader] = std::max(counts_[reader], port);
 }
 
 void append_json(const TagRead& read, Time start, AntennaPorts& ports, std::string& json) {

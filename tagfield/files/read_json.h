@@ -15,7 +15,9 @@ namespace tagfield {
 /// for.
 class AntennaPorts {
  public:
+  /// As it was told, or else the next of the reader's.
   int port_of(const std::string& reader, const std::string& antenna);
+  void set(const std::string& reader, const std::string& antenna, int port);
 
  private:
   std::map<std::pair<std::string, std::string>, int> ports_;

@@ -62,7 +62,7 @@ class LiveWorld::Impl {
         clock(options.speed, options.is_paused),
         simulation(without_antennas(scenario), seed, std::move(outlets)) {
     for (const AntennaSpec& spec : scenario.antennas) {
-      antennas.push_back({spec, false, false});
+      antennas.push_back({spec, false, false, port_of(spec)});
       if (!options.readers_start) duties[spec.parameters.reader] = {};
     }
     for (LiveAntenna& antenna : antennas) apply_duty(antenna);
@@ -75,6 +75,7 @@ class LiveWorld::Impl {
   TagSpec& tag_with(const std::string& id);
   void require_reader(const std::string& reader) const;
   void check_name(const AntennaSpec& antenna) const;
+  int port_of(const AntennaSpec& antenna);
   std::vector<LiveAntenna*> in_turn(const std::string& reader);
   AntennaSpec as_told(const LiveAntenna& antenna, std::vector<std::string>& warnings) const;
   void apply_duty(LiveAntenna& antenna);
@@ -87,6 +88,7 @@ class LiveWorld::Impl {
   LiveClock clock;
   Simulation simulation;
   std::vector<LiveAntenna> antennas;
+  std::map<std::string, std::vector<std::string>> ports;  ///< Antennas there ever were, by reader.
   std::map<std::string, ReaderDuty> duties;  ///< By reader; none where it is as the scenario says.
   std::vector<std::shared_ptr<LiveMember>> members;
   std::uint64_t revision = 0;
@@ -210,6 +212,13 @@ void LiveWorld::Impl::switch_off(LiveAntenna& antenna) {
   if (takes_inventory(antenna.spec.parameters)) simulation.update_antenna(name);
   simulation.remove_antenna(name);
   antenna.is_on = false;
+}
+
+int LiveWorld::Impl::port_of(const AntennaSpec& antenna) {
+  std::vector<std::string>& known = ports[antenna.parameters.reader];
+  auto place = std::find(known.begin(), known.end(), antenna.parameters.name);
+  if (place == known.end()) place = known.insert(place, antenna.parameters.name);
+  return static_cast<int>(place - known.begin()) + 1;
 }
 
 /// A reader's antennas in the order of their turns.
@@ -349,7 +358,7 @@ void LiveWorld::add_antenna(const AntennaSpec& antenna) {
     }
   }
   require_finite(antenna.X_PA, "antenna '" + name + "'");
-  LiveAntenna added{antenna, false, false};
+  LiveAntenna added{antenna, false, false, impl_->port_of(antenna)};
   impl_->apply_duty(added);
   impl_->antennas.push_back(added);
   ++impl_->revision;

@@ -38,6 +38,9 @@ struct LiveAntenna {
   AntennaSpec spec;   ///< As the scenario, or whoever added it, says.
   bool is_on = true;  ///< It sends. Else its reader's duty leaves it out, or it is disconnected.
   bool is_faulty = false;  ///< Disconnected: no duty switches it on.
+  /// Of its reader's ports, 1 or more: in the order in which they were first there. One that was
+  /// taken away leaves its port empty, and gets it again.
+  int port = 1;
 };
 
 /// Where it is now.

@@ -193,6 +193,25 @@ def power_and_antennas_are_as_asked(context):
         check_near(mean[30.0] - mean[24.0], 6.0, 0.6, "RSSI lost by 6 dB less power")
 
 
+@case
+def antennas_keep_their_ports_when_one_is_taken_away(context):
+    with started(context, "--speed", "max") as server:
+        client = connected(server)
+        names = {entry["name"]: entry["port"] for entry in server.get("/api/antennas")["antennas"]}
+        check_equal(names, {f"port_{i}": i for i in (1, 2, 3, 4)}, "ports")
+        status, _ = server.ask("DELETE", "/api/antennas/port_2")
+        check_equal(status, 200, "status")
+        names = {entry["name"]: entry["port"] for entry in server.get("/api/antennas")["antennas"]}
+        check_equal(names, {f"port_{i}": i for i in (1, 3, 4)}, "ports")
+        check_equal(client.wait_for(-255), struct.pack("!BH", 0, 2), "the event of antenna 2")
+        tags = client.run_for(spec_of(start=IMMEDIATE, duration_ms=4000))
+        check_equal({tag["antenna"] for tag in tags}, {1, 3, 4}, "antennas that report")
+        tags = client.run_for(spec_of(antennas=(2, 3), start=IMMEDIATE, duration_ms=2000))
+        check_equal({tag["antenna"] for tag in tags}, {3}, "antennas that report, of 2 and 3")
+        properties = dict(parameters(client.ask(2, struct.pack("!HBHH", 2, 2, 0, 0))))[221]
+        check_equal(properties[0] >> 7, 0, "whether port 2 is connected")
+
+
 def fine_rssi():
     content = struct.pack("!II", 25882, 50) + parameter(1023, struct.pack("!IIH", 25882, 53, 1))
     return parameter(1023, content)

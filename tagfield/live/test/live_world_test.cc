@@ -215,6 +215,31 @@ TEST(LiveWorld, TagsComeAndGoAndCablesAreUnplugged) {
   EXPECT_EQ(reads_between(recording, 3.0, 4.0), 30);
 }
 
+TEST(LiveWorld, PortsStayTheirAntennas) {
+  LiveWorld world(plain(), 1, {}, fast());
+  AntennaSpec other = plain().antennas[0];
+  for (const char* name : {"second", "third"}) {
+    other.parameters.name = name;
+    world.add_antenna(other);
+  }
+  const auto ports = [&] {
+    std::map<std::string, int> all;
+    for (const LiveAntenna& antenna : world.antennas()) {
+      all[antenna.spec.parameters.name] = antenna.port;
+    }
+    return all;
+  };
+  using Ports = std::map<std::string, int>;
+  EXPECT_EQ(ports(), (Ports{{"antenna", 1}, {"second", 2}, {"third", 3}}));
+  world.remove_antenna("second");
+  other.parameters.name = "fourth";
+  world.add_antenna(other);
+  EXPECT_EQ(ports(), (Ports{{"antenna", 1}, {"third", 3}, {"fourth", 4}}));
+  other.parameters.name = "second";
+  world.add_antenna(other);
+  EXPECT_EQ(ports(), (Ports{{"antenna", 1}, {"second", 2}, {"third", 3}, {"fourth", 4}}));
+}
+
 TEST(LiveWorld, WhatCannotBeDoneChangesNothing) {
   LiveWorld world(plain(), 1, {}, fast());
   EXPECT_THROW(world.remove_tag("nobody"), Error);
