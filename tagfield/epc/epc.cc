@@ -141,7 +141,7 @@ std::string bits_of_id(const std::string& id) {
 }
 
 std::string sent_bits(const std::string& id) {
-  const std::string bits = bits_of_id(id);
+  std::string bits = bits_of_id(id);
   if (!bits.empty() && bits.size() <= 2 * kMostBytes) return bits;
   if (id.size() > kMostBytes) {
     return fmt::format("{:016X}{:08X}", stream_key(id), stream_key(id + "#") & 0xffff'ffffU);

@@ -40,7 +40,7 @@ class BitReader {
   std::uint64_t take(int bits) {
     std::uint64_t number = 0;
     for (int i = 0; i < bits; ++i, ++at_) {
-      number = number << 1U | (bytes_[at_ / 8] >> (7 - at_ % 8) & 1U);
+      number = number << 1U | (std::uint64_t{bytes_[at_ / 8]} >> (7 - at_ % 8) & 1U);
     }
     return number;
   }

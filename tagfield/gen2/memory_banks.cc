@@ -130,7 +130,7 @@ MemoryResult MemoryBanks::kill(std::uint32_t password) {
 }
 
 bool MemoryBanks::bit(Bank bank, std::size_t at) const {
-  const std::uint16_t word = bank == Bank::kEpc && at < 16 ? crc() : banks_[number(bank)][at / 16];
+  const std::uint32_t word = bank == Bank::kEpc && at < 16 ? crc() : banks_[number(bank)][at / 16];
   return (word >> (15U - at % 16) & 1U) != 0;
 }
 
@@ -138,7 +138,7 @@ bool MemoryBanks::matches(Bank bank, std::size_t pointer, std::size_t count,
                           const std::vector<std::uint8_t>& mask,
                           const std::vector<std::uint8_t>& data) const {
   const auto bit_of = [](const std::vector<std::uint8_t>& bytes, std::size_t at) {
-    return (bytes[at / 8] >> (7U - at % 8) & 1U) != 0;
+    return (std::uint32_t{bytes[at / 8]} >> (7U - at % 8) & 1U) != 0;
   };
   if (pointer + count > banks_[number(bank)].size() * 16 || data.size() * 8 < count) return false;
   for (std::size_t i = 0; i < count; ++i) {

@@ -35,6 +35,7 @@ STAND_INS = ("adapters/ros1/bag_refusal.cc",)
 READ_LESS = "-fdelayed-template-parsing"
 FAILS_TO_COMPILE = "[clang-diagnostic-error]"
 DEFINITION = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)|.*?([\w:]+)\s*[({=;\[]")
+ENTRY = re.compile(r'^(?:extern "C" )?int (main|LLVMFuzzerTestOneInput)\(|^(BENCHMARK_MAIN)\(', re.MULTILINE)
 ALIAS = re.compile(r"using (\w+) = (.*)")
 HEADER = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 TYPE = re.compile(r"^(?:struct|class|union|enum class|enum|using) (\w+)", re.MULTILINE)
@@ -151,10 +152,10 @@ def is_own(name):
 
 
 def own_names(path):
-    """What a source defines in its unnamed namespaces, and main(); good enough to guess what goes
-    together."""
+    """What a source defines in its unnamed namespaces, and where a program starts; good enough to guess
+    what goes together."""
     text = pathlib.Path(path).read_text(encoding="utf-8")
-    names = {"main": path} if re.search(r"^(int main|BENCHMARK_MAIN)\(", text, re.MULTILINE) else {}
+    names = {found.group(1) or "main": path for found in ENTRY.finditer(text)}
     for block in re.findall(r"^namespace \{$(.*?)^\}  // namespace$", text, re.DOTALL | re.MULTILINE):
         for line in block.split("\n"):
             alias = ALIAS.match(line)
