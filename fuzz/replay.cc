@@ -6,7 +6,8 @@
 
 #include "fuzz/input.h"
 
-int main(int count, char** arguments) {
+// What a door lets out ends the process, as under libFuzzer.
+int main(int count, char** arguments) {  // NOLINT(bugprone-exception-escape)
   for (int i = 1; i < count; ++i) {
     std::ifstream file(arguments[i], std::ios::binary);
     if (!file) {
