@@ -1,50 +1,219 @@
 #include "tagfield/sdf/resource_path.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <system_error>
+
+#include "tagfield/base/number.h"
 
 namespace tagfield {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kWhitespaceInUri = "%20";
+
 bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error);
 }
 
-void add_folder(ResourcePaths& paths, const fs::path& folder) {
+bool is_folder(const fs::path& path) {
   std::error_code error;
-  if (!folder.empty() && fs::is_directory(folder, error)) {
-    paths.folders.push_back(fs::absolute(folder).lexically_normal().string());
+  return fs::is_directory(path, error);
+}
+
+void add_folder(std::vector<std::string>& folders, const fs::path& folder) {
+  if (!folder.empty() && is_folder(folder)) {
+    folders.push_back(fs::absolute(folder).lexically_normal().string());
   }
 }
 
-void add_environment(ResourcePaths& paths, const char* variable) {
+void add_environment(std::vector<std::string>& folders, const char* variable) {
   const char* value = std::getenv(variable);
   if (value == nullptr) return;
   std::istringstream list(value);
-  for (std::string folder; std::getline(list, folder, ':');) add_folder(paths, folder);
+  for (std::string folder; std::getline(list, folder, ':');) add_folder(folders, folder);
 }
 
-std::string find_in_folders(const std::string& name, const ResourcePaths& paths) {
-  if (name.empty() || fs::path(name).is_absolute()) return "";
-  for (const std::string& folder : paths.folders) {
-    const fs::path path = fs::path(folder) / name;
-    if (is_there(path)) return path.string();
+void add_home(std::vector<std::string>& folders, const char* folder) {
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && *home != '\0') add_folder(folders, fs::path(home) / folder);
+}
+
+std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The entry of `folder` called `name` but for case, the first in order; none if there is none.
+std::optional<fs::path> entry_like(const fs::path& folder, const std::string& name) {
+  std::vector<fs::path> alike;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (in_small_letters(entry->path().filename().string()) == in_small_letters(name)) {
+      alike.push_back(entry->path());
+    }
   }
-  return "";
+  if (alike.empty()) return std::nullopt;
+  return *std::min_element(alike.begin(), alike.end());
 }
 
-std::string find_path(const std::string& path, const std::string& naming_file,
-                      const ResourcePaths& paths) {
-  if (path.empty()) return "";
-  // An absolute path stays as it is here: fs::path's `/` takes the right side then.
-  const fs::path beside = fs::path(naming_file).parent_path() / path;
-  if (is_there(beside)) return beside.string();
-  return find_in_folders(path, paths);
+/// folder/rest with whatever case its parts have; "" if there is none.
+std::string find_like(const fs::path& folder, const fs::path& rest) {
+  fs::path path = folder;
+  for (const fs::path& part : rest) {
+    if (part.empty() || part == ".") continue;
+    if (is_there(path / part)) {
+      path /= part;
+      continue;
+    }
+    const auto alike = entry_like(path, part.string());
+    if (!alike) return "";
+    path = *alike;
+  }
+  return path == folder ? "" : path.string();
+}
+
+/// What is found at folder/rest in one of the folders; in another case only where it is nowhere as
+/// written.
+FoundResource find_below(const std::vector<std::string>& folders, const fs::path& rest) {
+  if (rest.empty() || rest.is_absolute()) return {};
+  for (const std::string& folder : folders) {
+    const fs::path path = fs::path(folder) / rest;
+    if (is_there(path)) return {path.string()};
+  }
+  for (const std::string& folder : folders) {
+    const std::string path = find_like(folder, rest);
+    if (!path.empty()) return {path, "found in another case, as '" + path + "'"};
+  }
+  return {};
+}
+
+FoundResource find_path(const std::string& path, const std::string& naming_file,
+                        const ResourcePaths& paths) {
+  if (path.empty()) return {};
+  if (fs::path(path).is_absolute()) {
+    return is_there(path) ? FoundResource{path} : FoundResource{};
+  }
+  std::vector<std::string> folders = {fs::path(naming_file).parent_path().string()};
+  folders.insert(folders.end(), paths.folders.begin(), paths.folders.end());
+  folders.insert(folders.end(), paths.roots.begin(), paths.roots.end());
+  return find_below(folders, path);
+}
+
+std::string without_leading_slashes(const std::string& path) {
+  return path.substr(std::min(path.find_first_not_of('/'), path.size()));
+}
+
+std::string with_blanks(std::string text) {
+  for (std::size_t at = text.find(kWhitespaceInUri); at != std::string::npos;
+       at = text.find(kWhitespaceInUri, at)) {
+    text.replace(at, kWhitespaceInUri.size(), " ");
+  }
+  return text;
+}
+
+/// Parts of https://HOST/1.0/OWNER/models/NAME[/VERSION[/files/REST]].
+struct FuelName {
+  std::string host;
+  std::string owner;
+  std::string model;
+  std::string version;  ///< "" for the newest.
+  fs::path rest;
+};
+
+std::optional<FuelName> fuel_name(const std::string& rest) {
+  std::vector<std::string> parts;
+  std::istringstream text(with_blanks(rest));
+  for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
+  const auto is_up = [](const std::string& part) { return part == ".." || part == "."; };
+  if (parts.size() < 5 || parts[3] != "models" || std::any_of(parts.begin(), parts.end(), is_up)) {
+    return std::nullopt;
+  }
+  FuelName name{parts[0], parts[2], parts[4], "", {}};
+  if (parts.size() > 5 && parts[5] != "tip") name.version = parts[5];
+  for (std::size_t i = 7; i < parts.size(); ++i) name.rest /= parts[i];
+  return name;
+}
+
+/// The folder in `model` with the highest number for its name; "" if there is none.
+std::string newest_version(const fs::path& model) {
+  double newest = -1.0;
+  std::string found;
+  std::error_code error;
+  for (fs::directory_iterator entry(model, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto version = parse_number(entry->path().filename().string());
+    if (!version || *version <= newest || !is_folder(entry->path())) continue;
+    newest = *version;
+    found = entry->path().string();
+  }
+  return found;
+}
+
+FoundResource find_in_fuel(const FuelName& name, const ResourcePaths& paths) {
+  const fs::path below = fs::path(name.host) / in_small_letters(name.owner) / "models" /
+                         in_small_letters(name.model);
+  for (const std::string& cache : paths.fuel) {
+    const fs::path model = fs::path(cache) / below;
+    const std::string version =
+        name.version.empty() ? newest_version(model) : (model / name.version).string();
+    if (!version.empty() && is_there(version / name.rest)) return {(version / name.rest).string()};
+  }
+  for (const std::string& called : {name.model, model_name(name.model)}) {
+    FoundResource found = find_below(paths.folders, called / name.rest);
+    if (found.path.empty()) continue;
+    found.oddity = "not in Fuel's caches; '" + found.path + "' is taken for it";
+    return found;
+  }
+  return {};
+}
+
+bool is_within(const fs::path& path, const std::string& folder) {
+  std::error_code error;
+  const fs::path around = fs::weakly_canonical(folder, error);
+  const auto [rest, end] = std::mismatch(around.begin(), around.end(), path.begin(), path.end());
+  return rest == around.end() || (rest->empty() && std::next(rest) == around.end());
+}
+
+/// Whether a file lies where those of a world may, whatever links lead there.
+bool is_allowed(const std::string& found, const std::string& naming_file,
+                const ResourcePaths& paths) {
+  if (paths.allow_outside) return true;
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(found, error);
+  std::vector<std::string> allowed = {fs::path(naming_file).parent_path().string()};
+  for (const auto* folders : {&paths.folders, &paths.roots, &paths.fuel}) {
+    allowed.insert(allowed.end(), folders->begin(), folders->end());
+  }
+  return std::any_of(allowed.begin(), allowed.end(),
+                     [&](const std::string& folder) { return is_within(path, folder); });
+}
+
+FoundResource find_anywhere(const std::string& uri, const std::string& naming_file,
+                            const ResourcePaths& paths) {
+  const std::size_t scheme_end = uri.find("://");
+  if (scheme_end == std::string::npos) return find_path(uri, naming_file, paths);
+  const std::string scheme = uri.substr(0, scheme_end);
+  const std::string rest = uri.substr(scheme_end + 3);
+  if (scheme == "model" || scheme == "package") {
+    return find_below(paths.folders, without_leading_slashes(rest));
+  }
+  if (scheme == "file") return find_path(rest, naming_file, paths);
+  if (scheme == "https" || scheme == "http") {
+    const auto name = fuel_name(rest);
+    return name ? find_in_fuel(*name, paths) : FoundResource{};
+  }
+  return {};
 }
 
 }  // namespace
@@ -52,27 +221,42 @@ std::string find_path(const std::string& path, const std::string& naming_file,
 ResourcePaths resource_paths(const std::string& world_path,
                              const std::vector<std::string>& search_paths) {
   ResourcePaths paths;
-  for (const std::string& folder : search_paths) add_folder(paths, folder);
-  const fs::path world_folder = fs::absolute(world_path).parent_path();
-  add_folder(paths, world_folder);
-  add_folder(paths, world_folder / "models");
-  add_folder(paths, world_folder.parent_path() / "models");
+  for (const std::string& folder : search_paths) add_folder(paths.folders, folder);
+  const fs::path world_folder = fs::absolute(world_path).lexically_normal().parent_path();
+  add_folder(paths.folders, world_folder);
+  add_folder(paths.folders, world_folder / "models");
+  add_folder(paths.folders, world_folder.parent_path() / "models");
   for (const char* variable :
        {"SDF_PATH", "GAZEBO_MODEL_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GZ_SIM_RESOURCE_PATH"}) {
-    add_environment(paths, variable);
+    add_environment(paths.folders, variable);
   }
+  add_home(paths.folders, ".gazebo/models");
+  add_folder(paths.folders, "/usr/share/gazebo-11/models");
+  if (world_folder.filename() == "worlds") add_folder(paths.roots, world_folder.parent_path());
+  for (const char* variable : {"GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH"}) {
+    add_environment(paths.fuel, variable);
+  }
+  for (const char* folder : {".gz/fuel", ".ignition/fuel"}) add_home(paths.fuel, folder);
   return paths;
 }
 
-std::string find_resource(const std::string& uri, const std::string& naming_file,
-                          const ResourcePaths& paths) {
-  const std::size_t scheme_end = uri.find("://");
-  if (scheme_end == std::string::npos) return find_path(uri, naming_file, paths);
-  const std::string scheme = uri.substr(0, scheme_end);
-  const std::string rest = uri.substr(scheme_end + 3);
-  if (scheme == "model" || scheme == "package") return find_in_folders(rest, paths);
-  if (scheme == "file") return find_path(rest, naming_file, paths);
-  return "";
+FoundResource find_resource(const std::string& uri, const std::string& naming_file,
+                            const ResourcePaths& paths) {
+  FoundResource found = find_anywhere(uri, naming_file, paths);
+  if (found.path.empty() || is_allowed(found.path, naming_file, paths)) return found;
+  return {"", "'" + found.path + "' lies outside of all folders of models (--allow-outside reads it)"};
+}
+
+std::string model_name(const std::string& uri) {
+  const std::string path = with_blanks(uri);
+  const std::size_t end = path.find_last_not_of('/');
+  if (end == std::string::npos) return "";
+  const std::size_t begin = path.find_last_of('/', end);
+  std::string name =
+      in_small_letters(path.substr(begin == std::string::npos ? 0 : begin + 1, end + 1));
+  name.resize(std::min(name.size(), end + 1 - (begin == std::string::npos ? 0 : begin + 1)));
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
 }
 
 std::string looked_in(const ResourcePaths& paths) {

@@ -1,49 +1,96 @@
 #include "tagfield/sdf/internal/context.h"
 
-#include "tagfield/files/files.h"
+#include <fmt/format.h>
+
+#include <set>
+#include <string_view>
+
+#include "tagfield/base/number.h"
 
 namespace tagfield::sdf_internal {
+namespace {
 
-std::string shown(const Context& context, const std::string& file) {
-  return file.empty() || file == context.absolute_path ? context.given_path : file;
-}
+using tinyxml2::XMLElement;
 
-Location location_of(const Context& context, const sdf::ElementPtr& element) {
-  for (sdf::ElementPtr at = element; at; at = at->GetParent()) {
-    if (at->LineNumber()) return {shown(context, at->FilePath()), *at->LineNumber()};
+/// Before it poses and sizes were attributes.
+constexpr double kOldestVersion = 1.2;
+
+void require_sdf(Context& context, const XMLElement& root) {
+  const std::string_view name = root.Name();
+  if (name == "robot") {
+    fail(location_of(root), "a URDF, not an SDF file (gz sdf -p FILE.urdf makes one of it)");
   }
-  return {context.given_path, 0};
+  if (name != "sdf" && name != "gazebo") {
+    fail(location_of(root),
+         fmt::format("not an SDF file: its root element is <{}>, not <sdf>", name));
+  }
+  const std::string version = attribute_of(root, "version");
+  if (version.empty()) {
+    context.diagnostics.warn(location_of(root), "<sdf> without a version: read as the newest");
+  } else if (const auto number = parse_number(version); number && *number < kOldestVersion) {
+    fail(location_of(root),
+         fmt::format("SDF of version {} is not read ({:.1f} and later are)", version,
+                     kOldestVersion));
+  }
 }
 
-sdf::ElementPtr written_child(const sdf::ElementPtr& element, const std::string& name) {
-  if (!element) return nullptr;
-  sdf::ElementPtr child = element->FindElement(name);
-  return child && child->GetExplicitlySetInFile() ? child : nullptr;
+std::string not_found_among(const Missing& first, const std::vector<Missing>& all) {
+  std::string others;
+  std::set<std::string> told = {first.uri};
+  for (const Missing& missing : all) {
+    if (!told.insert(missing.uri).second) continue;
+    others +=
+        fmt::format(", '{}' ({}:{})", missing.uri, missing.location.file, missing.location.line);
+  }
+  return fmt::format("'{}'{}", first.uri, others);
 }
 
-std::string file_text(const std::string& path) {
-  constexpr std::size_t kMostBytes = 200'000'000;
-  return read_text_file(path, kMostBytes);
+}  // namespace
+
+const XMLElement& root_of(Context& context, const std::string& path, const std::string& shown) {
+  const auto known = context.files.find(path);
+  if (known != context.files.end()) return *known->second->document.RootElement();
+  auto file = std::make_unique<XmlFile>();
+  file->path = path;
+  file->shown = shown;
+  parse_xml(*file);
+  const XMLElement& root = *file->document.RootElement();
+  require_sdf(context, root);
+  context.files.emplace(path, std::move(file));
+  return root;
 }
 
-const XmlOutline& outline_of(Context& context, const std::string& path) {
-  const auto [entry, is_new] = context.outlines.try_emplace(path);
-  if (is_new) {
-    try {
-      entry->second = outline_xml(file_text(path));
-    } catch (const Error&) {
-      // Only line numbers are lost: whoever needs the file itself says so.
-      entry->second = {};
+std::string file_named_by(Context& context, const XMLElement& element) {
+  const std::string uri = text_of(element);
+  const FoundResource found = find_resource(uri, file_of(element).path, context.resources);
+  if (found.path.empty()) miss(context, element);
+  if (!found.oddity.empty()) {
+    context.diagnostics.warn(location_of(element), fmt::format("'{}': {}", uri, found.oddity));
+  }
+  return found.path;
+}
+
+void miss(Context& context, const XMLElement& element, const std::string& reason) {
+  context.missing.push_back({text_of(element), location_of(element), reason});
+}
+
+void tell_missing(Context& context) {
+  std::vector<Missing> not_found;
+  for (const Missing& missing : context.missing) {
+    const std::string message =
+        missing.reason.empty() ? fmt::format("can't find '{}'", missing.uri) : missing.reason;
+    if (context.skip_missing) {
+      context.diagnostics.warn(missing.location, message + ": left out");
+    } else if (missing.reason.empty()) {
+      not_found.push_back(missing);
+    } else {
+      fail(missing.location, message);
     }
   }
-  return entry->second;
-}
-
-void require_well_formed(Context& context, const std::string& path) {
-  const XmlOutline& outline = outline_of(context, path);
-  if (!outline.error.empty()) {
-    fail({shown(context, path), outline.error_line}, "malformed XML: " + outline.error);
-  }
+  if (not_found.empty()) return;
+  fail(not_found.front().location,
+       fmt::format("can't find {} ({})", not_found_among(not_found.front(), not_found),
+                   looked_in(context.resources)));
 }
 
 }  // namespace tagfield::sdf_internal

@@ -4,13 +4,13 @@
 
 #include <array>
 #include <map>
-#include <sdf/Element.hh>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/sdf/internal/xml_outline.h"
+#include "tagfield/sdf/internal/xml_file.h"
 #include "tagfield/sdf/resource_path.h"
 #include "tagfield/world/scene.h"
 
@@ -19,34 +19,37 @@ namespace tagfield::sdf_internal {
 /// Path, scale, submesh, centred.
 using MeshKey = std::tuple<std::string, std::array<double, 3>, std::string, bool>;
 
-/// One load_world call.
-struct Context {
-  std::string given_path;     ///< As the caller wrote it, for messages.
-  std::string absolute_path;  ///< As sdformat gets it.
-  ResourcePaths resources;
-  Diagnostics& diagnostics;
-  std::map<MeshKey, MeshPtr> meshes;
-  std::map<std::string, std::vector<std::string>> mesh_materials;  ///< By path.
-  std::map<std::string, XmlOutline> outlines;                      ///< By path.
-  std::string frame_trouble;  ///< Why sdformat's frames can't be relied on, or "".
+/// Something that a file names and that is not there.
+struct Missing {
+  std::string uri;
+  Location location;
+  std::string reason;  ///< What is wrong with it; "" where it just can't be found.
 };
 
-/// `file` as messages should show it.
-std::string shown(const Context& context, const std::string& file);
+/// One load_world call.
+struct Context {
+  ResourcePaths resources;
+  bool skip_missing = false;
+  Diagnostics& diagnostics;
+  std::map<std::string, std::unique_ptr<XmlFile>> files{};           ///< By path.
+  std::map<MeshKey, MeshPtr> meshes{};                               ///< Null where broken.
+  std::map<std::string, std::vector<std::string>> mesh_materials{};  ///< By path.
+  std::vector<Missing> missing{};
+};
 
-/// Where `element` starts, or the nearest element around it of which that is known.
-Location location_of(const Context& context, const sdf::ElementPtr& element);
+/// The root element, <sdf>, of a file that is read once. `shown` is how messages name it. Throws
+/// Error if the file can't be read, is not XML, or is not SDF.
+const tinyxml2::XMLElement& root_of(Context& context, const std::string& path,
+                                    const std::string& shown);
 
-/// The child `name` that stands in the file, or null. (Element::GetElement would add one.)
-sdf::ElementPtr written_child(const sdf::ElementPtr& element, const std::string& name);
+/// The file that `element`'s text names by a URI, with a warning where it had to be looked for
+/// under another name; "" where it is missing, which is remembered.
+std::string file_named_by(Context& context, const tinyxml2::XMLElement& element);
 
-/// The whole text of a file. Throws Error if it can't be read.
-std::string file_text(const std::string& path);
+/// Remembers that `element` names what can't be used.
+void miss(Context& context, const tinyxml2::XMLElement& element, const std::string& reason = "");
 
-/// outline_xml of a file, read once; empty if it can't be read.
-const XmlOutline& outline_of(Context& context, const std::string& path);
-
-/// Throws Error if a file is not there or its XML is malformed.
-void require_well_formed(Context& context, const std::string& path);
+/// Throws Error that names all that is missing, or warns of it where that is to be skipped.
+void tell_missing(Context& context);
 
 }  // namespace tagfield::sdf_internal

@@ -1,0 +1,159 @@
+#include "tagfield/sdf/internal/xml_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "tagfield/base/number.h"
+#include "tagfield/base/units.h"
+#include "tagfield/files/files.h"
+#include "tagfield/sdf/internal/xml_outline.h"
+
+namespace tagfield::sdf_internal {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr std::size_t kMostBytes = 200'000'000;
+
+/// Blanks out <?xml …?>, which only may stand first, and what stands before the first element's
+/// declaration; lines stay where they are.
+void blank_out_declarations(std::string& text) {
+  for (std::size_t begin = text.find("<?"); begin != std::string::npos;
+       begin = text.find("<?", begin)) {
+    const std::size_t end = text.find("?>", begin);
+    if (end == std::string::npos) return;
+    const auto at = [&](std::size_t i) { return text.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::replace_if(
+        at(begin), at(end + 2), [](char c) { return c != '\n'; }, ' ');
+  }
+}
+
+/// The outline tells better what is wrong, where it sees it.
+[[noreturn]] void refuse_malformed(const XmlFile& file, const std::string& text) {
+  const XmlOutline outline = outline_xml(text);
+  if (outline.tags.empty()) fail({file.shown, std::max(outline.error_line, 1)}, "not an XML file");
+  if (!outline.error.empty()) {
+    fail({file.shown, outline.error_line}, "malformed XML: " + outline.error);
+  }
+  fail({file.shown, file.document.ErrorLineNum()},
+       fmt::format("malformed XML ({})",
+                   tinyxml2::XMLDocument::ErrorIDToName(file.document.ErrorID())));
+}
+
+/// Roll, pitch and yaw about fixed axes, as SDF has them.
+Eigen::Quaterniond from_roll_pitch_yaw(double roll, double pitch, double yaw) {
+  const double cr = std::cos(roll / 2.0);
+  const double sr = std::sin(roll / 2.0);
+  const double cp = std::cos(pitch / 2.0);
+  const double sp = std::sin(pitch / 2.0);
+  const double cy = std::cos(yaw / 2.0);
+  const double sy = std::sin(yaw / 2.0);
+  const double w = cr * cp * cy + sr * sp * sy;
+  const double x = sr * cp * cy - cr * sp * sy;
+  const double y = cr * sp * cy + sr * cp * sy;
+  const double z = cr * cp * sy - sr * sp * cy;
+  const double length = std::sqrt(w * w + x * x + y * y + z * z);
+  return Eigen::Quaterniond(w / length, x / length, y / length, z / length).normalized();
+}
+
+RigidTransform pose_with_quaternion(const XMLElement& pose, const std::vector<double>& n) {
+  const auto rotation = as_rotation(Eigen::Quaterniond(n[6], n[3], n[4], n[5]));
+  if (!rotation) fail(location_of(pose), "the quaternion in <pose> must be of length 1");
+  return {*rotation, {n[0], n[1], n[2]}};
+}
+
+}  // namespace
+
+void parse_xml(XmlFile& file) {
+  std::string text;
+  try {
+    text = read_text_file(file.path, kMostBytes);
+  } catch (const Error& error) {
+    // The path that the caller wrote, not the one it was made into.
+    std::string message = error.what();
+    if (message.rfind(file.path, 0) == 0) message.replace(0, file.path.size(), file.shown);
+    throw Error(message);
+  }
+  blank_out_declarations(text);
+  file.document.SetUserData(&file);
+  if (file.document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
+      file.document.RootElement() == nullptr) {
+    refuse_malformed(file, text);
+  }
+}
+
+const XmlFile& file_of(const XMLElement& element) {
+  return *static_cast<const XmlFile*>(element.GetDocument()->GetUserData());
+}
+
+Location location_of(const XMLElement& element) {
+  return {file_of(element).shown, element.GetLineNum()};
+}
+
+std::string text_of(const XMLElement& element) {
+  constexpr const char* kBlank = " \t\r\n";
+  std::string text;
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr;
+       node = node->NextSibling()) {
+    if (node->ToText() != nullptr) text += node->Value();
+  }
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin);
+}
+
+std::string child_text(const XMLElement& element, const char* name) {
+  const XMLElement* child = element.FirstChildElement(name);
+  return child == nullptr ? "" : text_of(*child);
+}
+
+std::string attribute_of(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string name_of(const XMLElement& element) {
+  std::string name = attribute_of(element, "name");
+  if (name.empty()) {
+    fail(location_of(element), fmt::format("<{}> without a name", element.Name()));
+  }
+  return name;
+}
+
+std::vector<double> numbers_of(const XMLElement& element, std::size_t count,
+                               Diagnostics& diagnostics) {
+  std::vector<double> numbers;
+  std::istringstream words(text_of(element));
+  std::string word;
+  while (words >> word && numbers.size() < count) {
+    const auto number = parse_number(word);
+    if (!number) break;
+    numbers.push_back(*number);
+  }
+  if (numbers.size() < count) {
+    fail(location_of(element),
+         fmt::format("missing or bad value in <{}>: '{}' (expected {} number{})", element.Name(),
+                     text_of(element), count, count == 1 ? "" : "s"));
+  }
+  if (words) {
+    diagnostics.warn(location_of(element),
+                     fmt::format("of '{}' in <{}> only the first {} are used", text_of(element),
+                                 element.Name(), count));
+  }
+  return numbers;
+}
+
+RigidTransform pose_of(const XMLElement& pose, Diagnostics& diagnostics) {
+  if (text_of(pose).empty()) return {};
+  if (attribute_of(pose, "rotation_format") == "quat_xyzw") {
+    return pose_with_quaternion(pose, numbers_of(pose, 7, diagnostics));
+  }
+  const std::vector<double> n = numbers_of(pose, 6, diagnostics);
+  const double unit = pose.BoolAttribute("degrees", false) ? kPi / 180.0 : 1.0;
+  return {from_roll_pitch_yaw(unit * n[3], unit * n[4], unit * n[5]), {n[0], n[1], n[2]}};
+}
+
+}  // namespace tagfield::sdf_internal
