@@ -1,51 +1,62 @@
 #include "tagfield/sdf/load_world.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
-#include <sdf/Collision.hh>
-#include <sdf/Link.hh>
-#include <sdf/Model.hh>
-#include <sdf/Root.hh>
-#include <sdf/Sensor.hh>
-#include <sdf/Visual.hh>
-#include <sdf/World.hh>
 #include <set>
 
 #include "tagfield/sdf/internal/context.h"
 #include "tagfield/sdf/internal/materials.h"
-#include "tagfield/sdf/internal/poses.h"
-#include "tagfield/sdf/internal/read_root.h"
+#include "tagfield/sdf/internal/models.h"
 #include "tagfield/sdf/internal/sensors.h"
 #include "tagfield/sdf/internal/shapes.h"
+#include "tagfield/sdf/internal/unknown_elements.h"
 #include "tagfield/sdf/internal/world_state.h"
 
 namespace tagfield {
 namespace {
 
+using sdf_internal::attribute_of;
 using sdf_internal::Context;
+using sdf_internal::for_each_child;
+using sdf_internal::Link;
+using sdf_internal::location_of;
+using sdf_internal::name_of;
+using sdf_internal::Model;
 using sdf_internal::ModelState;
 using sdf_internal::NamedPlacement;
+using sdf_internal::Scope;
+using tinyxml2::XMLElement;
 
-/// Walks a world's models and gathers a scene. M is a model's frame, L a link's, C a collision's.
+/// A model that is being gathered.
+struct Place {
+  const Model& model;
+  std::string name;  ///< Scoped.
+  RigidTransform X_WM;
+  const ModelState& state;
+};
+
+/// Walks a world's models and gathers a scene. P is what is around a model, M the model's frame,
+/// L a link's, C a collision's.
 class SceneGatherer {
  public:
   explicit SceneGatherer(Context& context) : context_(context) {}
 
-  void add_model(const sdf::Model& model, const RigidTransform& X_WP, const std::string& scope,
-                 const ModelState& state) {
-    const std::string name = scope + model.Name();
-    const sdf::ElementPtr element = model.Element();
-    sdf_internal::require_all_read(context_, element, "link", model.LinkCount());
-    sdf_internal::require_all_read(context_, element, "model", model.ModelCount());
-    scene_.models.push_back(name);
-    const RigidTransform X_WM_written =
-        X_WP * sdf_internal::pose_in_parent(context_, model.SemanticPose(), element);
-    const RigidTransform X_WM = state.pose(context_).value_or(X_WM_written);
-    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      add_link(*model.LinkByIndex(i), X_WM, name, state);
+  void add_model(const Model& model, const Scope& around, const RigidTransform& X_WP,
+                 const std::string& scope, const ModelState& state) {
+    const XMLElement& element = *model.element;
+    sdf_internal::warn_of_unknown_children(element, context_.diagnostics);
+    if (model.links.empty() && model.models.empty()) {
+      context_.diagnostics.warn(location_of(element),
+                                fmt::format("model '{}' has no links", model.name));
     }
-    for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-      const sdf::Model& nested = *model.ModelByIndex(i);
-      add_model(nested, X_WM, name + "::", state.model(nested.Name()));
+    const RigidTransform X_PM = pose_in(around, model.frame, {}, context_.diagnostics);
+    const Place place{model, scope + model.name, state.pose(context_).value_or(X_WP * X_PM),
+                      state};
+    scene_.models.push_back(place.name);
+    for (const Link& link : model.links) add_link(link, place);
+    for (const auto& nested : model.models) {
+      add_model(*nested, model.scope, place.X_WM, place.name + "::", state.model(nested->name));
     }
   }
 
@@ -59,106 +70,125 @@ class SceneGatherer {
   }
 
  private:
-  void add_link(const sdf::Link& link, const RigidTransform& X_WM, const std::string& model,
-                const ModelState& state) {
-    const sdf::ElementPtr element = link.Element();
-    sdf_internal::require_all_read(context_, element, "collision", link.CollisionCount());
-    sdf_internal::require_all_read(context_, element, "sensor", link.SensorCount());
-    const RigidTransform X_WL_written =
-        X_WM * sdf_internal::pose_in_parent(context_, link.SemanticPose(), element);
-    const RigidTransform X_WL = state.link_pose(context_, link.Name()).value_or(X_WL_written);
-    const std::string scope = model + "::" + link.Name() + "::";
+  void add_link(const Link& link, const Place& place) {
+    sdf_internal::warn_of_unknown_children(*link.element, context_.diagnostics);
+    const RigidTransform X_ML =
+        pose_in(place.model.scope, link.frame, {}, context_.diagnostics);
+    const RigidTransform X_WL =
+        place.state.link_pose(context_, link.name).value_or(place.X_WM * X_ML);
+    const std::string scope = place.name + "::" + link.name + "::";
     const std::vector<std::string> looks = looks_of(link, scope);
-    for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
-      add_collision(*link.CollisionByIndex(i), X_WL, scope, looks);
+    for_each_child(*link.element, "collision", [&](const XMLElement& element) {
+      add_collision(element, X_WL * pose_in_link(element, link, place, X_ML), scope, looks);
+    });
+    for_each_child(*link.element, "sensor", [&](const XMLElement& element) {
+      const std::string type = attribute_of(element, "type");
+      if (type != "rfid" && type != "rfidtag") return;
+      (type == "rfid" ? antennas_ : tags_)
+          .push_back(sdf_internal::read_sensor(element, X_WL * pose_in_link(element, link, place, X_ML),
+                                 place.name, link.name));
+    });
+  }
+
+  /// X_LC of a collision or sensor.
+  RigidTransform pose_in_link(const XMLElement& element, const Link& link, const Place& place,
+                              const RigidTransform& X_ML) {
+    sdf_internal::Frame frame = sdf_internal::frame_of(context_, element);
+    if (frame.relative_to.empty() || frame.relative_to == link.name) return frame.X_RF;
+    if (frame.relative_to == sdf_internal::kModelFrame && !link.model_frame.empty()) {
+      frame.relative_to = link.model_frame;
     }
-    for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
-      add_sensor(*link.SensorByIndex(i), X_WL, model, link.Name());
-    }
+    return X_ML.inverse() * pose_in(place.model.scope, frame, X_ML, context_.diagnostics);
   }
 
   /// Names of the link's visuals and of what they wear.
-  std::vector<std::string> looks_of(const sdf::Link& link, const std::string& scope) {
+  std::vector<std::string> looks_of(const Link& link, const std::string& scope) {
     std::set<std::string> looks;
-    for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
-      sdf_internal::add_materials(context_, *link.VisualByIndex(i), looks);
-    }
+    for_each_child(*link.element, "visual", [&](const XMLElement& visual) {
+      sdf_internal::add_materials(context_, visual, looks);
+    });
     materials_.insert(looks.begin(), looks.end());
-    for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
-      looks.insert(scope + link.VisualByIndex(i)->Name());
-    }
+    for_each_child(*link.element, "visual", [&](const XMLElement& visual) {
+      looks.insert(scope + attribute_of(visual, "name"));
+    });
     return {looks.begin(), looks.end()};
   }
 
-  void add_collision(const sdf::Collision& collision, const RigidTransform& X_WL,
+  void add_collision(const XMLElement& element, const RigidTransform& X_WC,
                      const std::string& scope, const std::vector<std::string>& looks) {
-    const std::string name = scope + collision.Name();
-    const sdf::ElementPtr element = collision.Element();
-    const auto shape = sdf_internal::read_shape(context_, *collision.Geom(), element, name);
-    if (!shape) return;
-    const RigidTransform X_LC =
-        sdf_internal::pose_in_parent(context_, collision.SemanticPose(), element);
-    scene_.collisions.push_back({name, *shape, X_WL * X_LC, looks});
-  }
-
-  void add_sensor(const sdf::Sensor& sensor, const RigidTransform& X_WL, const std::string& model,
-                  const std::string& link) {
-    const bool is_antenna = sensor.Type() == sdf::SensorType::RFID;
-    if (!is_antenna && sensor.Type() != sdf::SensorType::RFIDTAG) return;
-    (is_antenna ? antennas_ : tags_)
-        .push_back(sdf_internal::read_sensor(context_, sensor, X_WL, model, link));
+    sdf_internal::warn_of_unknown_children(element, context_.diagnostics);
+    const std::string name = scope + name_of(element);
+    if (!collision_names_.insert(name).second) {
+      context_.diagnostics.warn(location_of(element),
+                                fmt::format("a second collision '{}'", name));
+    }
+    const auto shape = sdf_internal::read_shape(context_, element, name);
+    if (shape) scene_.collisions.push_back({name, *shape, X_WC, looks});
   }
 
   Context& context_;
   Scene scene_;
   std::set<std::string> materials_;
+  std::set<std::string> collision_names_;
   std::vector<NamedPlacement> antennas_;
   std::vector<NamedPlacement> tags_;
 };
 
-/// Parts of a world that would bring models, were they used.
-void warn_of_unused_parts(Context& context, const sdf::ElementPtr& world) {
-  const sdf::ElementPtr population = sdf_internal::written_child(world, "population");
-  if (population) {
-    context.diagnostics.warn(sdf_internal::location_of(context, population),
-                             "<population> is not used: its models are left out");
+/// Parts of a world that would bring solids, were they used.
+void warn_of_unused_parts(Context& context, const XMLElement& world) {
+  for (const char* name : {"population", "actor"}) {
+    if (const XMLElement* part = world.FirstChildElement(name)) {
+      context.diagnostics.warn(location_of(*part),
+                               fmt::format("<{}> is not used: it is left out", name));
+    }
   }
 }
 
-Scene scene_of_world(Context& context, const sdf::World& world) {
-  sdf_internal::require_all_read(context, world.Element(), "model", world.ModelCount());
-  warn_of_unused_parts(context, world.Element());
-  const ModelState state = sdf_internal::state_of(context, world.Element());
+Scene scene_of_world(Context& context, const XMLElement& element) {
+  const sdf_internal::World world = sdf_internal::read_world(context, element);
+  sdf_internal::warn_of_unknown_children(element, context.diagnostics);
+  warn_of_unused_parts(context, element);
+  const ModelState state = sdf_internal::state_of(context, element);
   const std::set<std::string> deleted = state.deleted();
   SceneGatherer gatherer(context);
-  for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-    const sdf::Model& model = *world.ModelByIndex(i);
-    if (deleted.count(model.Name()) > 0) continue;
-    gatherer.add_model(model, RigidTransform{}, "", state.model(model.Name()));
+  for (const auto& model : world.models) {
+    if (deleted.count(model->name) > 0) continue;
+    gatherer.add_model(*model, world.scope, RigidTransform{}, "", state.model(model->name));
   }
-  return gatherer.result(world.Name());
+  return gatherer.result(world.name);
 }
 
-Scene scene_of_model(Context& context, const sdf::Model& model) {
+Scene scene_of_model(Context& context, const XMLElement& element) {
+  const auto model = sdf_internal::read_model(context, element);
   SceneGatherer gatherer(context);
-  gatherer.add_model(model, RigidTransform{}, "", {});
-  return gatherer.result(model.Name());
+  gatherer.add_model(*model, {}, RigidTransform{}, "", {});
+  return gatherer.result(model->name);
+}
+
+Scene scene_of(Context& context, const XMLElement& root) {
+  if (const XMLElement* world = root.FirstChildElement("world")) {
+    if (world->NextSiblingElement("world") != nullptr) {
+      context.diagnostics.warn(location_of(root), "holds several worlds; the first is taken");
+    }
+    return scene_of_world(context, *world);
+  }
+  if (const XMLElement* model = root.FirstChildElement("model")) {
+    return scene_of_model(context, *model);
+  }
+  fail(location_of(root), "holds no world");
 }
 
 }  // namespace
 
 Scene load_world(const std::string& path, const std::vector<std::string>& search_paths,
-                 Diagnostics& diagnostics) {
-  // sdformat would take a relative path for one of its own schema files first ("model.sdf").
-  const std::string absolute = std::filesystem::absolute(path).string();
-  Context context{path, absolute, resource_paths(path, search_paths), diagnostics, {}, {}, {}, {}};
-  const sdf::Root root = sdf_internal::read_root(context);
-  if (root.WorldCount() > 1) {
-    diagnostics.warn({path, 0}, "holds several worlds; the first is taken");
-  }
-  if (root.WorldCount() > 0) return scene_of_world(context, *root.WorldByIndex(0));
-  if (root.Model() != nullptr) return scene_of_model(context, *root.Model());
-  fail(sdf_internal::location_of(context, root.Element()), "holds no world");
+                 Diagnostics& diagnostics, const WorldOptions& options) {
+  ResourcePaths resources = resource_paths(path, search_paths);
+  resources.allow_outside = options.allow_outside;
+  Context context{std::move(resources), options.skip_missing, diagnostics};
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  Scene scene = scene_of(context, root_of(context, absolute, path));
+  tell_missing(context);
+  return scene;
 }
 
 }  // namespace tagfield

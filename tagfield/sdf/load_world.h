@@ -1,5 +1,5 @@
 /// @file
-/// An SDF world file to a Scene. The only room that includes sdformat.
+/// An SDF world file to a Scene.
 #pragma once
 
 #include <string>
@@ -10,19 +10,23 @@
 
 namespace tagfield {
 
-/// Reads a `.sdf` or `.world` file: nested models, includes, poses relative to frames, boxes,
-/// cylinders, spheres, planes and meshes as collisions, names of materials, and sensors of type
-/// `rfid` (antennas) and `rfidtag` (tags) with the parameters of their `<plugin>`.
+/// What a world may leave open and where its files may be.
+struct WorldOptions {
+  bool skip_missing = false;   ///< Goes on, with warnings, without files that are missing or broken.
+  bool allow_outside = false;  ///< Reads files outside of all folders that are searched, too.
+};
+
+/// Reads a `.sdf` or `.world` file of SDF 1.2 or later: models in models, includes (merged ones
+/// too), poses relative to frames, a saved <state>, collisions of all shapes, names of materials,
+/// and sensors of type `rfid` (antennas) and `rfidtag` (tags) with the parameters of their
+/// `<plugin>`. A file of one model is a world of it alone.
 ///
-/// `model://NAME` and relative URIs are looked up in this order: `search_paths`; the world's
-/// folder, its `models` folder and the `models` folder beside it; the folders in the environment's
-/// SDF_PATH, GAZEBO_MODEL_PATH, IGN_GAZEBO_RESOURCE_PATH and GZ_SIM_RESOURCE_PATH. A relative URI
-/// is tried beside the file that names it first. `file://` URIs and absolute paths are taken.
+/// Files are looked up as resource_path.h says, in `search_paths` first.
 ///
-/// What is odd but leaves the geometry whole becomes a warning. Throws Error "FILE:LINE: …" for a
-/// file that is missing or malformed, holds no world, includes a model that can't be found, or
-/// names a mesh that is missing or broken.
+/// What Gazebo 11 makes do with becomes a warning. Throws Error "FILE:LINE: …" for a file that is
+/// missing or malformed or holds no world, for numbers that are none, and, unless they are to be
+/// skipped, for the models and meshes that can't be found (all in one message) or read.
 Scene load_world(const std::string& path, const std::vector<std::string>& search_paths,
-                 Diagnostics& diagnostics);
+                 Diagnostics& diagnostics, const WorldOptions& options = {});
 
 }  // namespace tagfield

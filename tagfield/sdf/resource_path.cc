@@ -160,6 +160,11 @@ std::string newest_version(const fs::path& model) {
   return found;
 }
 
+/// Without a '/' at its end where there is nothing below.
+fs::path below_folder(const fs::path& folder, const fs::path& rest) {
+  return rest.empty() ? folder : folder / rest;
+}
+
 FoundResource find_in_fuel(const FuelName& name, const ResourcePaths& paths) {
   const fs::path below = fs::path(name.host) / in_small_letters(name.owner) / "models" /
                          in_small_letters(name.model);
@@ -167,10 +172,12 @@ FoundResource find_in_fuel(const FuelName& name, const ResourcePaths& paths) {
     const fs::path model = fs::path(cache) / below;
     const std::string version =
         name.version.empty() ? newest_version(model) : (model / name.version).string();
-    if (!version.empty() && is_there(version / name.rest)) return {(version / name.rest).string()};
+    if (!version.empty() && is_there(below_folder(version, name.rest))) {
+      return {below_folder(version, name.rest).string()};
+    }
   }
   for (const std::string& called : {name.model, model_name(name.model)}) {
-    FoundResource found = find_below(paths.folders, called / name.rest);
+    FoundResource found = find_below(paths.folders, below_folder(called, name.rest));
     if (found.path.empty()) continue;
     found.oddity = "not in Fuel's caches; '" + found.path + "' is taken for it";
     return found;

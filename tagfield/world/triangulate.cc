@@ -4,47 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tagfield/base/units.h"
+#include "tagfield/world/internal/revolution.h"
 
 namespace tagfield {
 namespace {
 
 using Index = std::uint32_t;
-
-constexpr Index kEdges = kCircleEdges;
-/// A sphere's bands from pole to pole, each as high in angle as the meridians lie apart.
-constexpr Index kBands = kEdges / 2;
-
-Eigen::Vector3d on_circle(double radius, Index edge, double z) {
-  const double angle = kTwoPi * edge / kEdges;
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
-}
-
-void add_circle(TriangleMesh& mesh, double radius, double z) {
-  for (Index edge = 0; edge < kEdges; ++edge) mesh.vertices.push_back(on_circle(radius, edge, z));
-}
-
-/// The wall between two circles of vertices that start at `lower` and `upper`, seen from outside.
-void add_wall(TriangleMesh& mesh, Index lower, Index upper) {
-  for (Index edge = 0; edge < kEdges; ++edge) {
-    const Index next = (edge + 1) % kEdges;
-    mesh.triangles.push_back({lower + edge, lower + next, upper + next});
-    mesh.triangles.push_back({lower + edge, upper + next, upper + edge});
-  }
-}
-
-/// A fan from `apex` to a circle of vertices, seen from above or from below.
-void add_fan(TriangleMesh& mesh, Index apex, Index circle, bool from_above) {
-  for (Index edge = 0; edge < kEdges; ++edge) {
-    const Index first = circle + edge;
-    const Index second = circle + (edge + 1) % kEdges;
-    if (from_above) {
-      mesh.triangles.push_back({apex, first, second});
-    } else {
-      mesh.triangles.push_back({apex, second, first});
-    }
-  }
-}
 
 /// The least rotation that turns z to `normal`, half a turn about x where that is opposite to z.
 /// (Eigen's FromTwoVectors needs a singular value decomposition for that case, which takes long to
@@ -69,30 +34,12 @@ struct Triangulate {
   }
 
   TriangleMesh operator()(const Cylinder& cylinder) const {
-    TriangleMesh mesh;
     const double half = 0.5 * cylinder.length;
-    mesh.vertices = {{0.0, 0.0, -half}, {0.0, 0.0, half}};
-    add_circle(mesh, cylinder.radius, -half);
-    add_circle(mesh, cylinder.radius, half);
-    add_fan(mesh, 0, 2, false);
-    add_wall(mesh, 2, 2 + kEdges);
-    add_fan(mesh, 1, 2 + kEdges, true);
-    return mesh;
+    return solid_of_revolution(-half, half, {{cylinder.radius, -half}, {cylinder.radius, half}});
   }
 
   TriangleMesh operator()(const Sphere& sphere) const {
-    TriangleMesh mesh;
-    mesh.vertices = {{0.0, 0.0, -sphere.radius}, {0.0, 0.0, sphere.radius}};
-    for (Index band = 1; band < kBands; ++band) {
-      const double polar = kPi * band / kBands;
-      add_circle(mesh, sphere.radius * std::sin(polar), -sphere.radius * std::cos(polar));
-    }
-    add_fan(mesh, 0, 2, false);
-    for (Index band = 1; band + 1 < kBands; ++band) {
-      add_wall(mesh, 2 + (band - 1) * kEdges, 2 + band * kEdges);
-    }
-    add_fan(mesh, 1, 2 + (kBands - 2) * kEdges, true);
-    return mesh;
+    return solid_of_revolution(-sphere.radius, sphere.radius, sphere_rings(sphere.radius));
   }
 
   TriangleMesh operator()(const Plane& plane) const {
@@ -107,9 +54,9 @@ struct Triangulate {
 
 struct CountTriangles {
   std::size_t operator()(const Box& /*box*/) const { return 12; }
-  std::size_t operator()(const Cylinder& /*cylinder*/) const { return 4 * std::size_t{kEdges}; }
+  std::size_t operator()(const Cylinder& /*cylinder*/) const { return 4 * std::size_t{kCircleEdges}; }
   std::size_t operator()(const Sphere& /*sphere*/) const {
-    return 2 * static_cast<std::size_t>(kEdges) * (kBands - 1);
+    return 2 * std::size_t{kCircleEdges} * (kCircleEdges / 2 - 1);
   }
   std::size_t operator()(const Plane& /*plane*/) const { return 2; }
   std::size_t operator()(const MeshPtr& mesh) const { return mesh ? mesh->triangles.size() : 0; }

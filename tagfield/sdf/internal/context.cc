@@ -63,8 +63,9 @@ const XMLElement& root_of(Context& context, const std::string& path, const std::
 std::string file_named_by(Context& context, const XMLElement& element) {
   const std::string uri = text_of(element);
   const FoundResource found = find_resource(uri, file_of(element).path, context.resources);
-  if (found.path.empty()) miss(context, element);
-  if (!found.oddity.empty()) {
+  if (found.path.empty()) {
+    miss(context, element, found.oddity);
+  } else if (!found.oddity.empty()) {
     context.diagnostics.warn(location_of(element), fmt::format("'{}': {}", uri, found.oddity));
   }
   return found.path;

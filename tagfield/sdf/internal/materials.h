@@ -1,8 +1,9 @@
 /// @file
-/// Names of the materials that visuals wear.
+/// The names of what visuals wear.
 #pragma once
 
-#include <sdf/Visual.hh>
+#include <tinyxml2.h>
+
 #include <set>
 #include <string>
 
@@ -10,8 +11,9 @@
 
 namespace tagfield::sdf_internal {
 
-/// Adds what `visual` wears: the name of its material script, or "rgba(r, g, b, a)" of its diffuse
-/// colour, or the names of its mesh's own materials. A mesh that can't be read is a warning.
-void add_materials(Context& context, const sdf::Visual& visual, std::set<std::string>& materials);
+/// Adds what a <visual> names: its script's material, its colour "rgba(r, g, b, a)", or else the
+/// materials of the mesh that it shows. A mesh that can't be found or read is a warning.
+void add_materials(Context& context, const tinyxml2::XMLElement& visual,
+                   std::set<std::string>& materials);
 
 }  // namespace tagfield::sdf_internal

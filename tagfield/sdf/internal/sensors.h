@@ -2,7 +2,8 @@
 /// RFID sensors to placements.
 #pragma once
 
-#include <sdf/Sensor.hh>
+#include <tinyxml2.h>
+
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ struct NamedPlacement {
   std::string link;
 };
 
-/// Antenna or tag `sensor` on a link L at X_WL. Its parameters are the children of its first
-/// <plugin>, and its <update_rate> if it has one.
-NamedPlacement read_sensor(Context& context, const sdf::Sensor& sensor, const RigidTransform& X_WL,
+/// Antenna or tag `sensor` (a <sensor>) at X_WS, on a link of a model. Its parameters are the
+/// children of its first <plugin>, and its <update_rate> if it has one.
+NamedPlacement read_sensor(const tinyxml2::XMLElement& sensor, const RigidTransform& X_WS,
                            const std::string& model, const std::string& link);
 
 enum class SensorKind { kAntenna, kTag };

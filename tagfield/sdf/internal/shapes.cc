@@ -1,133 +1,245 @@
 #include "tagfield/sdf/internal/shapes.h"
 
-#include <cmath>
-#include <sdf/Box.hh>
-#include <sdf/Cylinder.hh>
-#include <sdf/Mesh.hh>
-#include <sdf/Plane.hh>
-#include <sdf/Sphere.hh>
+#include <fmt/format.h>
 
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "tagfield/sdf/internal/heightmap.h"
 #include "tagfield/sdf/internal/mesh_file.h"
+#include "tagfield/world/solids.h"
 
 namespace tagfield::sdf_internal {
 namespace {
 
-bool is_size(double value) { return std::isfinite(value) && value > 0.0; }
+using tinyxml2::XMLElement;
 
-/// Throws Error unless the child `name` of a shape's element stands in the file. sdformat would
-/// take 1 m for a size that is left out.
-sdf::ElementPtr require_child(const Context& context, const sdf::ElementPtr& shape,
-                              const std::string& name) {
-  sdf::ElementPtr child = written_child(shape, name);
-  if (!child) {
-    fail(location_of(context, shape), "<" + shape->GetName() + "> without <" + name + ">");
+/// A shape's element and what is said of it.
+struct Asked {
+  Context& context;
+  const XMLElement& element;
+  const std::string& name;  ///< Of the collision.
+};
+
+void leave_out(const Asked& asked, const std::string& reason) {
+  asked.context.diagnostics.warn(
+      location_of(asked.element),
+      fmt::format("collision '{}' is left out: {}", asked.name, reason));
+}
+
+/// The numbers of the child `name`, or those that Gazebo takes where there is none.
+std::vector<double> sizes_of(const Asked& asked, const char* name,
+                             const std::vector<double>& otherwise) {
+  const XMLElement* child = asked.element.FirstChildElement(name);
+  if (child != nullptr && !text_of(*child).empty()) {
+    return numbers_of(*child, otherwise.size(), asked.context.diagnostics);
   }
-  return child;
+  asked.context.diagnostics.warn(
+      location_of(asked.element),
+      fmt::format("<{}> without <{}>: {:g} m is taken, as by Gazebo", asked.element.Name(), name,
+                  fmt::join(otherwise, " ")));
+  return otherwise;
 }
 
-double read_length(const Context& context, const sdf::ElementPtr& shape, const std::string& name,
-                   double value) {
-  const sdf::ElementPtr child = require_child(context, shape, name);
-  if (!is_size(value)) {
-    fail(location_of(context, child),
-         "<" + name + "> of a " + shape->GetName() + " must be a positive number of metres");
+double length_of(const Asked& asked, const char* name, double otherwise) {
+  return sizes_of(asked, name, {otherwise}).front();
+}
+
+bool are_lengths(const std::vector<double>& sizes) {
+  for (const double size : sizes) {
+    if (!(size > 0.0)) return false;
   }
-  return value;
+  return true;
 }
 
-Box read_box(const Context& context, const sdf::Box& box) {
-  const sdf::ElementPtr size = require_child(context, box.Element(), "size");
-  const Eigen::Vector3d edges(box.Size().X(), box.Size().Y(), box.Size().Z());
-  if (!is_size(edges.minCoeff()) || !edges.allFinite()) {
-    fail(location_of(context, size), "<size> of a box must be three positive numbers of metres");
+/// Whether all `sizes` are those of a solid; a warning where they are not.
+bool is_solid(const Asked& asked, const std::vector<double>& sizes) {
+  if (are_lengths(sizes)) return true;
+  leave_out(asked, fmt::format("a <{}> of {:g} m has no volume", asked.element.Name(),
+                               fmt::join(sizes, " ")));
+  return false;
+}
+
+using MaybeShape = std::optional<Shape>;
+
+MaybeShape read_box(const Asked& asked) {
+  const std::vector<double> n = sizes_of(asked, "size", {1.0, 1.0, 1.0});
+  if (!is_solid(asked, n)) return std::nullopt;
+  return Box{{n[0], n[1], n[2]}};
+}
+
+MaybeShape read_sphere(const Asked& asked) {
+  const double radius = length_of(asked, "radius", 1.0);
+  if (!is_solid(asked, {radius})) return std::nullopt;
+  return Sphere{radius};
+}
+
+MaybeShape read_cylinder(const Asked& asked) {
+  const Cylinder cylinder{length_of(asked, "radius", 1.0), length_of(asked, "length", 1.0)};
+  if (!is_solid(asked, {cylinder.radius, cylinder.length})) return std::nullopt;
+  return cylinder;
+}
+
+MaybeShape as_shape(TriangleMesh mesh) {
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+MaybeShape read_capsule(const Asked& asked) {
+  const double radius = length_of(asked, "radius", 0.5);
+  const double length = length_of(asked, "length", 1.0);
+  if (!is_solid(asked, {radius, length})) return std::nullopt;
+  return as_shape(capsule_mesh(radius, length));
+}
+
+MaybeShape read_cone(const Asked& asked) {
+  const double radius = length_of(asked, "radius", 0.5);
+  const double length = length_of(asked, "length", 1.0);
+  if (!is_solid(asked, {radius, length})) return std::nullopt;
+  return as_shape(cone_mesh(radius, length));
+}
+
+MaybeShape read_ellipsoid(const Asked& asked) {
+  const std::vector<double> n = sizes_of(asked, "radii", {1.0, 1.0, 1.0});
+  if (!is_solid(asked, n)) return std::nullopt;
+  return as_shape(ellipsoid_mesh({n[0], n[1], n[2]}));
+}
+
+/// The corners of each <polyline> in the geometry around the first.
+std::vector<Outline> outlines_of(const Asked& asked) {
+  std::vector<Outline> outlines;
+  for_each_child(*asked.element.Parent()->ToElement(), "polyline", [&](const XMLElement& line) {
+    Outline outline;
+    for_each_child(line, "point", [&](const XMLElement& point) {
+      const std::vector<double> n = numbers_of(point, 2, asked.context.diagnostics);
+      outline.emplace_back(n[0], n[1]);
+    });
+    outlines.push_back(std::move(outline));
+  });
+  return outlines;
+}
+
+MaybeShape read_polyline(const Asked& asked) {
+  const double height = length_of(asked, "height", 1.0);
+  if (!is_solid(asked, {height})) return std::nullopt;
+  TriangleMesh mesh = prism_mesh(outlines_of(asked), height);
+  if (!mesh.triangles.empty()) return as_shape(std::move(mesh));
+  leave_out(asked, "its <polyline> encloses nothing");
+  return std::nullopt;
+}
+
+MaybeShape read_plane(const Asked& asked) {
+  Plane plane;
+  if (asked.element.FirstChildElement("normal") != nullptr) {
+    const std::vector<double> n = sizes_of(asked, "normal", {0.0, 0.0, 1.0});
+    plane.normal = {n[0], n[1], n[2]};
   }
-  return {edges};
-}
-
-Cylinder read_cylinder(const Context& context, const sdf::Cylinder& cylinder) {
-  return {read_length(context, cylinder.Element(), "radius", cylinder.Radius()),
-          read_length(context, cylinder.Element(), "length", cylinder.Length())};
-}
-
-Sphere read_sphere(const Context& context, const sdf::Sphere& sphere) {
-  return {read_length(context, sphere.Element(), "radius", sphere.Radius())};
-}
-
-/// sdformat normalizes the normal, and leaves one that is zero.
-Plane read_plane(const Context& context, const sdf::Plane& plane) {
-  const Eigen::Vector3d normal(plane.Normal().X(), plane.Normal().Y(), plane.Normal().Z());
-  const Eigen::Vector2d size(plane.Size().X(), plane.Size().Y());
-  if (!normal.allFinite() || normal.norm() < 1e-6) {
-    fail(location_of(context, plane.Element()), "<normal> of a plane must have a direction");
+  if (asked.element.FirstChildElement("size") != nullptr) {
+    const std::vector<double> n = sizes_of(asked, "size", {1.0, 1.0});
+    plane.size = {n[0], n[1]};
   }
-  if (!size.allFinite() || !is_size(size.minCoeff())) {
-    fail(location_of(context, plane.Element()),
-         "<size> of a plane must be two positive numbers of metres");
+  if (!is_solid(asked, {plane.size.x(), plane.size.y()})) return std::nullopt;
+  if (plane.normal.norm() < 1e-6) {
+    leave_out(asked, "its <normal> has no direction");
+    return std::nullopt;
   }
-  return {normal.normalized(), size};
+  plane.normal.normalize();
+  return plane;
 }
 
-Eigen::Vector3d read_scale(const Context& context, const sdf::Mesh& mesh) {
-  Eigen::Vector3d scale(mesh.Scale().X(), mesh.Scale().Y(), mesh.Scale().Z());
-  if (!scale.allFinite() || scale.cwiseAbs().minCoeff() == 0.0) {
-    fail(location_of(context, mesh.Element()), "<scale> of a mesh must be three numbers, none 0");
+/// Calls `read` for the file that the child <uri> names; what is wrong with it is remembered.
+template <typename Read>
+MaybeShape read_file_of(const Asked& asked, const Read& read) {
+  const XMLElement* const uri = asked.element.FirstChildElement("uri");
+  if (uri == nullptr) {
+    leave_out(asked, fmt::format("<{}> without <uri>", asked.element.Name()));
+    return std::nullopt;
   }
-  return scale;
-}
-
-MeshPtr read_mesh_shape(Context& context, const sdf::Mesh& mesh) {
-  const std::string path = mesh_path(context, mesh);
-  const Eigen::Vector3d scale = read_scale(context, mesh);
-  const MeshKey key{path, {scale.x(), scale.y(), scale.z()}, mesh.Submesh(), mesh.CenterSubmesh()};
-  MeshPtr& cached = context.meshes[key];
-  if (cached) return cached;
+  const std::string path = file_named_by(asked.context, *uri);
+  if (path.empty()) return std::nullopt;
   try {
-    MeshFile file = read_mesh(path, scale, mesh.Submesh(), mesh.CenterSubmesh());
-    cached = std::make_shared<const TriangleMesh>(std::move(file.mesh));
+    return read(path);
   } catch (const Error& error) {
-    fail(location_of(context, mesh.Element()), error.what());
+    miss(asked.context, *uri, error.what());
+    return std::nullopt;
   }
-  return cached;
 }
 
-/// A kind of shape that sdformat itself may not know either. An <empty> one is no loss.
-void warn_unsupported(Context& context, const sdf::ElementPtr& collision, const std::string& name) {
-  const sdf::ElementPtr geometry = written_child(collision, "geometry");
-  const sdf::ElementPtr shape = geometry ? geometry->GetFirstElement() : nullptr;
-  if (!shape) fail(location_of(context, collision), "collision '" + name + "' has no geometry");
-  if (shape->GetName() == "empty") return;
-  context.diagnostics.warn(
-      location_of(context, shape),
-      "collision '" + name + "' is left out: shape <" + shape->GetName() + "> is not supported");
+MeshPtr read_mesh_once(Context& context, const MeshKey& key) {
+  const auto known = context.meshes.find(key);
+  if (known != context.meshes.end()) return known->second;
+  const auto& [path, s, submesh, is_centred] = key;
+  MeshFile file = read_mesh(path, {s[0], s[1], s[2]}, submesh, is_centred);
+  return context.meshes[key] = std::make_shared<const TriangleMesh>(std::move(file.mesh));
 }
+
+MaybeShape read_mesh_shape(const Asked& asked) {
+  std::vector<double> scale = {1.0, 1.0, 1.0};
+  if (asked.element.FirstChildElement("scale") != nullptr) {
+    scale = sizes_of(asked, "scale", scale);
+  }
+  if (scale[0] * scale[1] * scale[2] == 0.0) {
+    leave_out(asked, "its <scale> makes it flat");
+    return std::nullopt;
+  }
+  std::string submesh;
+  bool is_centred = false;
+  if (const XMLElement* part = asked.element.FirstChildElement("submesh")) {
+    submesh = child_text(*part, "name");
+    is_centred = is_true(child_text(*part, "center"));
+  }
+  return read_file_of(asked, [&](const std::string& path) -> MaybeShape {
+    return read_mesh_once(asked.context,
+                          {path, {scale[0], scale[1], scale[2]}, submesh, is_centred});
+  });
+}
+
+MaybeShape read_heightmap_shape(const Asked& asked) {
+  Heightmap map;
+  if (asked.element.FirstChildElement("size") != nullptr) {
+    const std::vector<double> n = sizes_of(asked, "size", {1.0, 1.0, 1.0});
+    map.size = {n[0], n[1], n[2]};
+  }
+  if (asked.element.FirstChildElement("pos") != nullptr) {
+    const std::vector<double> n = sizes_of(asked, "pos", {0.0, 0.0, 0.0});
+    map.origin = {n[0], n[1], n[2]};
+  }
+  if (!is_solid(asked, {map.size.x(), map.size.y()})) return std::nullopt;
+  return read_file_of(asked, [&](const std::string& path) -> MaybeShape {
+    return as_shape(heightmap_mesh(map, path, location_of(asked.element), asked.context));
+  });
+}
+
+struct Kind {
+  std::string_view name;
+  MaybeShape (*read)(const Asked&);
+};
+
+constexpr Kind kKinds[] = {
+    {"box", read_box},           {"sphere", read_sphere},       {"cylinder", read_cylinder},
+    {"plane", read_plane},       {"mesh", read_mesh_shape},     {"capsule", read_capsule},
+    {"cone", read_cone},         {"ellipsoid", read_ellipsoid}, {"polyline", read_polyline},
+    {"heightmap", read_heightmap_shape}};
 
 }  // namespace
 
-std::string mesh_path(const Context& context, const sdf::Mesh& mesh) {
-  const sdf::ElementPtr uri = require_child(context, mesh.Element(), "uri");
-  const std::string naming_file = mesh.FilePath().empty() ? context.absolute_path : mesh.FilePath();
-  std::string path = find_resource(mesh.Uri(), naming_file, context.resources);
-  if (path.empty()) fail(location_of(context, uri), not_found(mesh.Uri(), context.resources));
-  return path;
-}
-
-std::optional<Shape> read_shape(Context& context, const sdf::Geometry& geometry,
-                                const sdf::ElementPtr& collision, const std::string& name) {
-  switch (geometry.Type()) {
-    case sdf::GeometryType::BOX:
-      return read_box(context, *geometry.BoxShape());
-    case sdf::GeometryType::CYLINDER:
-      return read_cylinder(context, *geometry.CylinderShape());
-    case sdf::GeometryType::SPHERE:
-      return read_sphere(context, *geometry.SphereShape());
-    case sdf::GeometryType::PLANE:
-      return read_plane(context, *geometry.PlaneShape());
-    case sdf::GeometryType::MESH:
-      return read_mesh_shape(context, *geometry.MeshShape());
-    default:
-      warn_unsupported(context, collision, name);
-      return std::nullopt;
+std::optional<Shape> read_shape(Context& context, const XMLElement& collision,
+                                const std::string& name) {
+  const XMLElement* geometry = collision.FirstChildElement("geometry");
+  const XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+  if (shape == nullptr) {
+    leave_out({context, collision, name}, "it has no geometry");
+    return std::nullopt;
   }
+  const Asked asked{context, *shape, name};
+  for (const Kind& kind : kKinds) {
+    if (kind.name == shape->Name()) return kind.read(asked);
+  }
+  // An <empty> one is no loss.
+  if (std::string_view(shape->Name()) != "empty") {
+    leave_out(asked, fmt::format("shape <{}> is not known", shape->Name()));
+  }
+  return std::nullopt;
 }
 
 }  // namespace tagfield::sdf_internal

@@ -2,8 +2,9 @@
 /// SDF geometry to shapes.
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <optional>
-#include <sdf/Geometry.hh>
 #include <string>
 
 #include "tagfield/sdf/internal/context.h"
@@ -11,13 +12,12 @@
 
 namespace tagfield::sdf_internal {
 
-/// The shape of the collision `name`, whose element is `collision`. None, with a warning, for a
-/// kind of shape that is not supported. Throws Error for a size that is missing, not positive or
-/// not finite, and for a mesh that can't be found or read.
-std::optional<Shape> read_shape(Context& context, const sdf::Geometry& geometry,
-                                const sdf::ElementPtr& collision, const std::string& name);
-
-/// The path of a mesh's file. Throws Error if there is none.
-std::string mesh_path(const Context& context, const sdf::Mesh& mesh);
+/// The shape of `collision`, a <collision>, called `name` in messages. Capsules, ellipsoids, cones,
+/// polylines and heightmaps become meshes. A size that is left out is the one that Gazebo takes,
+/// with a warning. None, with a warning, for a shape without volume and one of another kind; none
+/// where its file is missing, which the context remembers. Throws Error for a size that is no
+/// number.
+std::optional<Shape> read_shape(Context& context, const tinyxml2::XMLElement& collision,
+                                const std::string& name);
 
 }  // namespace tagfield::sdf_internal

@@ -1,36 +1,37 @@
 #include "tagfield/sdf/internal/world_state.h"
 
-#include "tagfield/sdf/internal/poses.h"
+#include <algorithm>
 
 namespace tagfield::sdf_internal {
 namespace {
 
-sdf::ElementPtr named_child(const sdf::ElementPtr& element, const char* kind,
-                            const std::string& name) {
-  if (!element) return nullptr;
-  for (auto child = element->FindElement(kind); child; child = child->GetNextElement(kind)) {
-    if (child->GetExplicitlySetInFile() && child->Get<std::string>("name") == name) return child;
+using tinyxml2::XMLElement;
+
+const XMLElement* named_child(const XMLElement* element, const char* kind,
+                              const std::string& name) {
+  if (element == nullptr) return nullptr;
+  const XMLElement* child = element->FirstChildElement(kind);
+  while (child != nullptr && attribute_of(*child, "name") != name) {
+    child = child->NextSiblingElement(kind);
   }
-  return nullptr;
+  return child;
 }
 
 /// In the world's frame, whatever it is a pose of; without one at its origin, as in Gazebo.
-RigidTransform pose_in(const Context& context, const sdf::ElementPtr& element) {
-  const sdf::ElementPtr written = written_child(element, "pose");
-  if (!written) return {};
-  const auto pose = written->Get<ignition::math::Pose3d>();
-  if (!pose.IsFinite()) fail(location_of(context, written), "pose is not finite");
-  return to_transform(pose);
+RigidTransform pose_in_world(Context& context, const XMLElement& element) {
+  const XMLElement* pose = element.FirstChildElement("pose");
+  return pose == nullptr ? RigidTransform{} : pose_of(*pose, context.diagnostics);
 }
 
-void warn_of_scales(Context& context, const sdf::ElementPtr& state) {
-  for (auto model = state->FindElement("model"); model; model = model->GetNextElement("model")) {
-    const sdf::ElementPtr scale = written_child(model, "scale");
-    if (scale && scale->Get<ignition::math::Vector3d>() != ignition::math::Vector3d::One) {
-      context.diagnostics.warn(location_of(context, scale),
-                               "<scale> in <state> is not used: the model keeps its size");
-    }
-  }
+void warn_of_scales(Context& context, const XMLElement& state) {
+  for_each_child(state, "model", [&](const XMLElement& model) {
+    const XMLElement* scale = model.FirstChildElement("scale");
+    if (scale == nullptr) return;
+    const std::vector<double> factors = numbers_of(*scale, 3, context.diagnostics);
+    if (std::count(factors.begin(), factors.end(), 1.0) == 3) return;
+    context.diagnostics.warn(location_of(*scale),
+                             "<scale> in <state> is not used: the model keeps its size");
+  });
 }
 
 }  // namespace
@@ -39,36 +40,32 @@ ModelState ModelState::model(const std::string& name) const {
   return ModelState(named_child(element_, "model", name));
 }
 
-std::optional<RigidTransform> ModelState::pose(const Context& context) const {
-  if (!element_) return std::nullopt;
-  return pose_in(context, element_);
+std::optional<RigidTransform> ModelState::pose(Context& context) const {
+  if (element_ == nullptr) return std::nullopt;
+  return pose_in_world(context, *element_);
 }
 
-std::optional<RigidTransform> ModelState::link_pose(const Context& context,
+std::optional<RigidTransform> ModelState::link_pose(Context& context,
                                                     const std::string& name) const {
-  const sdf::ElementPtr link = named_child(element_, "link", name);
-  if (!link) return std::nullopt;
-  return pose_in(context, link);
+  const XMLElement* link = named_child(element_, "link", name);
+  if (link == nullptr) return std::nullopt;
+  return pose_in_world(context, *link);
 }
 
 std::set<std::string> ModelState::deleted() const {
   std::set<std::string> names;
-  const sdf::ElementPtr deletions = written_child(element_, "deletions");
-  if (!deletions) return names;
-  for (auto name = deletions->FindElement("name"); name; name = name->GetNextElement("name")) {
-    names.insert(name->Get<std::string>());
-  }
+  const XMLElement* deletions =
+      element_ == nullptr ? nullptr : element_->FirstChildElement("deletions");
+  if (deletions == nullptr) return names;
+  for_each_child(*deletions, "name",
+                 [&](const XMLElement& name) { names.insert(text_of(name)); });
   return names;
 }
 
-ModelState state_of(Context& context, const sdf::ElementPtr& world) {
-  const sdf::ElementPtr state = written_child(world, "state");
-  if (!state) return {};
-  if (const sdf::ElementPtr inserted = written_child(state, "insertions")) {
-    context.diagnostics.warn(location_of(context, inserted),
-                             "<insertions> in <state> is not used: its models are left out");
-  }
-  warn_of_scales(context, state);
+ModelState state_of(Context& context, const XMLElement& world) {
+  const XMLElement* state = world.FirstChildElement("state");
+  if (state == nullptr) return {};
+  warn_of_scales(context, *state);
   return ModelState(state);
 }
 

@@ -2,8 +2,9 @@
 /// Where a world's models stand that was saved while it ran: its <state>, as Gazebo 11 applies it.
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <optional>
-#include <sdf/Element.hh>
 #include <set>
 #include <string>
 
@@ -18,24 +19,23 @@ class ModelState {
  public:
   /// Says nothing.
   ModelState() = default;
-  explicit ModelState(sdf::ElementPtr element) : element_(std::move(element)) {}
+  explicit ModelState(const tinyxml2::XMLElement* element) : element_(element) {}
 
   /// Of a model in it, by its name there; says nothing where the state has none.
   [[nodiscard]] ModelState model(const std::string& name) const;
   /// X_WM of the model itself, in the world's frame; none where the state says nothing of it.
-  [[nodiscard]] std::optional<RigidTransform> pose(const Context& context) const;
+  [[nodiscard]] std::optional<RigidTransform> pose(Context& context) const;
   /// Likewise X_WL of a link.
-  [[nodiscard]] std::optional<RigidTransform> link_pose(const Context& context,
+  [[nodiscard]] std::optional<RigidTransform> link_pose(Context& context,
                                                         const std::string& name) const;
   /// Names of models that were deleted while the world ran.
   [[nodiscard]] std::set<std::string> deleted() const;
 
  private:
-  sdf::ElementPtr element_;
+  const tinyxml2::XMLElement* element_ = nullptr;
 };
 
-/// The world's state. What of it is not used, as models that were inserted and scales, is warned
-/// of.
-ModelState state_of(Context& context, const sdf::ElementPtr& world);
+/// The state of `world`, a <world>. Scales are not used, and warned of.
+ModelState state_of(Context& context, const tinyxml2::XMLElement& world);
 
 }  // namespace tagfield::sdf_internal

@@ -110,6 +110,8 @@ std::string child_text(const XMLElement& element, const char* name) {
   return child == nullptr ? "" : text_of(*child);
 }
 
+bool is_true(const std::string& text) { return text == "true" || text == "1"; }
+
 std::string attribute_of(const XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
   return value == nullptr ? "" : value;

@@ -36,6 +36,9 @@ std::string text_of(const tinyxml2::XMLElement& element);
 /// The text of its first child `name`; "" without one.
 std::string child_text(const tinyxml2::XMLElement& element, const char* name);
 
+/// Whether a text of SDF's booleans says yes.
+bool is_true(const std::string& text);
+
 /// Its attribute, or "".
 std::string attribute_of(const tinyxml2::XMLElement& element, const char* name);
 

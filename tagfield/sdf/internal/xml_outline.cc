@@ -112,17 +112,4 @@ class Scanner {
 
 XmlOutline outline_xml(const std::string& text) { return Scanner(text).run(); }
 
-std::vector<int> child_lines(const XmlOutline& outline, const std::string& name, int line) {
-  auto tag = std::find_if(outline.tags.begin(), outline.tags.end(), [&](const XmlTag& candidate) {
-    return candidate.name == name && candidate.line == line;
-  });
-  std::vector<int> lines;
-  if (tag == outline.tags.end()) return lines;
-  const int depth = tag->depth;
-  for (++tag; tag != outline.tags.end() && tag->depth > depth; ++tag) {
-    if (tag->depth == depth + 1) lines.push_back(tag->line);
-  }
-  return lines;
-}
-
 }  // namespace tagfield::sdf_internal

@@ -1,6 +1,5 @@
 /// @file
-/// The lines on which an XML file's elements start. sdformat knows them for the elements of SDF but
-/// not for a plugin's own, and doesn't say where XML is malformed.
+/// Where XML is malformed, which tinyxml2 tells by the line in which it gave up.
 #pragma once
 
 #include <string>
@@ -25,8 +24,5 @@ struct XmlOutline {
 /// Sees tags, comments, CDATA and declarations; leaves attributes and text alone. Not a validator:
 /// malformed attributes go unnoticed.
 XmlOutline outline_xml(const std::string& text);
-
-/// The lines of the children of the first element `name` that starts on `line`; empty if none does.
-std::vector<int> child_lines(const XmlOutline& outline, const std::string& name, int line);
 
 }  // namespace tagfield::sdf_internal

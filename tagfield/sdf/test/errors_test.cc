@@ -26,10 +26,12 @@ TEST_F(LoadWorldErrors, FilesThatAreNotSdf) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", ":1: not an XML file"},
       {"hello\n", ":1: not an XML file"},
-      {"\n<robot name='r'/>", ":2: not an SDF file: its root element is <robot>, not <sdf>"},
+      {"\n<robot name='r'/>", ":2: a URDF, not an SDF file (gz sdf -p FILE.urdf makes "
+                              "one of it)"},
+      {"<a/>", ":1: not an SDF file: its root element is <a>, not <sdf>"},
+      {"<sdf version='1.0'/>", ":1: SDF of version 1.0 is not read (1.2 and later are)"},
       {"<sdf version='1.6'>\n</sdf>", ":1: holds no world"},
-      {"<sdf version='1.6'>\n<light name='l' type='point'/></sdf>", ":1: holds no world"},
-      {"<sdf><world name='w'/></sdf>", ":1: not readable as SDF (is its version missing?)"}};
+      {"<sdf version='1.6'>\n<light name='l' type='point'/></sdf>", ":1: holds no world"}};
   for (const auto& [text, expected] : cases) {
     const std::string path = write("file.sdf", text);
     EXPECT_EQ(error_of_file(path), path + expected) << text;
@@ -105,57 +107,11 @@ TEST_F(LoadWorldErrors, IncludesBeyondAllMeasure) {
     write_model("level" + std::to_string(level), includes);
   }
   expect_error("<include><uri>model://level11</uri></include>", "",
-               "over 20000 included models: more than fit into memory");
-}
-
-TEST_F(LoadWorldErrors, WorldsSavedWithModelsInModelsAreReadAll) {
-  const std::string link =
-      "<link name='inner::body'><pose frame=''>0 0 1 0 0 0</pose><collision name='c'>"
-      "<pose frame=''>0 2 0 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry>"
-      "</collision></link>";
-  const Scene scene = load("<model name='m'><pose frame=''>5 0 0 0 0 0</pose>\n" + link +
-                               "<joint name='inner::j' type='fixed'><parent>world</parent>"
-                               "<child>inner::body</child></joint></model>",
-                           "1.6");
-  ASSERT_EQ(scene.collisions.size(), 1U);
-  EXPECT_TRUE(scene.collisions[0].X_WC.translation.isApprox(Eigen::Vector3d(5, 2, 1)));
-  EXPECT_EQ(scene.collisions[0].name, "m::inner__body::c");
-  ASSERT_FALSE(warnings().empty());
-  EXPECT_NE(warnings()[0].find("names with '::'"), std::string::npos);
+               "over 100000 models");
 }
 
 TEST_F(LoadWorldErrors, IncludeWithoutAUri) {
   expect_error("\n<include><name>x</name></include>", "world.sdf:4: <include> without <uri>");
-}
-
-TEST_F(LoadWorldErrors, RelativeUriOfTwoMeanings) {
-  for (const char* name : {"one", "two"}) {
-    write_model(name, "<link name='l'/>\n<include><uri>part.sdf</uri></include>");
-    write("models/" + std::string(name) + "/part.sdf",
-          "<sdf version='1.6'><model name='part'><link name='l'/></model></sdf>");
-  }
-  expect_error("<include><uri>model://one</uri></include><include><uri>model://two</uri></include>",
-               "", "models/two/model.sdf:3: 'part.sdf' names ");
-}
-
-TEST_F(LoadWorldErrors, PoseRelativeToAnUnknownFrame) {
-  const std::string link =
-      "<link name='l'><collision name='c'>\n<pose relative_to='FRAME'>0 0 0 "
-      "0 0 0</pose><geometry><sphere><radius>1</radius></sphere></geometry>"
-      "</collision></link>";
-  expect_error(
-      "<model name='m'>\n<pose relative_to='nope'>1 0 0 0 0 0</pose>\n<link name='l'/>"
-      "</model>",
-      "world.sdf:4: model 'm' is relative_to 'nope'");
-  expect_error(
-      "<model name='m'>\n<link name='l'>\n<pose relative_to='nope'>1 0 0 0 0 0</pose>"
-      "</link></model>",
-      "world.sdf:5: link 'l' is relative_to 'nope'");
-  expect_error("<model name='m'>\n" + link + "</model>",
-               "world.sdf:5: can't tell where frame 'FRAME' is");
-  expect_error("<frame name='f'>\n<pose relative_to='nope'/></frame>",
-               "world.sdf:4: frame 'f' is relative_to 'nope'");
-  expect_error("\n<frame name='f' attached_to='nope'/>", "world.sdf:4: frame 'f' is attached_to");
 }
 
 TEST_F(LoadWorldErrors, PoseThatIsNotFinite) {
@@ -165,60 +121,61 @@ TEST_F(LoadWorldErrors, PoseThatIsNotFinite) {
                "world.sdf:4: missing or bad value in <pose>");
 }
 
-TEST_F(LoadWorldErrors, ShapesOfNoSize) {
+TEST_F(LoadWorldErrors, SizesThatAreNoNumbers) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"\n<box/>", "world.sdf:7: <box> without <size>"},
-      {"\n<box><size>1 1</size></box>", "world.sdf:7: missing or bad value in <size>"},
-      {"\n<box><size>1 1 big</size></box>", "world.sdf:7: missing or bad value in <size>"},
-      {"<box>\n<size>1 0 1</size></box>", "world.sdf:7: <size> of a box must be three positive"},
-      {"<box>\n<size>1 -2 1</size></box>", "world.sdf:7: <size> of a box must be three positive"},
-      {"<box>\n<size>nan 2 1</size></box>", "world.sdf:7: missing or bad value in <size>"},
-      {"<box>\n<size>1 2 nan</size></box>", "world.sdf:7: missing or bad value in <size>"},
-      {"<box>\n<size>1 2 inf</size></box>", "world.sdf:7: missing or bad value in <size>"},
-      {"\n<sphere/>", "world.sdf:7: <sphere> without <radius>"},
-      {"<sphere>\n<radius>0</radius></sphere>", "world.sdf:7: <radius> of a sphere must be"},
-      {"<sphere>\n<radius>nan</radius></sphere>", "world.sdf:7: <radius> of a sphere must be"},
-      {"\n<cylinder><radius>1</radius></cylinder>", "world.sdf:7: <cylinder> without <length>"},
-      {"<cylinder><radius>1</radius>\n<length>-1</length></cylinder>",
-       "world.sdf:7: <length> of a cylinder must be"},
-      {"\n<plane><normal>0 0 0</normal></plane>", "world.sdf:7: <normal> of a plane"},
-      {"\n<plane><normal>0 0 1</normal><size>-1 1</size></plane>",
-       "world.sdf:7: <size> of a plane"},
-      {"", "world.sdf:5: collision 'm::l::c' has no geometry"}};
-  for (const auto& [geometry, expected] : cases) expect_error(model_with(geometry), expected);
+      {"\n<box><size>1 1</size></box>", "missing or bad value in <size>: '1 1' (expected 3 numbers)"},
+      {"\n<box><size>1 1 big</size></box>", "missing or bad value in <size>"},
+      {"<box>\n<size>nan 2 1</size></box>", "missing or bad value in <size>"},
+      {"<box>\n<size>1 2 inf</size></box>", "missing or bad value in <size>"},
+      {"<sphere>\n<radius>nan</radius></sphere>", "missing or bad value in <radius>"},
+      {"\n<plane><normal>0 0</normal></plane>", "missing or bad value in <normal>"},
+      {"<polyline><point>0 0</point>\n<point>0</point></polyline>",
+       "missing or bad value in <point>"}};
+  for (const auto& [geometry, expected] : cases) {
+    expect_error(model_with(geometry), "world.sdf:7: " + expected);
+  }
 }
 
-TEST_F(LoadWorldErrors, CollisionWithoutGeometry) {
-  expect_error("<model name='m'><link name='l'>\n<collision name='c'/></link></model>",
-               "world.sdf:4: collision 'm::l::c' has no geometry");
-}
-
-TEST_F(LoadWorldErrors, MeshesThatAreMissingOrBroken) {
+TEST_F(LoadWorldErrors, FilesOfShapesThatAreMissingOrBroken) {
   write("broken.obj", "hello\n");
+  write("broken.png", "hello\n");
   write("t.obj", kTriangleObj);
-  expect_error(model_with("\n<mesh/>"), "world.sdf:7: <mesh> without <uri>");
   expect_error(model_with("<mesh>\n<uri>nosuch.dae</uri></mesh>"),
                "world.sdf:7: can't find 'nosuch.dae'");
   expect_error(model_with("<mesh>\n<uri>model://a/b.dae</uri></mesh>"),
                "world.sdf:7: can't find 'model://a/b.dae'");
   expect_error(model_with("\n<mesh><uri>broken.obj</uri></mesh>"), "world.sdf:7: ", "broken.obj");
-  expect_error(model_with("\n<mesh><uri>t.obj</uri><scale>1 0 1</scale></mesh>"),
-               "world.sdf:7: <scale> of a mesh");
   expect_error(model_with("\n<mesh><uri>t.obj</uri><submesh><name>x</name></submesh></mesh>"),
                "world.sdf:7: ", "no part 'x'");
+  expect_error(model_with("\n<heightmap><uri>broken.png</uri></heightmap>"), "world.sdf:7: ",
+               "broken.png: not a PNG image");
 }
 
-TEST_F(LoadWorldErrors, SecondOfTheSameName) {
-  const std::string collision =
-      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>\n";
-  expect_error("<model name='m'><link name='l'>\n" + collision + collision + "</link></model>",
-               "world.sdf:5: a second <collision> named 'c'");
-  expect_error("<model name='m'><link name='l'/></model>\n<model name='m'><link name='l'/></model>",
-               "world.sdf:4: a second <model> named 'm'");
+TEST_F(LoadWorldErrors, MeshesAndIncludesThatCantBeFoundAreToldTogether) {
+  expect_error("<include><uri>model://nosuch</uri></include>\n" +
+                   model_with("<mesh>\n<uri>nosuch.dae</uri></mesh>"),
+               "world.sdf:3: can't find 'model://nosuch', 'nosuch.dae' (");
+}
+
+TEST_F(LoadWorldErrors, FilesOutsideOfAllFolders) {
+  write("t.obj", kTriangleObj);
+  write("home/w.sdf", world(model_with("\n<mesh><uri>" + path_of("t.obj") + "</uri></mesh>")));
+  const std::string error = error_of_file(path_of("home/w.sdf"));
+  EXPECT_NE(error.find("w.sdf:7: '" + path_of("t.obj") + "' lies outside"), std::string::npos)
+      << error;
+  EXPECT_NE(error_of_file(write("home/v.sdf", world(model_with(
+                              "\n<mesh><uri>../t.obj</uri></mesh>"))))
+                .find("v.sdf:7: "),
+            std::string::npos);
+  WorldOptions options;
+  options.allow_outside = true;
+  EXPECT_EQ(load_world(path_of("home/w.sdf"), {}, diagnostics_, options).collisions.size(), 1U);
+  EXPECT_EQ(load_file(path_of("home/w.sdf"), {path_of("")}).collisions.size(), 1U);
 }
 
 TEST_F(LoadWorldErrors, MissingName) {
-  expect_error("\n<model><link name='l'/></model>", "world.sdf:4: Required attribute[name]");
+  expect_error("\n<model><link name='l'/></model>", "world.sdf:4: <model> without a name");
+  expect_error("<model name='m'>\n<link/></model>", "world.sdf:4: <link> without a name");
 }
 
 }  // namespace

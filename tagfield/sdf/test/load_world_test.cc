@@ -1,5 +1,7 @@
 #include "tagfield/sdf/load_world.h"
 
+#include <Eigen/Geometry>
+
 #include "tagfield/sdf/test/world_test.h"
 
 namespace tagfield {
@@ -166,29 +168,145 @@ TEST_F(LoadWorld, TakesAFileOfOneModelForAScene) {
   EXPECT_EQ(scene.collisions[0].X_WC.translation, Eigen::Vector3d(1, 2, 3));
 }
 
-TEST_F(LoadWorld, UnsupportedShapesAreLeftOutWithAWarning) {
-  const Scene scene = load(
-      "<model name='m'><link name='l'>\n"
-      "<collision name='pill'><geometry><capsule><radius>1</radius><length>1</length></capsule>"
-      "</geometry></collision>\n"
-      "<collision name='egg'><geometry><ellipsoid><radii>1 2 3</radii></ellipsoid></geometry>"
-      "</collision>\n"
-      "<collision name='hill'><geometry><heightmap><uri>a.png</uri></heightmap></geometry>"
-      "</collision>\n"
-      "<collision name='bar'><geometry><polyline><height>1</height><point>0 0</point>"
-      "<point>1 0</point><point>0 1</point></polyline></geometry></collision>\n"
-      "<collision name='none'><geometry><empty/></geometry></collision>\n"
-      "<collision name='ball'><geometry><sphere><radius>1</radius></sphere></geometry>"
-      "</collision></link></model>");
+TEST_F(LoadWorld, ShapesThatBecomeMeshes) {
+  const auto bounds = [&](const std::string& geometry) {
+    Eigen::AlignedBox3d box;
+    const auto mesh = only_shape<MeshPtr>(geometry);
+    for (const auto& vertex : mesh->vertices) box.extend(vertex);
+    return box;
+  };
+  const auto capsule = bounds("<capsule><radius>0.5</radius><length>2</length></capsule>");
+  EXPECT_TRUE(capsule.max().isApprox(Eigen::Vector3d(0.5, 0.5, 1.5)));
+  const auto egg = bounds("<ellipsoid><radii>1 2 3</radii></ellipsoid>");
+  EXPECT_TRUE(egg.min().isApprox(Eigen::Vector3d(-1, -2, -3)));
+  const auto cone = bounds("<cone><radius>1</radius><length>4</length></cone>");
+  EXPECT_TRUE(cone.sizes().isApprox(Eigen::Vector3d(2, 2, 4)));
+  // In Gazebo 11 a ball of 0.4 m comes to rest on this at 1.9 m.
+  const auto bar = bounds(
+      "<polyline><height>1.5</height><point>0 0</point><point>4 0</point><point>4 4</point>"
+      "<point>0 4</point></polyline>");
+  EXPECT_EQ(bar.min(), Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(bar.max(), Eigen::Vector3d(4, 4, 1.5));
+}
+
+TEST_F(LoadWorld, ShapesThatEncloseNothingAreLeftOutWithAWarning) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"<box>\n<size>1 0 1</size></box>", "a <box> of 1 0 1 m has no volume"},
+      {"<box><size>1 -2 1</size></box>", "a <box> of 1 -2 1 m has no volume"},
+      {"<sphere><radius>0</radius></sphere>", "a <sphere> of 0 m has no volume"},
+      {"<cylinder><radius>1</radius><length>-1</length></cylinder>", "a <cylinder> of 1 -1 m"},
+      {"<plane><normal>0 0 0</normal></plane>", "its <normal> has no direction"},
+      {"<plane><size>-1 1</size></plane>", "a <plane> of -1 1 m"},
+      {"<mesh/>", "<mesh> without <uri>"},
+      {"<mesh><uri>t.obj</uri><scale>1 0 1</scale></mesh>", "its <scale> makes it flat"},
+      {"<polyline><height>1</height><point>0 0</point><point>1 0</point></polyline>",
+       "its <polyline> encloses nothing"},
+      {"<banana/>", "shape <banana> is not known"},
+      {"", "it has no geometry"}};
+  for (const auto& [geometry, expected] : cases) {
+    diagnostics_ = {};
+    EXPECT_TRUE(load(model_with(geometry)).collisions.empty()) << geometry;
+    ASSERT_EQ(warnings().size(), 1U) << geometry;
+    EXPECT_NE(warnings()[0].find("collision 'm::l::c' is left out: " + expected),
+              std::string::npos)
+        << warnings()[0];
+  }
+  diagnostics_ = {};
+  EXPECT_TRUE(load(model_with("<empty/>")).collisions.empty());
+  EXPECT_TRUE(warnings().empty());
+}
+
+/// As Gazebo 11 takes them.
+TEST_F(LoadWorld, SizesThatAreLeftOutAreGazebos) {
+  const Scene scene = load(model_with("<sphere/>") +
+                           "<model name='n'><link name='l'><collision name='c'><geometry><box/>"
+                           "</geometry></collision></link></model>");
+  ASSERT_EQ(scene.collisions.size(), 2U);
+  EXPECT_EQ(std::get<Sphere>(scene.collisions[0].shape).radius, 1.0);
+  EXPECT_EQ(std::get<Box>(scene.collisions[1].shape).size, Eigen::Vector3d(1, 1, 1));
+  ASSERT_EQ(warnings().size(), 2U);
+  EXPECT_NE(warnings()[0].find("world.sdf:6: <sphere> without <radius>: 1 m is taken"),
+            std::string::npos)
+      << warnings()[0];
+}
+
+TEST_F(LoadWorld, NamesTwiceAreWarningsAndBothStand) {
+  const std::string collision =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>\n";
+  EXPECT_EQ(load("<model name='m'><link name='l'>\n" + collision + collision + "</link></model>")
+                .collisions.size(),
+            2U);
+  EXPECT_EQ(warnings().size(), 1U);
+  const Scene scene =
+      load("<model name='m'><link name='l'/></model>\n<model name='m'><pose>1 0 0 0 0 0</pose>"
+           "<link name='l'/></model>");
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "m"}));
+  EXPECT_EQ(warnings().size(), 2U);
+}
+
+TEST_F(LoadWorld, RelativeUrisAreOfTheFileThatTheyStandIn) {
+  for (const char* name : {"one", "two"}) {
+    write_model(name, "<link name='l'/>\n<include><uri>part.sdf</uri></include>");
+    write("models/" + std::string(name) + "/part.sdf",
+          "<sdf version='1.6'><model name='part_of_" + std::string(name) +
+              "'><link name='l'/></model></sdf>");
+  }
+  const Scene scene =
+      load("<include><uri>model://one</uri></include><include><uri>model://two</uri></include>");
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"one", "one::part_of_one", "two",
+                                                    "two::part_of_two"}));
+}
+
+TEST_F(LoadWorld, WorldsSavedWithModelsInModelsMadeFlat) {
+  const std::string link =
+      "<link name='inner::body'><pose frame=''>0 0 1 0 0 0</pose><collision name='c'>"
+      "<pose frame=''>0 2 0 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry>"
+      "</collision></link>";
+  const Scene scene = load("<model name='m'><pose frame=''>5 0 0 0 0 0</pose>\n" + link +
+                               "<joint name='inner::j' type='fixed'><parent>world</parent>"
+                               "<child>inner::body</child></joint></model>",
+                           "1.6");
   ASSERT_EQ(scene.collisions.size(), 1U);
-  EXPECT_EQ(scene.collisions[0].name, "m::l::ball");
-  ASSERT_EQ(warnings().size(), 4U);
-  EXPECT_EQ(warnings()[0], path_of("world.sdf") +
-                               ":4: collision 'm::l::pill' is left out: shape <capsule> is not "
-                               "supported");
-  EXPECT_NE(warnings()[1].find("<ellipsoid>"), std::string::npos);
-  EXPECT_NE(warnings()[2].find("<heightmap>"), std::string::npos);
-  EXPECT_NE(warnings()[3].find("<polyline>"), std::string::npos);
+  EXPECT_TRUE(scene.collisions[0].X_WC.translation.isApprox(Eigen::Vector3d(5, 2, 1)));
+  EXPECT_EQ(scene.collisions[0].name, "m::inner::body::c");
+  EXPECT_TRUE(warnings().empty());
+}
+
+TEST_F(LoadWorld, WhatIsMissingCanBeSkipped) {
+  write("broken.obj", "hello\n");
+  const std::string path = write(
+      "world.sdf",
+      world("<include><uri>model://nosuch</uri></include>\n" +
+            model_with("<mesh>\n<uri>broken.obj</uri></mesh>") +
+            "<model name='n'><link name='l'><collision name='c'><geometry><sphere><radius>1"
+            "</radius></sphere></geometry></collision></link></model>"));
+  WorldOptions options;
+  options.skip_missing = true;
+  const Scene scene = load_world(path, {}, diagnostics_, options);
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "n"}));
+  EXPECT_EQ(scene.collisions.size(), 1U);
+  ASSERT_EQ(warnings().size(), 2U);
+  EXPECT_EQ(warnings()[0], path + ":3: can't find 'model://nosuch': left out");
+  EXPECT_NE(warnings()[1].find("broken.obj"), std::string::npos);
+}
+
+TEST_F(LoadWorld, FilesWithoutAVersionAreReadWithAWarning) {
+  const std::string path = write("w.sdf", "<sdf><world name='w'/></sdf>");
+  EXPECT_EQ(load_file(path).name, "w");
+  EXPECT_EQ(warnings(), std::vector<std::string>{
+                            path + ":1: <sdf> without a version: read as the newest"});
+}
+
+TEST_F(LoadWorld, ANewerModelFileIsTakenWhereThereAreSeveral) {
+  write("models/crate/model.config",
+        "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>new.sdf</sdf>"
+        "<sdf version='1.5'>middle.sdf</sdf></model>");
+  for (const std::string& name : std::vector<std::string>{"old", "new", "middle"}) {
+    write("models/crate/" + name + ".sdf",
+          "<sdf version='1.4'><model name='" + name + "'><link name='l'/></model></sdf>");
+  }
+  EXPECT_EQ(load("<include><uri>model://crate</uri></include>").models,
+            std::vector<std::string>{"new"});
 }
 
 TEST_F(LoadWorld, NamesTheMaterialsOnceAndSorted) {
@@ -219,28 +337,17 @@ TEST_F(LoadWorld, VisualMeshThatIsMissingIsOnlyAWarning) {
   EXPECT_NE(warnings()[0].find("world.sdf:4: visual 'v'"), std::string::npos) << warnings()[0];
 }
 
-TEST_F(LoadWorld, InvalidInertiaIsAWarningInPlainWords) {
+TEST_F(LoadWorld, UnknownElementsAreWarningsAndWhatIsNotUsedIsNotLookedAt) {
   const Scene scene = load(
-      "<model name='m'><link name='bad'><inertial><inertia><ixx>900</ixx><iyy>1</iyy><izz>1</izz>"
-      "<ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial><collision name='c'><geometry>"
-      "<sphere><radius>1</radius></sphere></geometry></collision></link></model>");
-  EXPECT_EQ(scene.collisions.size(), 1U);
-  EXPECT_EQ(warnings(),
-            std::vector<std::string>{path_of("world.sdf") +
-                                     ": a link named 'bad' has invalid inertia (ignored: inertia "
-                                     "is not used)"});
-}
-
-TEST_F(LoadWorld, BrokenJointsAndUnknownElementsAreWarnings) {
-  const Scene scene = load(
-      "<banana/>\n<model name='m'><pose>1 0 0 0 0 0</pose><link name='l'><collision name='c'>"
-      "<geometry><sphere><radius>1</radius></sphere></geometry></collision></link>"
-      "<joint name='j' type='fixed'><parent>l</parent><child>nope</child></joint></model>");
+      "<banana/>\n<model name='m'><pose>1 0 0 0 0 0</pose><link name='l'><inertial><inertia><ixx>x"
+      "</ixx></inertia></inertial><collision name='c'><surface><friction><ode><mu>1 2</mu></ode>"
+      "</friction></surface><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+      "</link><joint name='j' type='fixed'><parent>l</parent><child>nope</child></joint>"
+      "<gz:thing/></model>");
   ASSERT_EQ(scene.collisions.size(), 1U);
   EXPECT_EQ(scene.collisions[0].X_WC.translation, Eigen::Vector3d(1, 0, 0));
-  ASSERT_GE(warnings().size(), 2U);
-  EXPECT_EQ(warnings()[0], path_of("world.sdf") + ":3: <banana> in <world> is not SDF (ignored)");
-  EXPECT_NE(warnings()[1].find("joints are not used"), std::string::npos) << warnings()[1];
+  EXPECT_EQ(warnings(), std::vector<std::string>{path_of("world.sdf") +
+                                                 ":3: <banana> in <world> is not SDF (ignored)"});
 }
 
 TEST_F(LoadWorld, ModelWithoutLinksIsAWarning) {
@@ -288,15 +395,22 @@ TEST_F(LoadWorld, SavedStateOfNestedModelsAndOfDeletedOnes) {
   EXPECT_TRUE(scene.collisions[0].X_WC.translation.isApprox(Eigen::Vector3d(7.1, 8, 10)));
 }
 
+/// As in Gazebo 11.
+TEST_F(LoadWorld, ModelsThatCameWhileASavedWorldRan) {
+  const Scene scene = load("<state world_name='test'>\n<insertions>" + ball_called("new") +
+                               "</insertions></state>" + ball_called("m"),
+                           "1.6");
+  EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "new"}));
+  EXPECT_TRUE(scene.collisions.at(1).X_WC.translation.isApprox(Eigen::Vector3d(1.1, 0, 1)));
+}
+
 TEST_F(LoadWorld, WhatOfASavedStateIsNotUsedIsToldOf) {
-  load("<state world_name='test'>\n<insertions>" + ball_called("new") +
-           "</insertions>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale></model>"
-           "</state>" +
+  load("<state world_name='test'>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale>"
+       "</model></state>" +
            ball_called("m"),
        "1.6");
-  ASSERT_EQ(warnings().size(), 2U);
-  EXPECT_NE(warnings()[0].find("world.sdf:4: <insertions> in <state>"), std::string::npos);
-  EXPECT_NE(warnings()[1].find("world.sdf:5: <scale> in <state>"), std::string::npos);
+  ASSERT_EQ(warnings().size(), 1U);
+  EXPECT_NE(warnings()[0].find("world.sdf:4: <scale> in <state>"), std::string::npos);
 }
 
 TEST_F(LoadWorld, PrintsNothing) {

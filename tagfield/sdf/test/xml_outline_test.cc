@@ -47,14 +47,5 @@ TEST(XmlOutline, SaysWhereItIsMalformed) {
 
 TEST(XmlOutline, NoTagsAtAll) { EXPECT_TRUE(outline_xml("hello").tags.empty()); }
 
-TEST(XmlOutline, ChildLinesAreThoseOneLevelDown) {
-  const XmlOutline outline =
-      outline_xml("<a>\n<p>\n<x/>\n<y>\n<z/></y>\n</p>\n<p>\n<w/></p>\n<q/></a>");
-  EXPECT_EQ(child_lines(outline, "p", 2), (std::vector<int>{3, 4}));
-  EXPECT_EQ(child_lines(outline, "p", 7), std::vector<int>{8});
-  EXPECT_TRUE(child_lines(outline, "p", 3).empty());
-  EXPECT_TRUE(child_lines(outline, "q", 9).empty());
-}
-
 }  // namespace
 }  // namespace tagfield::sdf_internal

@@ -1,0 +1,15 @@
+/// @file
+/// Elements that SDF doesn't have, as misspelt ones, which would go unnoticed.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield::sdf_internal {
+
+/// Warns of the children of a <world>, <model>, <link> or <collision> that SDF (1.2 to 1.12)
+/// doesn't have there. Names with a colon belong to others.
+void warn_of_unknown_children(const tinyxml2::XMLElement& element, Diagnostics& diagnostics);
+
+}  // namespace tagfield::sdf_internal
