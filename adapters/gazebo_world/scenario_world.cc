@@ -81,7 +81,7 @@ void make_uris_absolute(XMLElement* element, const std::string& world_path,
     make_uris_absolute(child, world_path, resources);
     const char* const uri = child->GetText();
     if (std::strcmp(child->Name(), "uri") != 0 || uri == nullptr || !is_relative(uri)) continue;
-    const std::string found = find_resource(uri, world_path, resources);
+    const std::string found = find_resource(uri, world_path, resources).path;
     if (!found.empty()) child->SetText(fmt::format("file://{}", found).c_str());
   }
 }

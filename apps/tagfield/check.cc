@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/scenario/placements.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -25,6 +26,7 @@ struct CheckArguments {
   std::vector<std::string> settings;
   std::vector<std::string> model_paths;
   bool as_json = false;
+  WorldOptions world;
 };
 
 std::vector<double> to_list(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -86,7 +88,7 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
       overrides.push_back(parse_override(setting));
     }
     const ScenarioWithWorld loaded =
-        load_scenario_with_world(arguments.file, overrides, diagnostics);
+        load_scenario_with_world(arguments.file, overrides, diagnostics, arguments.world);
     // Whatever would stop the run stops the check.
     const Simulation simulation(loaded.scenario, loaded.scenario.seed);
     if (loaded.scenario.pose.source == PoseSource::kSlam) {
@@ -100,7 +102,8 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
   if (extension != ".sdf" && extension != ".world") {
     fail({arguments.file, 0}, "expected a .yaml scenario or an .sdf or .world file");
   }
-  const Scene scene = load_world(arguments.file, arguments.model_paths, diagnostics);
+  const Scene scene =
+      load_world(arguments.file, arguments.model_paths, diagnostics, arguments.world);
   Scenario scenario;
   add_placements(scene, scenario, diagnostics);
   Json json = describe(scene);
@@ -183,6 +186,7 @@ void add_check_command(CLI::App& app, Action& chosen) {
       ->add_option("--model-path", arguments->model_paths,
                    "Folder to look up model://NAME in; can be given several times")
       ->allow_extra_args(false);
+  add_world_options(*command, arguments->world);
   command->add_flag("--json", arguments->as_json, "JSON for machines instead of text");
   command->callback(
       [arguments, &chosen] { chosen = [arguments] { return check_file(*arguments); }; });

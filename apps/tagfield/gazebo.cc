@@ -9,6 +9,7 @@
 #include "adapters/gazebo_world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
@@ -29,6 +30,7 @@ struct GazeboArguments {
   std::string keep_out;
   bool gz = false;
   GzSimOptions gz_options;
+  WorldOptions world;
 };
 
 /// Where a robot must not drive although its laser sees nothing there, as a map.
@@ -57,7 +59,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   }
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded =
-      load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+      load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
   // Whatever would stop a run stops this.
   const Simulation simulation(loaded.scenario, loaded.scenario.seed);
   // What stands in the world stays there, and is not to be added.
@@ -118,6 +120,7 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
                    "Scenario file (YAML); with --gz also a .world or .sdf of Gazebo 11")
       ->required();
   command->add_option("--out", arguments->out, "File to write (default NAME.world, or NAME.sdf)");
+  add_world_options(*command, arguments->world);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()
       ->allow_extra_args(false);

@@ -38,6 +38,7 @@ struct RunArguments {
   bool breakdown = false;
   bool record_only = false;
   OutletArguments outlets;
+  WorldOptions world;
 };
 
 std::vector<AntennaPose> named(const std::vector<StampedPose>& path) {
@@ -162,7 +163,8 @@ int run(const RunArguments& arguments) {
     overrides.push_back(parse_override(setting));
   }
   Diagnostics diagnostics;
-  ScenarioWithWorld loaded = load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+  ScenarioWithWorld loaded =
+      load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
   apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
   const std::string out =
@@ -205,6 +207,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "run", "Simulate a scenario, locate its tags, compare with the truth, draw the page");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (YAML)")->required();
+  add_world_options(*command, arguments->world);
   command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
   command->add_option("--seeds", arguments->seeds, "Run so many seeds, from --seed on")

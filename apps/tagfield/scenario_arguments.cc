@@ -40,7 +40,15 @@ std::string fault_of_seed(const std::string& word) {
   return fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", word);
 }
 
+void add_world_options(CLI::App& command, WorldOptions& options) {
+  command.add_flag("--skip-missing", options.skip_missing,
+                   "Go on without models and meshes of the world that are missing or broken");
+  command.add_flag("--allow-outside", options.allow_outside,
+                   "Let the world name files outside of its folder and the model paths");
+}
+
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+  add_world_options(command, arguments.world);
   command.add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();
   command.add_option("--seed", arguments.seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
@@ -58,7 +66,7 @@ ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnost
   for (const std::string& setting : arguments.settings) {
     overrides.push_back(parse_override(setting));
   }
-  return load_scenario_with_world(arguments.scenario, overrides, diagnostics);
+  return load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
 }
 
 std::string folder_name(const std::string& name) {

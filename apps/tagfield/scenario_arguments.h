@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 
@@ -16,9 +17,13 @@ struct ScenarioArguments {
   std::string scenario;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> seed;
+  WorldOptions world;
 };
 
-/// Adds SCENARIO, --set and --seed.
+/// Adds --skip-missing and --allow-outside.
+void add_world_options(CLI::App& command, WorldOptions& options);
+
+/// Adds SCENARIO, --set, --seed and the world's options.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 
 /// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.

@@ -81,7 +81,7 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
 
 ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
                        Diagnostics& diagnostics) {
-  return load(ScenarioArguments{path, arguments.settings, arguments.seed}, diagnostics);
+  return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}}, diagnostics);
 }
 
 void refuse_options_of_reads(const TrackArguments& arguments) {

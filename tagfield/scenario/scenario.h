@@ -60,6 +60,7 @@ inline bool moves(const TagSpec& tag) { return !tag.on.empty() || tag.motion.siz
 struct WorldSpec {
   std::string path;                       ///< "" for empty space.
   std::vector<std::string> search_paths;  ///< For `model://`.
+  bool skip_missing = false;              ///< Goes on without files that are missing or broken.
 };
 
 /// How the tags' heights are known to localization.

@@ -22,7 +22,6 @@
 #include "tagfield/scenario/recorded_motion.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
-#include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
@@ -37,6 +36,7 @@ WorldSpec world_of(YamlMap map) {
   for (const YamlValue& folder : map.list("model_paths")) {
     world.search_paths.push_back(resolve_path(folder));
   }
+  world.skip_missing = map.boolean("skip_missing", world.skip_missing);
   for (const char* radio : {"materials", "default_material", "least_facet_m2"}) {
     static_cast<void>(map.has(radio));  // radio_world_options_of() reads them.
   }
@@ -454,13 +454,17 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
                                            Diagnostics& diagnostics,
+                                           const WorldOptions& world_options,
                                            const std::vector<Method>& methods) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
   ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
   scenario = read.scenario;
   if (!scenario.world.path.empty()) {
-    loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
+    WorldOptions options = world_options;
+    options.skip_missing = options.skip_missing || scenario.world.skip_missing;
+    loaded.scene =
+        load_world(scenario.world.path, scenario.world.search_paths, diagnostics, options);
     add_placements(loaded.scene, scenario, diagnostics);
     require_epcs(scenario.tags);
   }

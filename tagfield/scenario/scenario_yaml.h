@@ -8,6 +8,7 @@
 
 #include "tagfield/localization/locate.h"
 #include "tagfield/scenario/scenario.h"
+#include "tagfield/sdf/load_world.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield {
@@ -33,10 +34,12 @@ struct ScenarioWithWorld {
   Scene scene;        ///< Empty where the scenario names no world.
 };
 
-/// Reads a scenario and its world. Throws Error also if there are no antennas or no tags at all.
+/// Reads a scenario and its world; `world_options` add to what the scenario says. Throws Error also
+/// if there are no antennas or no tags at all.
 ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
                                            Diagnostics& diagnostics,
+                                           const WorldOptions& world_options = {},
                                            const std::vector<Method>& methods = built_in_methods());
 
 }  // namespace tagfield

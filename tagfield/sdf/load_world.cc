@@ -21,9 +21,9 @@ using sdf_internal::Context;
 using sdf_internal::for_each_child;
 using sdf_internal::Link;
 using sdf_internal::location_of;
-using sdf_internal::name_of;
 using sdf_internal::Model;
 using sdf_internal::ModelState;
+using sdf_internal::name_of;
 using sdf_internal::NamedPlacement;
 using sdf_internal::Scope;
 using tinyxml2::XMLElement;
@@ -51,8 +51,7 @@ class SceneGatherer {
                                 fmt::format("model '{}' has no links", model.name));
     }
     const RigidTransform X_PM = pose_in(around, model.frame, {}, context_.diagnostics);
-    const Place place{model, scope + model.name, state.pose(context_).value_or(X_WP * X_PM),
-                      state};
+    const Place place{model, scope + model.name, state.pose(context_).value_or(X_WP * X_PM), state};
     scene_.models.push_back(place.name);
     for (const Link& link : model.links) add_link(link, place);
     for (const auto& nested : model.models) {
@@ -72,8 +71,7 @@ class SceneGatherer {
  private:
   void add_link(const Link& link, const Place& place) {
     sdf_internal::warn_of_unknown_children(*link.element, context_.diagnostics);
-    const RigidTransform X_ML =
-        pose_in(place.model.scope, link.frame, {}, context_.diagnostics);
+    const RigidTransform X_ML = pose_in(place.model.scope, link.frame, {}, context_.diagnostics);
     const RigidTransform X_WL =
         place.state.link_pose(context_, link.name).value_or(place.X_WM * X_ML);
     const std::string scope = place.name + "::" + link.name + "::";
@@ -85,8 +83,8 @@ class SceneGatherer {
       const std::string type = attribute_of(element, "type");
       if (type != "rfid" && type != "rfidtag") return;
       (type == "rfid" ? antennas_ : tags_)
-          .push_back(sdf_internal::read_sensor(element, X_WL * pose_in_link(element, link, place, X_ML),
-                                 place.name, link.name));
+          .push_back(sdf_internal::read_sensor(
+              element, X_WL * pose_in_link(element, link, place, X_ML), place.name, link.name));
     });
   }
 
@@ -119,8 +117,7 @@ class SceneGatherer {
     sdf_internal::warn_of_unknown_children(element, context_.diagnostics);
     const std::string name = scope + name_of(element);
     if (!collision_names_.insert(name).second) {
-      context_.diagnostics.warn(location_of(element),
-                                fmt::format("a second collision '{}'", name));
+      context_.diagnostics.warn(location_of(element), fmt::format("a second collision '{}'", name));
     }
     const auto shape = sdf_internal::read_shape(context_, element, name);
     if (shape) scene_.collisions.push_back({name, *shape, X_WC, looks});

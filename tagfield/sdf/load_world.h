@@ -12,7 +12,7 @@ namespace tagfield {
 
 /// What a world may leave open and where its files may be.
 struct WorldOptions {
-  bool skip_missing = false;   ///< Goes on, with warnings, without files that are missing or broken.
+  bool skip_missing = false;  ///< Goes on, with warnings, without files that are missing or broken.
   bool allow_outside = false;  ///< Reads files outside of all folders that are searched, too.
 };
 

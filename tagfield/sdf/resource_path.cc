@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include "tagfield/base/number.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kWhitespaceInUri = "%20";
+constexpr std::string_view kBlankInUri = "%20";
 
 bool is_there(const fs::path& path) {
   std::error_code error;
@@ -114,12 +115,15 @@ std::string without_leading_slashes(const std::string& path) {
   return path.substr(std::min(path.find_first_not_of('/'), path.size()));
 }
 
-std::string with_blanks(std::string text) {
-  for (std::size_t at = text.find(kWhitespaceInUri); at != std::string::npos;
-       at = text.find(kWhitespaceInUri, at)) {
-    text.replace(at, kWhitespaceInUri.size(), " ");
+std::string with_blanks(const std::string& uri) {
+  std::string text;
+  std::size_t begin = 0;
+  for (std::size_t at = uri.find(kBlankInUri); at != std::string::npos;
+       at = uri.find(kBlankInUri, begin)) {
+    text += uri.substr(begin, at - begin) + ' ';
+    begin = at + kBlankInUri.size();
   }
-  return text;
+  return text + uri.substr(begin);
 }
 
 /// Parts of https://HOST/1.0/OWNER/models/NAME[/VERSION[/files/REST]].
@@ -166,8 +170,8 @@ fs::path below_folder(const fs::path& folder, const fs::path& rest) {
 }
 
 FoundResource find_in_fuel(const FuelName& name, const ResourcePaths& paths) {
-  const fs::path below = fs::path(name.host) / in_small_letters(name.owner) / "models" /
-                         in_small_letters(name.model);
+  const fs::path below =
+      fs::path(name.host) / in_small_letters(name.owner) / "models" / in_small_letters(name.model);
   for (const std::string& cache : paths.fuel) {
     const fs::path model = fs::path(cache) / below;
     const std::string version =
@@ -251,17 +255,14 @@ FoundResource find_resource(const std::string& uri, const std::string& naming_fi
                             const ResourcePaths& paths) {
   FoundResource found = find_anywhere(uri, naming_file, paths);
   if (found.path.empty() || is_allowed(found.path, naming_file, paths)) return found;
-  return {"", "'" + found.path + "' lies outside of all folders of models (--allow-outside reads it)"};
+  return {"",
+          "'" + found.path + "' lies outside of all folders of models (--allow-outside reads it)"};
 }
 
 std::string model_name(const std::string& uri) {
-  const std::string path = with_blanks(uri);
-  const std::size_t end = path.find_last_not_of('/');
-  if (end == std::string::npos) return "";
-  const std::size_t begin = path.find_last_of('/', end);
-  std::string name =
-      in_small_letters(path.substr(begin == std::string::npos ? 0 : begin + 1, end + 1));
-  name.resize(std::min(name.size(), end + 1 - (begin == std::string::npos ? 0 : begin + 1)));
+  std::string path = with_blanks(uri);
+  path.resize(path.find_last_not_of('/') + 1);
+  std::string name = in_small_letters(path.substr(path.find_last_of('/') + 1));
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }

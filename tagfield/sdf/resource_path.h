@@ -9,10 +9,10 @@ namespace tagfield {
 
 /// The folders in which files are looked up, in the order in which they are tried.
 struct ResourcePaths {
-  std::vector<std::string> folders;      ///< That hold models.
-  std::vector<std::string> roots{};      ///< For relative paths alone.
-  std::vector<std::string> fuel{};       ///< Caches of Gazebo Fuel: HOST/OWNER/models/NAME/VERSION.
-  bool allow_outside = false;            ///< Of all of these and of the folder of the naming file.
+  std::vector<std::string> folders;  ///< That hold models.
+  std::vector<std::string> roots{};  ///< For relative paths alone.
+  std::vector<std::string> fuel{};   ///< Caches of Gazebo Fuel: HOST/OWNER/models/NAME/VERSION.
+  bool allow_outside = false;        ///< Of all of these and of the folder of the naming file.
 };
 
 /// `search_paths`; the world file's folder, its `models` folder and the `models` folder beside it;
@@ -27,7 +27,8 @@ ResourcePaths resource_paths(const std::string& world_path,
 /// A file or folder; no path where nothing was found.
 struct FoundResource {
   std::string path;
-  std::string oddity{};  ///< In what it is not what the URI says, or why it is not used; "" if all is well.
+  std::string
+      oddity{};  ///< In what it is not what the URI says, or why it is not used; "" if all is well.
 };
 
 /// The file or folder that `uri` names:

@@ -54,7 +54,9 @@ struct Triangulate {
 
 struct CountTriangles {
   std::size_t operator()(const Box& /*box*/) const { return 12; }
-  std::size_t operator()(const Cylinder& /*cylinder*/) const { return 4 * std::size_t{kCircleEdges}; }
+  std::size_t operator()(const Cylinder& /*cylinder*/) const {
+    return 4 * std::size_t{kCircleEdges};
+  }
   std::size_t operator()(const Sphere& /*sphere*/) const {
     return 2 * std::size_t{kCircleEdges} * (kCircleEdges / 2 - 1);
   }

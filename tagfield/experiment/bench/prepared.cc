@@ -151,7 +151,7 @@ void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondit
           Diagnostics& diagnostics) {
   const Condition& condition = prepared.condition;
   ScenarioWithWorld loaded = load_scenario_with_world(
-      condition.scenario, overrides_of(suite, condition), diagnostics, methods);
+      condition.scenario, overrides_of(suite, condition), diagnostics, {}, methods);
   prepared.scenario = std::move(loaded.scenario);
   prepared.scenario.real_time = 0.0;  // Nobody watches.
   prepared.known = known_in(prepared.scenario, condition);

@@ -5,15 +5,13 @@
 #include <set>
 #include <string_view>
 
-#include "tagfield/base/number.h"
-
 namespace tagfield::sdf_internal {
 namespace {
 
 using tinyxml2::XMLElement;
 
 /// Before it poses and sizes were attributes.
-constexpr double kOldestVersion = 1.2;
+constexpr int kOldestVersion = 1002;
 
 void require_sdf(Context& context, const XMLElement& root) {
   const std::string_view name = root.Name();
@@ -27,10 +25,9 @@ void require_sdf(Context& context, const XMLElement& root) {
   const std::string version = attribute_of(root, "version");
   if (version.empty()) {
     context.diagnostics.warn(location_of(root), "<sdf> without a version: read as the newest");
-  } else if (const auto number = parse_number(version); number && *number < kOldestVersion) {
+  } else if (const int number = sdf_version(version); number > 0 && number < kOldestVersion) {
     fail(location_of(root),
-         fmt::format("SDF of version {} is not read ({:.1f} and later are)", version,
-                     kOldestVersion));
+         fmt::format("SDF of version {} is not read (1.2 and later are)", version));
   }
 }
 

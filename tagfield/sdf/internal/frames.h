@@ -35,8 +35,8 @@ struct Scope {
 Frame frame_of(Context& context, const tinyxml2::XMLElement& element,
                const std::string& otherwise = "");
 
-/// X_SF of the frame called `name`; none where there is no such frame, one that it is relative to is
-/// missing, or frames stand relative to one another in a circle.
+/// X_SF of the frame called `name`; none where there is no such frame, one that it is relative to
+/// is missing, or frames stand relative to one another in a circle.
 std::optional<RigidTransform> pose_in(const Scope& scope, const std::string& name);
 
 /// X_SF of `frame`, which need not be one of the scope's. Where it is relative to a frame that

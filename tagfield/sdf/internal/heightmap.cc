@@ -74,27 +74,28 @@ void add_triangles(TriangleMesh& mesh, std::size_t rows, std::size_t columns) {
 
 }  // namespace
 
-TriangleMesh heightmap_mesh(const Heightmap& map, const std::string& path,
-                            const Location& location, Context& context) {
+TriangleMesh heightmap_mesh(const Heightmap& map, const std::string& path, const Location& location,
+                            Context& context) {
   const RedChannel image = read_png(path);
   if (image.width < 2 || image.height < 2) fail({path, 0}, "a heightmap needs 2 x 2 pixels");
   const std::vector<int> rows = used_pixels(image.height);
   const std::vector<int> columns = used_pixels(image.width);
   if (std::max(image.width, image.height) > kMostHeights) {
-    context.diagnostics.warn(location, fmt::format("of the heightmap's {} x {} pixels {} x {} are "
-                                                   "used",
-                                                   image.width, image.height, columns.size(),
-                                                   rows.size()));
+    context.diagnostics.warn(location,
+                             fmt::format("of the heightmap's {} x {} pixels {} x {} are "
+                                         "used",
+                                         image.width, image.height, columns.size(), rows.size()));
   }
   const double brightest = *std::max_element(image.reds.begin(), image.reds.end());
   const double metres = brightest > 0.0 ? map.size.z() / brightest : 0.0;
   TriangleMesh mesh;
   for (const int row : rows) {
     for (const int column : columns) {
-      mesh.vertices.push_back(map.origin + Eigen::Vector3d(
-          map.size.x() * (static_cast<double>(column) / (image.width - 1) - 0.5),
-          map.size.y() * (0.5 - static_cast<double>(row) / (image.height - 1)),
-          metres * image.at(row, column)));
+      mesh.vertices.push_back(
+          map.origin +
+          Eigen::Vector3d(map.size.x() * (static_cast<double>(column) / (image.width - 1) - 0.5),
+                          map.size.y() * (0.5 - static_cast<double>(row) / (image.height - 1)),
+                          metres * image.at(row, column)));
     }
   }
   add_triangles(mesh, rows.size(), columns.size());

@@ -21,10 +21,10 @@ struct Heightmap {
 inline constexpr int kMostHeights = 1025;
 
 /// The surface of the PNG image at `path`, seen from above: its first row is at the greatest y, a
-/// pixel as bright as the brightest as high as size.z (Gazebo 11's rule, which takes the red channel
-/// of a coloured image in 8 bits). `location` is for warnings. Throws Error if it isn't a PNG file
-/// that can be read or has fewer than 2 x 2 pixels.
-TriangleMesh heightmap_mesh(const Heightmap& map, const std::string& path,
-                            const Location& location, Context& context);
+/// pixel as bright as the brightest as high as size.z (Gazebo 11's rule, which takes the red
+/// channel of a coloured image in 8 bits). `location` is for warnings. Throws Error if it isn't a
+/// PNG file that can be read or has fewer than 2 x 2 pixels.
+TriangleMesh heightmap_mesh(const Heightmap& map, const std::string& path, const Location& location,
+                            Context& context);
 
 }  // namespace tagfield::sdf_internal

@@ -13,8 +13,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// The element at the end of a path of first children; null where it breaks off.
-const XMLElement* descendant(const XMLElement& element,
-                             std::initializer_list<const char*> names) {
+const XMLElement* descendant(const XMLElement& element, std::initializer_list<const char*> names) {
   const XMLElement* at = &element;
   for (const char* name : names) {
     at = at == nullptr ? nullptr : at->FirstChildElement(name);
@@ -51,9 +50,8 @@ const std::vector<std::string>& materials_of(Context& context, const std::string
 }
 
 void warn_of_no_mesh(Context& context, const XMLElement& visual, const std::string& reason) {
-  context.diagnostics.warn(
-      location_of(visual), fmt::format("visual '{}' has no mesh to show: {}",
-                                       attribute_of(visual, "name"), reason));
+  context.diagnostics.warn(location_of(visual), fmt::format("visual '{}' has no mesh to show: {}",
+                                                            attribute_of(visual, "name"), reason));
 }
 
 }  // namespace
@@ -66,8 +64,7 @@ void add_materials(Context& context, const XMLElement& visual, std::set<std::str
   }
   const XMLElement* uri = descendant(visual, {"geometry", "mesh", "uri"});
   if (uri == nullptr) return;
-  const FoundResource found =
-      find_resource(text_of(*uri), file_of(*uri).path, context.resources);
+  const FoundResource found = find_resource(text_of(*uri), file_of(*uri).path, context.resources);
   if (found.path.empty()) {
     const std::string& reason = found.oddity;
     return warn_of_no_mesh(context, visual,

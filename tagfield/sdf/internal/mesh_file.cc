@@ -14,6 +14,8 @@
 #include <set>
 #include <system_error>
 
+#include "tagfield/sdf/internal/collada.h"
+
 namespace tagfield {
 namespace {
 
@@ -41,13 +43,21 @@ void require_readable(const std::string& path) {
   if (bytes > kMaxFileBytes) refuse(path, "mesh file is larger than 1 GB");
 }
 
+const aiScene* read_file(Assimp::Importer& importer, const std::string& path) {
+  constexpr unsigned kSteps =
+      aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure;
+  const std::string geometry = is_collada(path) ? collada_geometry(path) : "";
+  return geometry.empty()
+             ? importer.ReadFile(path, kSteps)
+             : importer.ReadFileFromMemory(geometry.data(), geometry.size(), kSteps, "dae");
+}
+
 const aiScene& import_file(Assimp::Importer& importer, const std::string& path) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+  const aiScene* scene = read_file(importer, path);
   if (scene == nullptr) {
     refuse(path, "can't be read as a mesh: " + on_one_line(importer.GetErrorString()));
   }

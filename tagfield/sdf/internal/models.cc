@@ -8,8 +8,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "tagfield/base/number.h"
-
 namespace tagfield::sdf_internal {
 namespace {
 
@@ -19,9 +17,9 @@ using tinyxml2::XMLElement;
 /// Which of a model.config's <sdf>s is of the newest version; model.sdf where it names none.
 std::string newest_sdf(const XMLElement& config) {
   std::string newest = "model.sdf";
-  double version = -1.0;
+  int version = -1;
   for_each_child(config, "sdf", [&](const XMLElement& sdf) {
-    const double its = parse_number(attribute_of(sdf, "version")).value_or(0.0);
+    const int its = sdf_version(attribute_of(sdf, "version"));
     if (its <= version || text_of(sdf).empty()) return;
     version = its;
     newest = text_of(sdf);
@@ -133,8 +131,7 @@ class ModelReader {
   void add_joint(Model& model, const XMLElement& element) {
     const std::string name = attribute_of(element, "name");
     if (name.empty()) return;
-    model.scope.frames.try_emplace(name,
-                                   frame_of(context_, element, child_text(element, "child")));
+    model.scope.frames.try_emplace(name, frame_of(context_, element, child_text(element, "child")));
   }
 
   /// Sets X_RM, so that the placement frame, if there is one, stands where the pose says.
@@ -170,7 +167,8 @@ class ModelReader {
   std::unique_ptr<Model> included(const XMLElement& include) {
     const XMLElement* const uri = include.FirstChildElement("uri");
     if (uri == nullptr || text_of(*uri).empty()) {
-      fail(location_of(uri == nullptr ? include : *uri), "<include> without <uri>");
+      context_.diagnostics.warn(location_of(include), "<include> without <uri>: left out");
+      return nullptr;
     }
     const std::string place = file_named_by(context_, *uri);
     if (place.empty()) return nullptr;

@@ -23,9 +23,8 @@ struct Asked {
 };
 
 void leave_out(const Asked& asked, const std::string& reason) {
-  asked.context.diagnostics.warn(
-      location_of(asked.element),
-      fmt::format("collision '{}' is left out: {}", asked.name, reason));
+  asked.context.diagnostics.warn(location_of(asked.element),
+                                 fmt::format("collision '{}' is left out: {}", asked.name, reason));
 }
 
 /// The numbers of the child `name`, or those that Gazebo takes where there is none.
@@ -215,11 +214,11 @@ struct Kind {
   MaybeShape (*read)(const Asked&);
 };
 
-constexpr Kind kKinds[] = {
-    {"box", read_box},           {"sphere", read_sphere},       {"cylinder", read_cylinder},
-    {"plane", read_plane},       {"mesh", read_mesh_shape},     {"capsule", read_capsule},
-    {"cone", read_cone},         {"ellipsoid", read_ellipsoid}, {"polyline", read_polyline},
-    {"heightmap", read_heightmap_shape}};
+constexpr Kind kKinds[] = {{"box", read_box},           {"sphere", read_sphere},
+                           {"cylinder", read_cylinder}, {"plane", read_plane},
+                           {"mesh", read_mesh_shape},   {"capsule", read_capsule},
+                           {"cone", read_cone},         {"ellipsoid", read_ellipsoid},
+                           {"polyline", read_polyline}, {"heightmap", read_heightmap_shape}};
 
 }  // namespace
 

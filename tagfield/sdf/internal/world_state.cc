@@ -57,8 +57,7 @@ std::set<std::string> ModelState::deleted() const {
   const XMLElement* deletions =
       element_ == nullptr ? nullptr : element_->FirstChildElement("deletions");
   if (deletions == nullptr) return names;
-  for_each_child(*deletions, "name",
-                 [&](const XMLElement& name) { names.insert(text_of(name)); });
+  for_each_child(*deletions, "name", [&](const XMLElement& name) { names.insert(text_of(name)); });
   return names;
 }
 

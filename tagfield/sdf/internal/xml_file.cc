@@ -110,6 +110,17 @@ std::string child_text(const XMLElement& element, const char* name) {
   return child == nullptr ? "" : text_of(*child);
 }
 
+int sdf_version(const std::string& text) {
+  const std::size_t dot = text.find('.');
+  if (dot == std::string::npos) return 0;
+  const auto major = parse_number(text.substr(0, dot));
+  const auto minor = parse_number(text.substr(dot + 1));
+  if (!major || !minor || *major < 0.0 || *major > 1000.0 || *minor < 0.0 || *minor > 999.0) {
+    return 0;
+  }
+  return 1000 * static_cast<int>(*major) + static_cast<int>(*minor);
+}
+
 bool is_true(const std::string& text) { return text == "true" || text == "1"; }
 
 std::string attribute_of(const XMLElement& element, const char* name) {
@@ -141,9 +152,8 @@ std::vector<double> numbers_of(const XMLElement& element, std::size_t count,
                      text_of(element), count, count == 1 ? "" : "s"));
   }
   if (words) {
-    diagnostics.warn(location_of(element),
-                     fmt::format("of '{}' in <{}> only the first {} are used", text_of(element),
-                                 element.Name(), count));
+    diagnostics.warn(location_of(element), fmt::format("of '{}' in <{}> only the first {} are used",
+                                                       text_of(element), element.Name(), count));
   }
   return numbers;
 }

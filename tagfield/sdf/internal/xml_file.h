@@ -36,6 +36,9 @@ std::string text_of(const tinyxml2::XMLElement& element);
 /// The text of its first child `name`; "" without one.
 std::string child_text(const tinyxml2::XMLElement& element, const char* name);
 
+/// Versions of SDF in order: 1.2 is 1002 and 1.10 is 1010; 0 for what is no version.
+int sdf_version(const std::string& text);
+
 /// Whether a text of SDF's booleans says yes.
 bool is_true(const std::string& text);
 

@@ -207,8 +207,7 @@ TEST_F(LoadWorld, ShapesThatEncloseNothingAreLeftOutWithAWarning) {
     diagnostics_ = {};
     EXPECT_TRUE(load(model_with(geometry)).collisions.empty()) << geometry;
     ASSERT_EQ(warnings().size(), 1U) << geometry;
-    EXPECT_NE(warnings()[0].find("collision 'm::l::c' is left out: " + expected),
-              std::string::npos)
+    EXPECT_NE(warnings()[0].find("collision 'm::l::c' is left out: " + expected), std::string::npos)
         << warnings()[0];
   }
   diagnostics_ = {};
@@ -237,9 +236,9 @@ TEST_F(LoadWorld, NamesTwiceAreWarningsAndBothStand) {
                 .collisions.size(),
             2U);
   EXPECT_EQ(warnings().size(), 1U);
-  const Scene scene =
-      load("<model name='m'><link name='l'/></model>\n<model name='m'><pose>1 0 0 0 0 0</pose>"
-           "<link name='l'/></model>");
+  const Scene scene = load(
+      "<model name='m'><link name='l'/></model>\n<model name='m'><pose>1 0 0 0 0 0</pose>"
+      "<link name='l'/></model>");
   EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "m"}));
   EXPECT_EQ(warnings().size(), 2U);
 }
@@ -247,14 +246,14 @@ TEST_F(LoadWorld, NamesTwiceAreWarningsAndBothStand) {
 TEST_F(LoadWorld, RelativeUrisAreOfTheFileThatTheyStandIn) {
   for (const char* name : {"one", "two"}) {
     write_model(name, "<link name='l'/>\n<include><uri>part.sdf</uri></include>");
-    write("models/" + std::string(name) + "/part.sdf",
-          "<sdf version='1.6'><model name='part_of_" + std::string(name) +
-              "'><link name='l'/></model></sdf>");
+    write("models/" + std::string(name) + "/part.sdf", "<sdf version='1.6'><model name='part_of_" +
+                                                           std::string(name) +
+                                                           "'><link name='l'/></model></sdf>");
   }
   const Scene scene =
       load("<include><uri>model://one</uri></include><include><uri>model://two</uri></include>");
-  EXPECT_EQ(scene.models, (std::vector<std::string>{"one", "one::part_of_one", "two",
-                                                    "two::part_of_two"}));
+  EXPECT_EQ(scene.models,
+            (std::vector<std::string>{"one", "one::part_of_one", "two", "two::part_of_two"}));
 }
 
 TEST_F(LoadWorld, WorldsSavedWithModelsInModelsMadeFlat) {
@@ -274,12 +273,12 @@ TEST_F(LoadWorld, WorldsSavedWithModelsInModelsMadeFlat) {
 
 TEST_F(LoadWorld, WhatIsMissingCanBeSkipped) {
   write("broken.obj", "hello\n");
-  const std::string path = write(
-      "world.sdf",
-      world("<include><uri>model://nosuch</uri></include>\n" +
-            model_with("<mesh>\n<uri>broken.obj</uri></mesh>") +
-            "<model name='n'><link name='l'><collision name='c'><geometry><sphere><radius>1"
-            "</radius></sphere></geometry></collision></link></model>"));
+  const std::string path =
+      write("world.sdf",
+            world("<include><uri>model://nosuch</uri></include>\n" +
+                  model_with("<mesh>\n<uri>broken.obj</uri></mesh>") +
+                  "<model name='n'><link name='l'><collision name='c'><geometry><sphere><radius>1"
+                  "</radius></sphere></geometry></collision></link></model>"));
   WorldOptions options;
   options.skip_missing = true;
   const Scene scene = load_world(path, {}, diagnostics_, options);
@@ -290,16 +289,22 @@ TEST_F(LoadWorld, WhatIsMissingCanBeSkipped) {
   EXPECT_NE(warnings()[1].find("broken.obj"), std::string::npos);
 }
 
+TEST_F(LoadWorld, IncludesOfNothingAreLeftOutWithAWarning) {
+  EXPECT_TRUE(load("\n<include><name>x</name></include>").models.empty());
+  EXPECT_EQ(warnings(), std::vector<std::string>{path_of("world.sdf") +
+                                                 ":4: <include> without <uri>: left out"});
+}
+
 TEST_F(LoadWorld, FilesWithoutAVersionAreReadWithAWarning) {
   const std::string path = write("w.sdf", "<sdf><world name='w'/></sdf>");
   EXPECT_EQ(load_file(path).name, "w");
-  EXPECT_EQ(warnings(), std::vector<std::string>{
-                            path + ":1: <sdf> without a version: read as the newest"});
+  EXPECT_EQ(warnings(),
+            std::vector<std::string>{path + ":1: <sdf> without a version: read as the newest"});
 }
 
 TEST_F(LoadWorld, ANewerModelFileIsTakenWhereThereAreSeveral) {
   write("models/crate/model.config",
-        "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>new.sdf</sdf>"
+        "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf>"
         "<sdf version='1.5'>middle.sdf</sdf></model>");
   for (const std::string& name : std::vector<std::string>{"old", "new", "middle"}) {
     write("models/crate/" + name + ".sdf",
@@ -405,10 +410,11 @@ TEST_F(LoadWorld, ModelsThatCameWhileASavedWorldRan) {
 }
 
 TEST_F(LoadWorld, WhatOfASavedStateIsNotUsedIsToldOf) {
-  load("<state world_name='test'>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale>"
-       "</model></state>" +
-           ball_called("m"),
-       "1.6");
+  load(
+      "<state world_name='test'>\n<model name='m'><pose>0 0 0 0 0 0</pose><scale>2 1 1</scale>"
+      "</model></state>" +
+          ball_called("m"),
+      "1.6");
   ASSERT_EQ(warnings().size(), 1U);
   EXPECT_NE(warnings()[0].find("world.sdf:4: <scale> in <state>"), std::string::npos);
 }

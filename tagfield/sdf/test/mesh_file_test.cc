@@ -179,6 +179,28 @@ TEST_F(MeshFileTest, ColladaAppliesUnitAndNodesAndNoUpAxis) {
   }
 }
 
+/// What assimp refuses and Gazebo reads.
+TEST_F(MeshFileTest, LooksCamerasAndLightsOfAColladaFileMayBeOdd) {
+  const std::string text = as_collada(brick(), "1", "Z_UP");
+  const auto with = [&](const std::string& before, const std::string& odd) {
+    std::string mended = text;
+    return mended.insert(mended.find(before), odd);
+  };
+  const std::string camera =
+      "<camera id='c' name='Camera'><optics><technique_common><perspective/></technique_common>"
+      "</optics></camera>";
+  for (const std::string& odd :
+       {with("<lambert/>", "<lambert><diffuse><color> 0.1 0.2 0.3 1</color></diffuse></lambert>"),
+        with("<lambert/>", "<lambert><diffuse><texture texture='no'/></diffuse></lambert>"),
+        with("<library_geometries>", "<library_images><image id='i'/></library_images>"),
+        with("<library_geometries>",
+             "<library_cameras>" + camera + camera + "</library_cameras>")}) {
+    const MeshFile file = read_mesh(write("brick.dae", odd));
+    EXPECT_EQ(file.mesh.triangles.size(), 24U) << odd;
+    EXPECT_EQ(file.materials, std::vector<std::string>{"Steel"});
+  }
+}
+
 TEST_F(MeshFileTest, SubmeshPicksAColladaNode) {
   const std::string path = write("brick.dae", as_collada(brick(), "1", "Z_UP"));
   expect_brick(read_mesh(path, Eigen::Vector3d::Ones(), "second").mesh, {10.0, 0.0, 0.0},

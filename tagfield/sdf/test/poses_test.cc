@@ -79,10 +79,11 @@ TEST_F(LoadWorldPoses, PlacementFramePutsThatFrameWhereThePoseSays) {
 }
 
 TEST_F(LoadWorldPoses, PlacementFrameOfAnIncludeMayLieInANestedModel) {
-  write_model("post", "<link name='l'><collision name='c'><geometry><sphere><radius>1</radius>"
-                      "</sphere></geometry></collision></link><model name='foot'><pose>0 0 -2 0 0 0"
-                      "</pose><frame name='sole'><pose>0 0 -0.5 0 0 0</pose></frame>"
-                      "<link name='l'/></model>");
+  write_model("post",
+              "<link name='l'><collision name='c'><geometry><sphere><radius>1</radius>"
+              "</sphere></geometry></collision></link><model name='foot'><pose>0 0 -2 0 0 0"
+              "</pose><frame name='sole'><pose>0 0 -0.5 0 0 0</pose></frame>"
+              "<link name='l'/></model>");
   const Scene scene = load(
       "<frame name='dock'><pose>5 0 0 0 0 0</pose></frame><include><uri>model://post</uri>"
       "<pose relative_to='dock'>0 7 0 0 0 0</pose>"
@@ -103,16 +104,19 @@ TEST_F(LoadWorldPoses, FramesOnJointsStandAtTheirChildLinks) {
 }
 
 TEST_F(LoadWorldPoses, WhatIsMergedStandsWhereItsModelWould) {
-  write_model("inner", "<frame name='f'><pose>0 1 0 0 0 0</pose></frame><link name='a'>"
-                       "<pose relative_to='f'>1 0 0 0 0 0</pose>" +
-                           ball("c", "") + ball("d", "<pose relative_to='__model__'>0 0 1 0 0 0</pose>") +
-                           "</link>");
-  write_model("middle", "<include merge='true'><uri>model://inner</uri><pose>10 0 0 0 0 0</pose>"
-                        "</include><link name='b'><pose relative_to='a'>0 0 5 0 0 0</pose>" +
-                            ball("c", "") + "</link>");
+  write_model("inner",
+              "<frame name='f'><pose>0 1 0 0 0 0</pose></frame><link name='a'>"
+              "<pose relative_to='f'>1 0 0 0 0 0</pose>" +
+                  ball("c", "") + ball("d", "<pose relative_to='__model__'>0 0 1 0 0 0</pose>") +
+                  "</link>");
+  write_model("middle",
+              "<include merge='true'><uri>model://inner</uri><pose>10 0 0 0 0 0</pose>"
+              "</include><link name='b'><pose relative_to='a'>0 0 5 0 0 0</pose>" +
+                  ball("c", "") + "</link>");
   const Scene scene = load(
       "<model name='m'><pose>100 0 0 0 0 0</pose><include merge='true'><uri>model://middle</uri>"
-      "<pose>0 0 0 0 0 " + std::string(kQuarter) + "</pose></include></model>");
+      "<pose>0 0 0 0 0 " +
+      std::string(kQuarter) + "</pose></include></model>");
   ASSERT_EQ(scene.collisions.size(), 3U);
   EXPECT_EQ(scene.models, std::vector<std::string>{"m"});
   std::map<std::string, Collision> found;
@@ -126,10 +130,10 @@ TEST_F(LoadWorldPoses, WhatIsMergedStandsWhereItsModelWould) {
 
 /// As the real Gazebo 11 does with these two.
 TEST_F(LoadWorldPoses, RelativeToAFrameThatIsNotThereIsAWarning) {
-  const Scene scene = load("<model name='m'>\n<pose relative_to='nope'>1 2 3 0 0 0</pose>"
-                           "<link name='l'>\n<pose relative_to='nix'>0 0 1 0 0 0</pose>" +
-                           ball("c", "<pose relative_to='nada'>0 1 0 0 0 0</pose>") +
-                           "</link></model>");
+  const Scene scene = load(
+      "<model name='m'>\n<pose relative_to='nope'>1 2 3 0 0 0</pose>"
+      "<link name='l'>\n<pose relative_to='nix'>0 0 1 0 0 0</pose>" +
+      ball("c", "<pose relative_to='nada'>0 1 0 0 0 0</pose>") + "</link></model>");
   ASSERT_EQ(scene.collisions.size(), 1U);
   expect_pose(scene.collisions[0], {1.0, 3.0, 4.0}, 0.0);
   ASSERT_EQ(warnings().size(), 3U);
@@ -139,25 +143,28 @@ TEST_F(LoadWorldPoses, RelativeToAFrameThatIsNotThereIsAWarning) {
 }
 
 TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
-  load("<model name='m'><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>"
-       "<link name='l'><pose relative_to='f'/>" +
-       ball("c", "") + "</link></model>");
+  load(
+      "<model name='m'><frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>"
+      "<link name='l'><pose relative_to='f'/>" +
+      ball("c", "") + "</link></model>");
   EXPECT_EQ(warnings().size(), 1U);
 }
 
 TEST_F(LoadWorldPoses, DegreesAndQuaternions) {
   const Scene scene = load(
       "<model name='m'><pose degrees='true'>1 0 0 0 0 90</pose><link name='l'>"
-      "<pose rotation_format='quat_xyzw'>1 0 0  0 0 0.70710678118654757 0.70710678118654757</pose>" +
+      "<pose rotation_format='quat_xyzw'>1 0 0  0 0 0.70710678118654757 "
+      "0.70710678118654757</pose>" +
       ball("c", "") + "</link></model>");
   expect_pose(scene.collisions.at(0), {1.0, 1.0, 0.0}, 2.0);
 }
 
 TEST_F(LoadWorldPoses, TheOldNameOfRelativeTo) {
-  const Scene scene = load("<model name='m'><link name='a'><pose frame=''>0 0 1 0 0 0</pose></link>"
-                           "<link name='b'><pose frame='a'>0 0 1 0 0 0</pose>" +
-                               ball("c", "") + "</link></model>",
-                           "1.6");
+  const Scene scene = load(
+      "<model name='m'><link name='a'><pose frame=''>0 0 1 0 0 0</pose></link>"
+      "<link name='b'><pose frame='a'>0 0 1 0 0 0</pose>" +
+          ball("c", "") + "</link></model>",
+      "1.6");
   expect_pose(scene.collisions.at(0), {0.0, 0.0, 2.0}, 0.0);
 }
 

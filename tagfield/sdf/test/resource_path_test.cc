@@ -22,9 +22,13 @@ class ResourcePath : public WorldTest {
     return find_resource(uri, naming_file, paths).path;
   }
 
-  static constexpr const char* kVariables[] = {
-      "SDF_PATH",           "GAZEBO_MODEL_PATH",   "IGN_GAZEBO_RESOURCE_PATH",
-      "GZ_SIM_RESOURCE_PATH", "GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH", "HOME"};
+  static constexpr const char* kVariables[] = {"SDF_PATH",
+                                               "GAZEBO_MODEL_PATH",
+                                               "IGN_GAZEBO_RESOURCE_PATH",
+                                               "GZ_SIM_RESOURCE_PATH",
+                                               "GZ_FUEL_CACHE_PATH",
+                                               "IGN_FUEL_CACHE_PATH",
+                                               "HOME"};
 };
 
 TEST_F(ResourcePath, FoldersAreInTheDocumentedOrder) {
@@ -68,8 +72,7 @@ TEST_F(ResourcePath, RelativePathsAreBesideTheirFileFirst) {
   const ResourcePaths paths{{path_of("lib"), path_of("crate")}};
   EXPECT_EQ(find("meshes/a.dae", model, paths), beside);
   EXPECT_EQ(find("meshes/b.dae", model, paths), elsewhere);
-  EXPECT_EQ(find("../crate/meshes/a.dae", model, paths),
-            path_of("crate/../crate/meshes/a.dae"));
+  EXPECT_EQ(find("../crate/meshes/a.dae", model, paths), path_of("crate/../crate/meshes/a.dae"));
 }
 
 TEST_F(ResourcePath, NothingIsFoundForWhatIsNotThere) {
@@ -126,8 +129,7 @@ TEST_F(ResourcePath, FuelsModelsAreFoundInItsCachesAndByTheirNames) {
   EXPECT_EQ(find(fuel + "shelf/2", path_of("home/w.sdf"), paths), cache + "2");
   EXPECT_EQ(find(fuel + "shelf/tip/files/model.sdf", path_of("home/w.sdf"), paths),
             cache + "10/model.sdf");
-  const FoundResource plane =
-      find_resource(fuel + "Ground Plane", path_of("home/w.sdf"), paths);
+  const FoundResource plane = find_resource(fuel + "Ground Plane", path_of("home/w.sdf"), paths);
   EXPECT_EQ(plane.path, path_of("home/models/ground_plane"));
   EXPECT_NE(plane.oddity.find("not in Fuel's caches"), std::string::npos);
 }
