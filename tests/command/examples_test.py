@@ -199,8 +199,8 @@ def the_installed_package(context):
                   f"{name} names the source or the build tree")
 
 
-OTHER_PACKAGES = ("Boost", "CLI11", "PkgConfig", "assimp", "embree", "nlohmann_json",
-                  "sdformat12", "yaml-cpp")
+OTHER_PACKAGES = ("Boost", "CLI11", "PNG", "PkgConfig", "assimp", "embree", "nlohmann_json",
+                  "yaml-cpp")
 
 
 @case

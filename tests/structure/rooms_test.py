@@ -46,8 +46,6 @@ UNDER_ARCHIVE = (ARCHIVE, "tagfield/base/")
 UNDER_ROSBAG2 = (ROSBAG2, MCAP, "tagfield/base/", "tagfield/scenario/yaml_map.h")
 # The thin mains that join Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
-# sdformat hands over its poses in this.
-MATH = "ignition/math/"
 # Nothing in a room prints, and few look at a clock.
 QUIET = {
     r"\bstd::c(out|err|log)\b": "prints",
@@ -58,10 +56,8 @@ QUIET = {
         "draws random numbers by itself",
     r"<sys/socket\.h>|<netinet/": "opens sockets",
 }
-# sdformat prints to std::cerr whatever it is told; read_root.cc takes the stream away for a while.
 # field_worker.cc says what CPU time its thread took.
-QUIET_EXCEPT = {("tagfield/sdf/internal/read_root.cc", "prints"),
-                ("tagfield/field/field_worker.cc", "looks at a clock")}
+QUIET_EXCEPT = {("tagfield/field/field_worker.cc", "looks at a clock")}
 # Who makes the truth known, or judges by it.
 TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "experiment"}
 # The robot's filter draws from a generator that a RandomStream has seeded, one a scan.
@@ -165,11 +161,9 @@ def include_faults(path, text):
             yield f"{place}: internal to another room"
         if own and "/test/" in header and not is_test(path):
             yield f"{place}: a test's helper"
-        if header.startswith("sdf/") and not path.startswith(("tagfield/sdf/", CLASSIC, GZ,
-                                                                       COMMON)):
-            yield f"{place}: only sdf/ includes sdformat"
-        math = header.startswith(MATH) and path.startswith("tagfield/sdf/")
-        if (header.startswith(ALIENS) and not math and
+        if header.startswith("sdf/") and not path.startswith((CLASSIC, GZ, COMMON)):
+            yield f"{place}: only the plugins for Gazebo include sdformat"
+        if (header.startswith(ALIENS) and
                 not path.startswith(("adapters/", "tests/gazebo/", "tests/gz/"))):
             yield f"{place}: no ROS, Gazebo, MRPT or MPI here"
         if (header.endswith(("/truth.h", "/truth_csv.h")) and not may_see_truth(path) and
@@ -319,7 +313,8 @@ PLANTED = (  # a file, its content, what must be said of it
     ("tagfield/scenario/a.cc", '#include "tagfield/report/page.h"\n',
      "scenario/ must not know report/"),
     ("tagfield/localization/a.cc", '#include "tagfield/stream/truth.h"\n', "may see it"),
-    ("tagfield/world/a.cc", "#include <sdf/Root.hh>\n", "only sdf/ includes sdformat"),
+    ("tagfield/world/a.cc", "#include <sdf/Root.hh>\n",
+     "only the plugins for Gazebo include sdformat"),
     ("benchmarks/a.cc", '#include "tagfield/stream/truth.h"\n', "may see it"),
     ("tagfield/simulator/a.cc", '#include "tagfield/sdf/internal/poses.h"\n',
      "internal to another room"),

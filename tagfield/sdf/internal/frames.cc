@@ -70,8 +70,9 @@ RigidTransform pose_in(const Scope& scope, const Frame& frame, const RigidTransf
   if (frame.relative_to.empty()) return X_SI * frame.X_RF;
   const auto X_SR = pose_in(scope, frame.relative_to);
   if (X_SR) return *X_SR * frame.X_RF;
+  const tinyxml2::XMLElement* pose = frame.element->FirstChildElement("pose");
   diagnostics.warn(
-      location_of(*frame.element),
+      location_of(pose == nullptr ? *frame.element : *pose),
       fmt::format("there is no frame '{}' here that <{}> '{}' could be relative to; its pose is "
                   "taken as relative to what it stands in",
                   frame.relative_to, frame.element->Name(), attribute_of(*frame.element, "name")));

@@ -137,7 +137,7 @@ TEST_F(LoadWorldPoses, RelativeToAFrameThatIsNotThereIsAWarning) {
   ASSERT_EQ(scene.collisions.size(), 1U);
   expect_pose(scene.collisions[0], {1.0, 3.0, 4.0}, 0.0);
   ASSERT_EQ(warnings().size(), 3U);
-  EXPECT_NE(warnings()[0].find("world.sdf:3: there is no frame 'nope' here that <model> 'm'"),
+  EXPECT_NE(warnings()[0].find("world.sdf:4: there is no frame 'nope' here that <model> 'm'"),
             std::string::npos)
       << warnings()[0];
 }
