@@ -14,6 +14,7 @@
 #include "tagfield/experiment/effect_breakdown.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/tracing_forecast.h"
 #include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/staged_folder.h"
@@ -167,6 +168,10 @@ int run(const RunArguments& arguments) {
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
   apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
+  // Other warnings come with the result.
+  Diagnostics beforehand;
+  warn_of_long_tracing(scenario, beforehand);
+  print_warnings(beforehand);
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   StagedFolder folder(out);
