@@ -24,6 +24,9 @@ struct SuiteMethod {
   std::string method;                  ///< "hyperbola"
   std::vector<Override> localization;  ///< Of the scenario's, with paths "localization.KEY".
   Location location;                   ///< Where it was written, for messages.
+  /// A program to be run as the method `method`, which whoever runs the suite must allow; "" for
+  /// none. This room starts none.
+  std::string command{};
 };
 
 /// Reads that get lost on the way.
