@@ -115,10 +115,11 @@ int run_program(const std::string& command, const std::string& folder, const std
   pid_t program = 0;
   const int fault = ::posix_spawn(&program, "/bin/sh", &files, nullptr, arguments, environ);
   ::posix_spawn_file_actions_destroy(&files);
-  if (fault != 0) throw Error(fmt::format("can't be started: {}", std::strerror(fault)));
+  if (fault != 0)
+    throw Error(fmt::format("the command can't be started: {}", std::strerror(fault)));
   int status = 0;
   while (::waitpid(program, &status, 0) < 0) {
-    if (errno != EINTR) throw Error(fmt::format("was lost: {}", std::strerror(errno)));
+    if (errno != EINTR) throw Error(fmt::format("the command was lost: {}", std::strerror(errno)));
   }
   return status;
 }
@@ -137,14 +138,16 @@ void run_command(const std::string& command, const fs::path& folder) {
   const fs::path log = folder / "output.txt";
   const int status = run_program(command, folder.string(), log.string());
   if (WIFSIGNALED(status)) {
-    throw Error(fmt::format("was ended by signal {}{}", WTERMSIG(status), last_line(log)));
+    throw Error(
+        fmt::format("the command was ended by signal {}{}", WTERMSIG(status), last_line(log)));
   }
   if (WEXITSTATUS(status) != 0) {
-    throw Error(fmt::format("ended with code {}{}", WEXITSTATUS(status), last_line(log)));
+    throw Error(
+        fmt::format("the command ended with code {}{}", WEXITSTATUS(status), last_line(log)));
   }
   if (!fs::exists(folder / "estimates.csv")) {
-    throw Error(fmt::format("wrote no estimates.csv into the folder that it was given{}",
-                            last_line(log)));
+    throw Error(fmt::format(
+        "the command wrote no estimates.csv into the folder that it was given{}", last_line(log)));
   }
 }
 
@@ -206,7 +209,7 @@ Method command_method(const std::string& name, const std::string& command) {
     try {
       return locate(command, problem);
     } catch (const Error& error) {
-      throw Error(fmt::format("method '{}': the command {}", name, error.what()));
+      throw Error(fmt::format("method '{}': {}", name, error.what()));
     }
   });
   return method;

@@ -89,8 +89,8 @@ int score(const ScoreArguments& arguments) {
 
 void add_score_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ScoreArguments>();
-  CLI::App* command = app.add_subcommand(
-      "score", "Judge places that another program estimated from a run's reads");
+  CLI::App* command =
+      app.add_subcommand("score", "Judge places that another program estimated from a run's reads");
   command
       ->add_option("ESTIMATES", arguments->estimates,
                    "CSV: tag,x_m,y_m and, where they are known, z_m,verdict,expected_error_m, …")
@@ -101,13 +101,15 @@ void add_score_command(CLI::App& app, Action& chosen) {
       ->required();
   command->add_flag("--json", arguments->as_json, "Print JSON, as summary.json");
   command->footer(
-      "An estimator in any language takes part: it reads reads.csv and antenna_poses.csv of a run,\n"
+      "An estimator in any language takes part: it reads reads.csv and antenna_poses.csv of a "
+      "run,\n"
       "writes a table, and is judged as Tagfield's own methods are:\n\n"
       "  tagfield run scenarios/paper_warehouse.yaml --out runs/a --record-only\n"
       "  python3 mine.py runs/a\n"
       "  tagfield score runs/a/estimates.csv --run runs/a\n\n"
       "A tag with several rows, best first, is ambiguous; one without a row is not located. The\n"
-      "columns are those of estimates.csv (docs/files.md). 'tagfield bench --command' compares such\n"
+      "columns are those of estimates.csv (docs/files.md). 'tagfield bench --command' compares "
+      "such\n"
       "a program with others over many seeds.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return score(*arguments); }; });
 }

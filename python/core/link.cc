@@ -114,14 +114,12 @@ std::unique_ptr<AntennaLinks> links_from(const LoadedPtr& loaded, const std::str
   const AntennaSpec& from = antenna_named("link", scenario, antenna);
   const TagSpec& to = tag.empty() ? scenario.tags.front() : tag_named("link", scenario, tag);
   const Time time = time_from_seconds(time_s);
-  const Simulation simulation =
-      simulation_at(as_planned(scenario, unheard), scenario.seed, time);
+  const Simulation simulation = simulation_at(as_planned(scenario, unheard), scenario.seed, time);
   const RigidTransform X_WA = simulation.antenna_pose(from, time);
   if (physical(from.parameters) == nullptr) {
     return std::make_unique<PaperLinksFrom>(paper(from.parameters), X_WA.translation);
   }
-  const Eigen::Quaterniond R_WT =
-      from_xyz_rpy(Eigen::Vector3d::Zero(), tag_rpy_rad).rotation;
+  const Eigen::Quaterniond R_WT = from_xyz_rpy(Eigen::Vector3d::Zero(), tag_rpy_rad).rotation;
   return std::make_unique<PhysicalLinksFrom>(loaded, from, to, X_WA, R_WT, time);
 }
 
@@ -161,14 +159,14 @@ py::object batch(AntennaLinks& self, const Places& places_m) {
 void bind_links(py::module_& module) {
   py::class_<LinkRow>(module, "LinkState", "A link's powers and phase, without noise.")
       .def_readonly("distance_m", &LinkRow::distance_m)
-      .def_readonly("tag_dbm", &LinkRow::tag_dbm,
-                    "At the chip [dBm]; NaN by the paper's model.")
+      .def_readonly("tag_dbm", &LinkRow::tag_dbm, "At the chip [dBm]; NaN by the paper's model.")
       .def_readonly("reply_dbm", &LinkRow::reply_dbm, "At the reader's port: its RSSI [dBm].")
       .def_readonly("phase_rad", &LinkRow::phase_rad, "In [0, 2π), growing with distance [rad].")
       .def_readonly("heard", &LinkRow::heard, "Whether tag and reader have power enough.")
       .def("__repr__", [](const LinkRow& row) {
-        return py::str("LinkState(distance_m={:.3f}, tag_dbm={:.2f}, reply_dbm={:.2f}, "
-                       "phase_rad={:.4f}, heard={})")
+        return py::str(
+                   "LinkState(distance_m={:.3f}, tag_dbm={:.2f}, reply_dbm={:.2f}, "
+                   "phase_rad={:.4f}, heard={})")
             .format(row.distance_m, row.tag_dbm, row.reply_dbm, row.phase_rad, row.heard);
       });
   py::class_<AntennaLinks>(

@@ -25,9 +25,9 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
     robot_pose_ = method(outlet, "on_robot_pose");
     antenna_pose_ = method(outlet, "on_antenna_pose");
     distance_ = method(outlet, "on_distance");
-    for (const Held* any : {&read_, &update_, &antenna_added_, &antenna_removed_, &pose_,
-                            &tag_added_, &tag_moved_, &tag_removed_, &robot_pose_, &antenna_pose_,
-                            &distance_}) {
+    for (const Held* any :
+         {&read_, &update_, &antenna_added_, &antenna_removed_, &pose_, &tag_added_, &tag_moved_,
+          &tag_removed_, &robot_pose_, &antenna_pose_, &distance_}) {
       if (*any) return;
     }
     throw Error("an outlet must be a function of a read, or have methods of tagfield.Outlet");
@@ -37,9 +37,7 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
   void on_update(const AntennaInfo& antenna, Time stamp) override {
     call(update_, antenna.name, to_seconds(stamp));
   }
-  void on_antenna_added(const AntennaInfo& antenna) override {
-    call(antenna_added_, antenna.name);
-  }
+  void on_antenna_added(const AntennaInfo& antenna) override { call(antenna_added_, antenna.name); }
   void on_antenna_removed(const std::string& name) override { call(antenna_removed_, name); }
   void on_pose(const AntennaInfo& /*antenna*/, const AntennaPose& pose) override {
     call(pose_, pose);
@@ -92,8 +90,9 @@ void bind_records(py::module_& module) {
       .def_readonly("rssi_dbm", &TagRead::rssi_dbm, "[dBm]")
       .def_readonly("doppler_hz", &TagRead::doppler_hz, "[Hz], or None where it is not told.")
       .def("__repr__", [](const TagRead& read) {
-        return py::str("Read(stamp_s={:.9f}, antenna={!r}, tag={!r}, phase_rad={:.4f}, "
-                       "rssi_dbm={:.1f})")
+        return py::str(
+                   "Read(stamp_s={:.9f}, antenna={!r}, tag={!r}, phase_rad={:.4f}, "
+                   "rssi_dbm={:.1f})")
             .format(to_seconds(read.stamp), read.antenna, read.tag, read.phase_rad, read.rssi_dbm);
       });
   py::class_<AntennaPose>(module, "Pose", "Where an antenna, or a robot, was at one time.")
@@ -104,8 +103,7 @@ void bind_records(py::module_& module) {
           "position_m", [](const AntennaPose& pose) { return pose.X_WA.translation; },
           "(3,) x, y, z [m, world].")
       .def_property_readonly(
-          "quaternion_xyzw",
-          [](const AntennaPose& pose) { return pose.X_WA.rotation.coeffs(); },
+          "quaternion_xyzw", [](const AntennaPose& pose) { return pose.X_WA.rotation.coeffs(); },
           "(4,) rotation from the antenna's frame to the world.");
   py::class_<TagPosition>(module, "Place", "Where a tag was from a time on.")
       .def_property_readonly(

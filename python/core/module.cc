@@ -1,5 +1,5 @@
-// The Python module tagfield._core: what of Tagfield is in C++. Users import tagfield, whose modules
-// in python/tagfield say what everything is for.
+// The Python module tagfield._core: what of Tagfield is in C++. Users import tagfield, whose
+// modules in python/tagfield say what everything is for.
 #include <pybind11/pybind11.h>
 
 #include <new>

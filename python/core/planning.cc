@@ -1,5 +1,3 @@
-#include "tagfield/planning/coverage.h"
-
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -10,6 +8,7 @@
 #include "python/core/arrays.h"
 #include "python/core/calls.h"
 #include "python/core/loaded.h"
+#include "tagfield/planning/coverage.h"
 #include "tagfield/planning/explanation_json.h"
 #include "tagfield/planning/link_at.h"
 #include "tagfield/planning/moment.h"
@@ -26,8 +25,7 @@ std::pair<std::string, std::string> explain(const LoadedPtr& loaded, const std::
   const Scenario scenario = as_planned(loaded->parts.scenario, diagnostics);
   const AntennaSpec& from = antenna_named("explain", scenario, antenna);
   const TagSpec& to = tag_named("explain", scenario, tag);
-  const LinkExplanation link =
-      explain_link_at(scenario, from, to, time_from_seconds(time_s), seed);
+  const LinkExplanation link = explain_link_at(scenario, from, to, time_from_seconds(time_s), seed);
   nlohmann::ordered_json json = to_json(link);
   json["warnings"] = diagnostics.warnings();
   return {json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
@@ -71,14 +69,13 @@ py::object tags_table(const Coverage& coverage, const std::vector<std::string>& 
                     tag.best.probability});
   }
   std::vector<std::string> verdicts;
-  for (const TagVerdict verdict : {TagVerdict::kNever, TagVerdict::kIntended,
-                                   TagVerdict::kAlsoOther, TagVerdict::kWrong}) {
+  for (const TagVerdict verdict :
+       {TagVerdict::kNever, TagVerdict::kIntended, TagVerdict::kAlsoOther, TagVerdict::kWrong}) {
     verdicts.emplace_back(word_of(verdict));
   }
-  return table(std::move(rows), {{"tag", tags.all()},
-                                 {"verdict", verdicts},
-                                 {"nearest", antennas},
-                                 {"antenna", antennas}});
+  return table(
+      std::move(rows),
+      {{"tag", tags.all()}, {"verdict", verdicts}, {"nearest", antennas}, {"antenna", antennas}});
 }
 
 py::dict to_python(Coverage coverage) {

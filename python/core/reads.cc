@@ -132,8 +132,8 @@ KnownBeforehand known_of(const Asked& asked, const LoadedPtr& loaded,
   }
   known.limits.max_expected_error_m =
       asked.number("max_expected_error_m", 0.0).value_or(known.limits.max_expected_error_m);
-  known.half_turns = asked.get<bool>("half_turns").has_value() ? asked.get<bool>("half_turns")
-                                                               : known.half_turns;
+  known.half_turns =
+      asked.get<bool>("half_turns").has_value() ? asked.get<bool>("half_turns") : known.half_turns;
   return known;
 }
 
@@ -210,9 +210,8 @@ py::dict localize(const ReadsArgument& reads, const PosesArgument& poses,
   if (own || !told.empty()) options.settings = told;
   refuse_unused(told, {find_method(options.methods, method)}, options.methods);
   options.known = known_of(Asked(keywords, "localize"), loaded, tables.reads);
-  Localized localized = interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
-    return located(tables, options);
-  });
+  Localized localized = interruptible(
+      threads, py::none(), [&](const RunControl& /*control*/) { return located(tables, options); });
   py::dict all = estimates_of(localized.outcomes);
   all["method"] = localized.result.method;
   all["why"] = localized.result.why;
@@ -337,8 +336,7 @@ py::dict to_python(const Calibration& calibration, const std::vector<std::string
     of["reads"] = antenna.reads;
     py::dict offsets;
     for (const ChannelOffset& offset : antenna.offsets) {
-      offsets[py::float_(offset.frequency_hz)] =
-          py::make_tuple(offset.value_rad, offset.sigma_rad);
+      offsets[py::float_(offset.frequency_hz)] = py::make_tuple(offset.value_rad, offset.sigma_rad);
     }
     of["offsets_rad"] = offsets;
     antennas[py::str(name)] = of;
@@ -362,13 +360,13 @@ py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const
     throw Error("calibrate: the reads have no phases, or all the same one");
   }
   Diagnostics diagnostics;
-  Calibration calibration =
-      interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
-        return tagfield::calibrate(tables.reads, tables.poses, tags, options, threads, diagnostics);
-      });
+  Calibration calibration = interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
+    return tagfield::calibrate(tables.reads, tables.poses, tags, options, threads, diagnostics);
+  });
   if (calibration.antennas.empty()) {
-    throw Error("calibrate: nothing to calibrate by: expected at least 30 reads of the tags by an "
-                "antenna with poses, whose phases go by their distances");
+    throw Error(
+        "calibrate: nothing to calibrate by: expected at least 30 reads of the tags by an "
+        "antenna with poses, whose phases go by their distances");
   }
   calibration.name = "calibration by Python";
   return to_python(calibration, diagnostics.warnings());
@@ -412,7 +410,8 @@ void bind_reads(py::module_& module) {
   module.def("place_dtype", [] { return py::dtype::of<TagRow>(); });
   module.def("methods", [] {
     std::vector<std::pair<std::string, std::string>> methods;
-    for (const Method& method : built_in_methods()) methods.emplace_back(method.name, method.summary);
+    for (const Method& method : built_in_methods())
+      methods.emplace_back(method.name, method.summary);
     return methods;
   });
 }

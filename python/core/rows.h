@@ -17,8 +17,7 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 class Names {
  public:
   std::int32_t number_of(const std::string& name) {
-    const auto [found, is_new] =
-        numbers_.emplace(name, static_cast<std::int32_t>(names_.size()));
+    const auto [found, is_new] = numbers_.emplace(name, static_cast<std::int32_t>(names_.size()));
     if (is_new) names_.push_back(name);
     return found->second;
   }

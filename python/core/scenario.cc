@@ -117,11 +117,10 @@ py::list run_seeds(const LoadedPtr& loaded, const std::vector<std::uint64_t>& se
     attach_python(py::reinterpret_borrow<py::object>(outlet), attached);
   }
   const RunOptions how{locates, method};
-  std::vector<RunResult> results =
-      interruptible(threads, progress, [&](RunControl& control) {
-        control.outlets = attached;
-        return run_all(*loaded, seeds, how, control);
-      });
+  std::vector<RunResult> results = interruptible(threads, progress, [&](RunControl& control) {
+    control.outlets = attached;
+    return run_all(*loaded, seeds, how, control);
+  });
   py::list runs;
   for (RunResult& result : results) runs.append(to_python(std::move(result)));
   return runs;
@@ -136,9 +135,8 @@ LoadedPtr load(const std::string& path, const std::vector<Override>& overrides) 
 LoadedPtr load_text(const std::string& text, const std::string& name,
                     const std::vector<Override>& overrides, const World* world) {
   auto loaded = std::make_shared<LoadedScenario>();
-  loaded->parts = scenario_from_text(text, name, overrides,
-                                     world == nullptr ? nullptr : &world->scene,
-                                     loaded->diagnostics);
+  loaded->parts = scenario_from_text(
+      text, name, overrides, world == nullptr ? nullptr : &world->scene, loaded->diagnostics);
   return loaded;
 }
 
@@ -264,8 +262,8 @@ void bind_world(py::module_& module) {
       .def_property_readonly("solids", &solids_of)
       .def("add_box", &add_box, py::arg("name"), py::arg("size_m"), py::arg("position_m"),
            py::arg("rpy_rad") = zero)
-      .def("add_cylinder", &add_cylinder, py::arg("name"), py::arg("radius_m"),
-           py::arg("length_m"), py::arg("position_m"), py::arg("rpy_rad") = zero)
+      .def("add_cylinder", &add_cylinder, py::arg("name"), py::arg("radius_m"), py::arg("length_m"),
+           py::arg("position_m"), py::arg("rpy_rad") = zero)
       .def("add_sphere", &add_sphere, py::arg("name"), py::arg("radius_m"), py::arg("position_m"))
       .def("add_floor", &add_floor, py::arg("name"), py::arg("height_m"))
       .def("add_mesh", &add_mesh, py::arg("name"), py::arg("vertices_m"), py::arg("triangles"),
@@ -299,8 +297,8 @@ void bind_scenarios(py::module_& module) {
       .def_property_readonly("antennas", &antennas_of)
       .def_property_readonly("robots", &robots_of)
       .def_property_readonly("tags", &tag_places_of)
-      .def_property_readonly(
-          "warnings", [](const LoadedScenario& self) { return self.diagnostics.warnings(); })
+      .def_property_readonly("warnings",
+                             [](const LoadedScenario& self) { return self.diagnostics.warnings(); })
       .def("outlines", &outlines_of, py::arg("low_m"), py::arg("high_m"));
   module.def("load", &load, py::arg("path"), py::arg("overrides"),
              py::call_guard<py::gil_scoped_release>());

@@ -24,8 +24,7 @@ class PythonDriver final : public RemoteControl {
   BodyVelocity wanted(Time now) override {
     if (policy_) {
       const py::gil_scoped_acquire lock;
-      const auto [forward, turn] =
-          py::cast<std::pair<double, double>>((*policy_)(to_seconds(now)));
+      const auto [forward, turn] = py::cast<std::pair<double, double>>((*policy_)(to_seconds(now)));
       drive(forward, turn);
     }
     return velocity_;
@@ -69,7 +68,8 @@ class Stepping {
     const RemoteDriving* driving = nullptr;
     if (!robot.empty()) {
       driver_ = std::make_shared<PythonDriver>(policy.is_none() ? nullptr : held(policy));
-      driving_ = {robot, driver_,
+      driving_ = {robot,
+                  driver_,
                   {std::make_shared<const RayScene>(loaded_->parts.scene), scenario_.obstacles}};
       driving = &driving_;
       scenario_.pose.source = PoseSource::kOdometry;
@@ -148,9 +148,9 @@ class Stepping {
 py::object scan_of(Stepping& self) {
   const std::optional<LaserScan>& scan = self.driver().scan();
   if (!scan) return py::none();
-  return py::make_tuple(to_seconds(scan->stamp), scan->first_angle_rad, scan->angle_step_rad,
-                        scan->most_range_m, owned_array(scan->ranges_m,
-                                    {static_cast<py::ssize_t>(scan->ranges_m.size())}));
+  return py::make_tuple(
+      to_seconds(scan->stamp), scan->first_angle_rad, scan->angle_step_rad, scan->most_range_m,
+      owned_array(scan->ranges_m, {static_cast<py::ssize_t>(scan->ranges_m.size())}));
 }
 
 }  // namespace

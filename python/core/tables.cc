@@ -128,9 +128,8 @@ py::dict to_python(RunTables tables) {
   const std::vector<std::string>& tags = tables.tags.all();
   const std::vector<std::string>& robots = tables.robots.all();
   py::dict all;
-  all["reads"] =
-      table(std::move(tables.reads),
-            {{"reader", tables.readers.all()}, {"antenna", antennas}, {"tag", tags}});
+  all["reads"] = table(std::move(tables.reads),
+                       {{"reader", tables.readers.all()}, {"antenna", antennas}, {"tag", tags}});
   all["poses"] = table(std::move(tables.poses), {{"name", antennas}});
   all["true_antennas"] = table(std::move(tables.true_antennas), {{"name", antennas}});
   all["true_robots"] = table(std::move(tables.true_robots), {{"name", robots}});
@@ -216,9 +215,8 @@ py::dict estimates_of(const std::vector<TagOutcome>& outcomes) {
                                              to_string(Verdict::kAmbiguous),
                                              to_string(Verdict::kNotLocated)};
   py::dict all;
-  all["estimates"] = table(
-      std::move(estimates),
-      {{"tag", tags.all()}, {"verdict", verdicts}, {"reason", reasons.all()}});
+  all["estimates"] = table(std::move(estimates),
+                           {{"tag", tags.all()}, {"verdict", verdicts}, {"reason", reasons.all()}});
   all["candidates"] = table(std::move(candidates), {{"tag", tags.all()}});
   return all;
 }

@@ -46,8 +46,7 @@ class EstimateRows {
     Candidate candidate;
     candidate.p_WT.x() = table_.length(row, table_.column("x_m"));
     candidate.p_WT.y() = table_.length(row, table_.column("y_m"));
-    candidate.p_WT.z() =
-        has(row, "z_m") ? table_.length(row, table_.column("z_m")) : height_(tag);
+    candidate.p_WT.z() = has(row, "z_m") ? table_.length(row, table_.column("z_m")) : height_(tag);
     if (has(row, "rms_m")) candidate.rms_m = not_negative(row, "rms_m");
     candidate.covariance = covariance(row);
     if (candidate.covariance) {

@@ -32,9 +32,8 @@ namespace {
 WorldSpec world_of(YamlMap map, bool is_given) {
   WorldSpec world;
   if (map.has("path") == is_given) {
-    map.self().fail(is_given
-                        ? "has a 'path', but the world was given: leave one of them out"
-                        : "has no 'path': give the world's file with --set world.path=FILE");
+    map.self().fail(is_given ? "has a 'path', but the world was given: leave one of them out"
+                             : "has no 'path': give the world's file with --set world.path=FILE");
   }
   if (!is_given) world.path = resolve_path(map.at("path"));
   for (const YamlValue& folder : map.list("model_paths")) {
@@ -424,7 +423,8 @@ ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
     YamlMap map(YamlValue(root, path, ""));
-    return {scenario_of(map, scene != nullptr, methods, diagnostics), key_without_physical_antenna(map)};
+    return {scenario_of(map, scene != nullptr, methods, diagnostics),
+            key_without_physical_antenna(map)};
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
@@ -487,9 +487,8 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const std::vector<Override>& overrides,
                                            Diagnostics& diagnostics,
                                            const std::vector<Method>& methods) {
-  return with_world(
-      read_scenario(read_yaml(path), path, overrides, nullptr, methods, diagnostics), path, nullptr,
-      diagnostics);
+  return with_world(read_scenario(read_yaml(path), path, overrides, nullptr, methods, diagnostics),
+                    path, nullptr, diagnostics);
 }
 
 ScenarioWithWorld scenario_from_text(const std::string& text, const std::string& name,
