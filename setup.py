@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
@@ -29,7 +30,7 @@ class CMakeBuild(build_ext):
         if "TAGFIELD_BUILD" not in os.environ:
             subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             "-DCMAKE_UNITY_BUILD=ON", "-DTAGFIELD_COMPONENTS=planning;experiment",
-                            "-DTAGFIELD_PYTHON=ON"], check=True)
+                            "-DTAGFIELD_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
             subprocess.run(["cmake", "--build", build, "--target", "tagfield_python"], check=True)
         prefix = target.parent / "tagfield.installed"
         subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", prefix], check=True)

@@ -135,9 +135,9 @@ LinkRow one_link(AntennaLinks& self, double x_m, double y_m, double z_m) {
   return row;
 }
 
-using Places = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using PlacesArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-py::object batch(AntennaLinks& self, const Places& places_m) {
+py::object batch(AntennaLinks& self, const PlacesArray& places_m) {
   if (places_m.ndim() != 2 || places_m.shape(1) != 3) {
     throw Error("link: places_m must be of shape (N, 3)");
   }
@@ -158,7 +158,7 @@ py::object batch(AntennaLinks& self, const Places& places_m) {
 
 void bind_links(py::module_& module) {
   py::class_<LinkRow>(module, "LinkState", "A link's powers and phase, without noise.")
-      .def_readonly("distance_m", &LinkRow::distance_m)
+      .def_readonly("distance_m", &LinkRow::distance_m, "From the antenna to the tag [m].")
       .def_readonly("tag_dbm", &LinkRow::tag_dbm, "At the chip [dBm]; NaN by the paper's model.")
       .def_readonly("reply_dbm", &LinkRow::reply_dbm, "At the reader's port: its RSSI [dBm].")
       .def_readonly("phase_rad", &LinkRow::phase_rad, "In [0, 2π), growing with distance [rad].")

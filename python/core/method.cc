@@ -136,10 +136,11 @@ void bind_methods(py::module_& module) {
       .def_property_readonly(
           "threads", [](const ProblemView& view) { return view.threads; },
           "On how many threads the method may work.");
-  py::class_<Method>(module, "Method")
+  py::class_<Method>(module, "Method",
+                     "A localization method of your own, as tagfield.method() makes one.")
       .def(py::init(&method_of), py::arg("name"), py::arg("summary"), py::arg("function"))
-      .def_readonly("name", &Method::name)
-      .def_readonly("summary", &Method::summary);
+      .def_readonly("name", &Method::name, "As tables call it.")
+      .def_readonly("summary", &Method::summary, "One line for people.");
 }
 
 }  // namespace tagfield::python

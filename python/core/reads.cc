@@ -19,7 +19,7 @@
 namespace tagfield::python {
 namespace {
 
-using Places = std::map<std::string, Eigen::Vector3d>;
+using PlacesById = std::map<std::string, Eigen::Vector3d>;
 
 /// What Python knows beforehand, as keywords; what it does not is None.
 class Asked {
@@ -127,7 +127,7 @@ KnownBeforehand known_of(const Asked& asked, const LoadedPtr& loaded,
   take_offsets(asked, reads, known);
   take_area(asked, known);
   take_pose_error(asked, known);
-  if (const auto references = asked.get<Places>("reference_tags")) {
+  if (const auto references = asked.get<PlacesById>("reference_tags")) {
     known.reference_tags = *references;
   }
   known.limits.max_expected_error_m =
@@ -349,7 +349,7 @@ py::dict to_python(const Calibration& calibration, const std::vector<std::string
   return all;
 }
 
-py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const Places& tags,
+py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const PlacesById& tags,
                    double place_sigma_m, double time_sigma_s, int threads) {
   const Tables tables = tables_from(reads, poses, {});
   CalibrationOptions options;

@@ -88,13 +88,13 @@ class Stepping {
 
   /// What came since the last call.
   py::dict take() {
-    RunTables taken = tables_;  // Names go on counting where they are.
-    tables_.reads.clear();
-    tables_.poses.clear();
-    tables_.true_antennas.clear();
-    tables_.true_robots.clear();
-    tables_.true_tags.clear();
-    tables_.distances.clear();
+    RunTables taken;
+    std::swap(taken, tables_);
+    // Names go on counting where they are.
+    tables_.readers = taken.readers;
+    tables_.antennas = taken.antennas;
+    tables_.tags = taken.tags;
+    tables_.robots = taken.robots;
     return to_python(std::move(taken));
   }
 

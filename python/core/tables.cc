@@ -48,7 +48,7 @@ RigidTransform transform_of(const PoseRow& row, std::size_t number) {
 }
 
 CandidateRow row_of(const Candidate& candidate, std::int32_t tag, std::size_t number) {
-  CandidateRow row{};
+  auto row = CandidateRow();
   row.tag = tag;
   row.number = static_cast<std::int32_t>(number);
   put(candidate.p_WT, row.position_m);
@@ -60,7 +60,7 @@ CandidateRow row_of(const Candidate& candidate, std::int32_t tag, std::size_t nu
 
 EstimateRow row_of(const TagOutcome& outcome, Names& tags, Names& reasons) {
   const TagEstimate& estimate = outcome.estimate;
-  EstimateRow row{};
+  auto row = EstimateRow();
   row.tag = tags.number_of(estimate.tag);
   row.verdict = static_cast<std::int32_t>(estimate.verdict);
   row.reason = reasons.number_of(estimate.reason);
@@ -87,18 +87,20 @@ EstimateRow row_of(const TagOutcome& outcome, Names& tags, Names& reasons) {
 }  // namespace
 
 ReadRow row_of(const TagRead& read, RunTables& names) {
-  return {read.stamp.time_since_epoch().count(),
-          names.readers.number_of(read.reader),
-          names.antennas.number_of(read.antenna),
-          names.tags.number_of(read.tag),
-          read.frequency_hz,
-          read.phase_rad,
-          read.rssi_dbm,
-          read.doppler_hz.value_or(kUnknown)};
+  auto row = ReadRow();  // All bytes are set, of what lies between the columns too.
+  row.stamp_ns = read.stamp.time_since_epoch().count();
+  row.reader = names.readers.number_of(read.reader);
+  row.antenna = names.antennas.number_of(read.antenna);
+  row.tag = names.tags.number_of(read.tag);
+  row.frequency_hz = read.frequency_hz;
+  row.phase_rad = read.phase_rad;
+  row.rssi_dbm = read.rssi_dbm;
+  row.doppler_hz = read.doppler_hz.value_or(kUnknown);
+  return row;
 }
 
 PoseRow row_of(const AntennaPose& pose, Names& names) {
-  PoseRow row{};
+  auto row = PoseRow();
   row.stamp_ns = pose.stamp.time_since_epoch().count();
   row.name = names.number_of(pose.antenna);
   put(pose.X_WA.translation, row.position_m);
@@ -110,7 +112,7 @@ PoseRow row_of(const AntennaPose& pose, Names& names) {
 }
 
 void TableRecorder::on_tag_added(const TagPosition& tag, const std::string& /*label*/) {
-  TagRow row{};
+  auto row = TagRow();
   row.stamp_ns = tag.stamp.time_since_epoch().count();
   row.tag = tables_.tags.number_of(tag.tag);
   put(tag.p_WT, row.position_m);

@@ -223,12 +223,12 @@ def _table_of(data: Any, dtype: np.dtype, what: str, make: Any) -> Table:
     if not isinstance(data, Table) or data.dtype != dtype:
         raise _core.Error(f"{what}: expected a table as a run's, a DataFrame or a mapping of columns, got "
                           f"{type(data).__name__}")
-    return np.ascontiguousarray(data.reshape(-1))
+    return Table(np.ascontiguousarray(data.reshape(-1)), data.categories)
 
 
 def _reads_argument(reads: Any) -> _core.ReadsArgument:
     table = _table_of(reads, _core.read_dtype(), "reads", reads_table)
-    names = reads.categories if isinstance(reads, Table) else table.categories
+    names = table.categories
     return _core.ReadsArgument(table, names["reader"], names["antenna"], names["tag"])
 
 

@@ -15,7 +15,7 @@ from ._runs import Coverage, Explanation, Run, Simulation, Tracks
 
 __all__ = ["Outlet", "Scenario", "World", "load", "share"]
 
-_PACKAGE = Path(__file__).resolve().parent
+_PACKAGE = Path(__file__).absolute().parent  # Links are not followed: the files lie beside them.
 
 
 def share(name: str) -> str:
@@ -290,7 +290,7 @@ class Scenario:
 
         robot: name of the one that you drive, by ``sim.drive(v, w)`` or by `policy`, a function of the
         time [s] that returns forward velocity [m/s] and turn rate [rad/s]. It believes its wheels
-        (``pose.wheel_noise``), walls don't stop it, and it never arrives: give the scenario a
+        (``navigation.odometry``), walls don't stop it, and it never arrives: give the scenario a
         ``duration_s``.
         """
         if policy is not None and not robot:
