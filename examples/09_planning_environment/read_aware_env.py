@@ -79,11 +79,10 @@ class GreedyPolicy:
         return (0.0 if abs(bearing) > 0.6 or close else 0.45), bearing
 
 
-def straight_on(observation):
-    """Up and down the aisle that it is in, whatever it reads."""
-    y, yaw = observation[1], observation[2]
-    ahead = math.copysign(1.0, math.sin(yaw))
-    return (0.0, 1.0) if y * ahead > 5.0 else (0.45, 0.5 * (ahead * math.pi / 2 - yaw) if abs(yaw) < 2 else 0.0)
+def at_random(seed):
+    """What a learner begins with."""
+    draw = np.random.default_rng(seed)
+    return lambda observation: (draw.uniform(0.0, 0.5), draw.uniform(-1.0, 1.0))
 
 
 def episode(env, policy, seed):
@@ -97,7 +96,7 @@ def episode(env, policy, seed):
 
 def main():
     env = ReadAwareEnv()
-    for name, policy in (("greedy", GreedyPolicy(env)), ("straight on", straight_on)):
+    for name, policy in (("greedy", GreedyPolicy(env)), ("random", at_random(1))):
         total, seconds, counts = episode(env, policy, seed=1)
         enough = int((counts >= env.wanted).sum())
         print(f"{name}: {enough} of {len(counts)} tags read {env.wanted} times in {seconds:.0f} s, return {total:.2f}")

@@ -136,7 +136,7 @@ def errors(results: Localization | Sequence[Localization] | dict[str, Any], ax: 
     ax.set_xlabel("error [mm]")
     ax.set_ylabel("share of located tags")
     ax.grid(alpha=0.3)
-    ax.legend(frameon=False)
+    ax.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.17))
     return ax
 
 
@@ -192,7 +192,8 @@ def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1
     ys = np.arange(y - radius_m, y + radius_m, step_m)
     values = sar.image(run.reads, run.poses, tag, xs, ys, z)
     picture = ax.imshow(values, origin="lower", cmap="viridis", vmin=0.0, vmax=1.0,
-                        extent=(xs[0], xs[-1], ys[0], ys[-1]))
+                        extent=(xs[0] - step_m / 2, xs[-1] + step_m / 2, ys[0] - step_m / 2,
+                                ys[-1] + step_m / 2))
     ax.figure.colorbar(picture, ax=ax, label="share of phases that fit")
     ax.plot(x, y, "o", markerfacecolor="none", markeredgecolor="white", markersize=11, label="true place")
     row, column = np.unravel_index(values.argmax(), values.shape)
