@@ -1,6 +1,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "apps/tagfield/scenario_arguments.h"
 #include "python/core/arrays.h"
 #include "python/core/loaded.h"
@@ -75,15 +77,22 @@ class PhysicalLinksFrom final : public AntennaLinks {
       rows[0] = row_of(places[0], link_of(view_, end_at(places[0]), paths_));
       return;
     }
-    std::vector<TagEnd> ends;
-    ends.reserve(places.size());
-    for (const Eigen::Vector3d& place : places) ends.push_back(end_at(place));
-    std::vector<RadioLink> links(places.size());
-    links_of(view_, ends, paths_, links);
-    for (std::size_t i = 0; i < places.size(); ++i) rows[i] = row_of(places[i], links[i]);
+    for (std::size_t begin = 0; begin < places.size(); begin += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, places.size() - begin);
+      some_links(places.subspan(begin, count), rows.subspan(begin, count));
+    }
   }
 
  private:
+  static constexpr std::size_t kAtOnce = 512;  ///< So few that they stay in the cache.
+
+  void some_links(std::span<const Eigen::Vector3d> places, std::span<LinkRow> rows) {
+    ends_.clear();
+    for (const Eigen::Vector3d& place : places) ends_.push_back(end_at(place));
+    links_.resize(places.size());
+    links_of(view_, ends_, paths_, links_);
+    for (std::size_t i = 0; i < places.size(); ++i) rows[i] = row_of(places[i], links_[i]);
+  }
   [[nodiscard]] TagEnd end_at(const Eigen::Vector3d& p_WT) const {
     return {*tag_, {R_WT_, p_WT}, key_};
   }
@@ -100,6 +109,8 @@ class PhysicalLinksFrom final : public AntennaLinks {
   CarrierNow carrier_;
   RadioView view_;
   std::vector<RadioPath> paths_;
+  std::vector<TagEnd> ends_;
+  std::vector<RadioLink> links_;
   Eigen::Vector3d p_WA_;
   Eigen::Quaterniond R_WT_;
   std::uint64_t key_;

@@ -61,7 +61,7 @@ def takes_the_least_that_a_table_can_say(context):
     check_equal(tags["tag2"]["verdict"], "ambiguous", "two rows")
     check_equal(tags["tag3"]["verdict"], "not_located", "no row")
     check_in("errors are horizontal", result.err, "warnings")
-    check_in("the run has no tag 'tagg3', did you mean 'tag3'", result.err, "warnings")
+    check_in("the run has no tag 'tagg3' (did you mean 'tag3'?)", result.err, "warnings")
 
 
 @case
