@@ -119,7 +119,7 @@ def test_maps_and_tracks_are_drawn(run):
 
 
 def test_bench_is_drawn(run):
-    compared = tagfield.bench(run.scenario, ["hyperbola", "sar"], {"a": {}, "b": {"pose.source": "noisy"}})
+    compared = tagfield.bench(run.scenario, ["hyperbola", "trilateration"], {"a": {}, "b": {"pose.source": "noisy"}})
     ax = tagfield.plot.bench(compared)
     assert len(ax.texts) == 4
     assert ax.get_title() == "mean error [mm]"
