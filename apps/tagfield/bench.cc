@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/tagfield/command_line.h"
+#include "apps/tagfield/command_method.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/method_text.h"
@@ -28,6 +29,8 @@ struct BenchArguments {
   std::optional<std::uint64_t> seeds;
   std::vector<std::string> methods;
   std::vector<std::string> conditions;
+  std::vector<std::string> commands;  ///< "NAME=COMMAND"
+  bool allow_commands = false;
   int threads = default_threads();
   bool no_page = false;
   bool no_timing = false;
@@ -39,9 +42,50 @@ int list_methods() {
   return kExitOk;
 }
 
+/// Those of the command line.
+void add_commands(const BenchArguments& arguments, Suite& suite) {
+  for (const std::string& argument : arguments.commands) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
+      fail({"--command " + argument, 0}, "expected NAME=COMMAND");
+    }
+    SuiteMethod method;
+    method.name = method.method = argument.substr(0, equals);
+    method.command = argument.substr(equals + 1);
+    for (const SuiteMethod& other : suite.methods) {
+      if (other.name != method.name) continue;
+      fail({"--command " + argument, 0}, "the suite has a method of that name");
+    }
+    suite.methods.push_back(std::move(method));
+  }
+}
+
+/// All that the suite may name. Its own commands must be allowed: a suite may be anybody's.
+std::vector<Method> methods_for(const Suite& suite, const BenchArguments& arguments) {
+  std::vector<Method> methods = built_in_methods();
+  for (const SuiteMethod& method : suite.methods) {
+    if (method.command.empty()) continue;
+    if (!method.location.file.empty() && !arguments.allow_commands) {
+      fail(method.location,
+           fmt::format("method '{}' is a command, which may do anything that you may: it is run "
+                       "with --allow-commands only: {}",
+                       method.name, method.command));
+    }
+    for (const Method& other : methods) {
+      if (other.name == method.name) {
+        fail(method.location, fmt::format("there is a method '{}' already", method.name));
+      }
+    }
+    methods.push_back(command_method(method.name, method.command));
+  }
+  return methods;
+}
+
 Suite suite_of(const BenchArguments& arguments) {
   if (arguments.suite.empty()) throw Error("bench: SUITE is missing (see tagfield bench --help)");
-  Suite suite = only(load_suite(arguments.suite), arguments.methods, arguments.conditions);
+  Suite suite = load_suite(arguments.suite);
+  add_commands(arguments, suite);
+  suite = only(suite, arguments.methods, arguments.conditions);
   if (!arguments.seeds) return suite;
   suite.count = *arguments.seeds;
   for (Condition& condition : suite.conditions) condition.count.reset();
@@ -89,7 +133,7 @@ int bench(const BenchArguments& arguments) {
   const Suite suite = suite_of(arguments);
   Diagnostics diagnostics;
   const PreparedSuite prepared = prepare(
-      suite, built_in_methods(), diagnostics,
+      suite, methods_for(suite, arguments), diagnostics,
       [&](const SuiteRecording& recording) { return read_recording(recording, diagnostics); });
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
@@ -120,6 +164,15 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       ->delimiter(',')
       ->take_all()
       ->allow_extra_args(false);
+  command
+      .add_option("--command", arguments.commands,
+                  "NAME=COMMAND: one more method, a program of yours. It gets a folder as its last "
+                  "argument, reads reads.csv and antenna_poses.csv there and writes estimates.csv. "
+                  "Can be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_flag("--allow-commands", arguments.allow_commands,
+                   "Run the commands that the suite itself names as methods");
   command.add_option("--out", arguments.out, "Folder for the results (default runs/bench_NAME)");
   command.add_option("--threads", arguments.threads, "Threads; only times depend on it")
       ->check(CLI::Range(1, 1024));

@@ -8,6 +8,7 @@
 #include "apps/tagfield/explain_text.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/planning/explanation_json.h"
+#include "tagfield/planning/link_at.h"
 #include "tagfield/planning/moment.h"
 
 namespace tagfield {
@@ -27,23 +28,7 @@ LinkExplanation explain_moment(const Scenario& scenario, const ExplainArguments&
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
   const Time time = time_from_seconds(arguments.time_s);
   try {
-    const Simulation simulation = simulation_at(scenario, seed, time);
-    LinkQuestion question{antenna,
-                          tag,
-                          time,
-                          simulation.antenna_pose(antenna, time),
-                          simulation.tag_pose(tag, time),
-                          seed,
-                          simulation.bodies_at(time)};
-    for (const TagSpec& other : scenario.tags) {
-      if (&other == &tag || !absence_of(other, time).empty()) continue;
-      question.other_tags.push_back({other, simulation.tag_pose(other, time)});
-    }
-    for (const AntennaSpec& other : scenario.antennas) {
-      if (&other == &antenna) continue;
-      question.other_antennas.push_back({other, simulation.antenna_pose(other, time)});
-    }
-    return explain_link(scenario, question);
+    return explain_link_at(scenario, antenna, tag, time, seed);
   } catch (const Error& error) {
     throw Error(fmt::format("explain: {}", error.what()));
   }

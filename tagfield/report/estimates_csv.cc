@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tagfield/base/error.h"
 #include "tagfield/files/csv.h"
 
 namespace tagfield {
@@ -11,6 +16,82 @@ std::string covariance_fields(const Candidate& candidate) {
   if (!candidate.covariance) return ",,,";
   const Eigen::Matrix3d& c = *candidate.covariance;
   return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", c(0, 0), c(0, 1), c(1, 1), c(2, 2));
+}
+
+/// The table's columns by name, of which few must be there.
+class EstimateRows {
+ public:
+  EstimateRows(const CsvTable& table, const HeightOfTag& height) : table_(table), height_(height) {
+    for (const char* needed : {"tag", "x_m", "y_m"}) static_cast<void>(table.column(needed));
+  }
+
+  [[nodiscard]] std::string word(const CsvRow& row, const char* column) const {
+    return table_.has_column(column) ? row.fields[table_.column(column)] : "";
+  }
+  [[nodiscard]] bool has(const CsvRow& row, const char* column) const {
+    return !word(row, column).empty();
+  }
+  [[nodiscard]] double number(const CsvRow& row, const char* column) const {
+    return table_.number(row, table_.column(column));
+  }
+  [[nodiscard]] Verdict verdict(const CsvRow& row) const {
+    if (!has(row, "verdict")) return Verdict::kLocated;
+    try {
+      return verdict_from_string(word(row, "verdict"));
+    } catch (const Error& error) {
+      fail({table_.file, row.line}, error.what());
+    }
+  }
+  [[nodiscard]] Candidate candidate(const CsvRow& row, const std::string& tag) const {
+    Candidate candidate;
+    candidate.p_WT.x() = table_.length(row, table_.column("x_m"));
+    candidate.p_WT.y() = table_.length(row, table_.column("y_m"));
+    candidate.p_WT.z() = has(row, "z_m") ? table_.length(row, table_.column("z_m")) : height_(tag);
+    if (has(row, "rms_m")) candidate.rms_m = not_negative(row, "rms_m");
+    candidate.covariance = covariance(row);
+    if (candidate.covariance) {
+      candidate.expected_error_m = std::sqrt(candidate.covariance->topLeftCorner<2, 2>().trace());
+    }
+    if (has(row, "expected_error_m")) {
+      candidate.expected_error_m = not_negative(row, "expected_error_m");
+    }
+    return candidate;
+  }
+
+ private:
+  [[nodiscard]] double not_negative(const CsvRow& row, const char* column) const {
+    const double value = number(row, column);
+    if (value < 0.0) fail({table_.file, row.line}, fmt::format("{} is below 0", column));
+    return value;
+  }
+  [[nodiscard]] std::optional<Eigen::Matrix3d> covariance(const CsvRow& row) const {
+    if (!has(row, "cov_xx") || !has(row, "cov_yy")) return std::nullopt;
+    Eigen::Matrix3d c = Eigen::Matrix3d::Zero();
+    c(0, 0) = not_negative(row, "cov_xx");
+    c(1, 1) = not_negative(row, "cov_yy");
+    if (has(row, "cov_xy")) c(0, 1) = c(1, 0) = number(row, "cov_xy");
+    if (has(row, "cov_zz")) c(2, 2) = not_negative(row, "cov_zz");
+    if (c(0, 1) * c(0, 1) > c(0, 0) * c(1, 1) * (1.0 + 1e-4)) {
+      fail({table_.file, row.line}, "cov_xx, cov_xy, cov_yy are no covariance");
+    }
+    return c;
+  }
+
+  const CsvTable& table_;
+  const HeightOfTag& height_;
+};
+
+/// One more row of a tag's.
+void add_row(const EstimateRows& rows, const CsvRow& row, TagEstimate& estimate) {
+  if (rows.has(row, "reads")) {
+    estimate.reads = static_cast<std::size_t>(std::max(rows.number(row, "reads"), 0.0));
+  }
+  estimate.reason = rows.word(row, "reason");
+  estimate.verdict = rows.verdict(row);
+  if (estimate.verdict != Verdict::kNotLocated) {
+    estimate.candidates.push_back(rows.candidate(row, estimate.tag));
+    if (estimate.candidates.size() > 1) estimate.verdict = Verdict::kAmbiguous;
+  }
 }
 
 }  // namespace
@@ -35,6 +116,20 @@ std::string estimates_to_csv(const std::vector<TagEstimate>& estimates) {
     }
   }
   return text;
+}
+
+std::vector<TagEstimate> read_estimates_csv(const std::string& path, const HeightOfTag& height) {
+  const CsvTable table = read_csv(path);
+  const EstimateRows rows(table, height);
+  std::vector<TagEstimate> estimates;
+  std::map<std::string, std::size_t> numbers;
+  for (const CsvRow& row : table.rows) {
+    const std::string& tag = table.text(row, table.column("tag"));
+    const auto [found, is_new] = numbers.emplace(tag, estimates.size());
+    if (is_new) estimates.emplace_back().tag = tag;
+    add_row(rows, row, estimates[found->second]);
+  }
+  return estimates;
 }
 
 }  // namespace tagfield

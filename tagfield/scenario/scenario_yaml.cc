@@ -27,12 +27,14 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
-WorldSpec world_of(YamlMap map) {
+/// Where `is_given`, the world itself is there already.
+WorldSpec world_of(YamlMap map, bool is_given) {
   WorldSpec world;
-  if (!map.has("path")) {
-    map.self().fail("has no 'path': give the world's file with --set world.path=FILE");
+  if (map.has("path") == is_given) {
+    map.self().fail(is_given ? "has a 'path', but the world was given: leave one of them out"
+                             : "has no 'path': give the world's file with --set world.path=FILE");
   }
-  world.path = resolve_path(map.at("path"));
+  if (!is_given) world.path = resolve_path(map.at("path"));
   for (const YamlValue& folder : map.list("model_paths")) {
     world.search_paths.push_back(resolve_path(folder));
   }
@@ -351,7 +353,8 @@ double time_step_of(const YamlValue& value) {
   return seconds;
 }
 
-Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostics& diagnostics) {
+Scenario scenario_of(YamlMap map, bool world_is_given, const std::vector<Method>& methods,
+                     Diagnostics& diagnostics) {
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");
@@ -361,7 +364,7 @@ Scenario scenario_of(YamlMap map, const std::vector<Method>& methods, Diagnostic
   if (map.has("time_step_s")) scenario.time_step_s = time_step_of(map.at("time_step_s"));
   if (map.has("duration_s")) scenario.duration_s = seconds_of(map.at("duration_s"), kPositive);
   scenario.real_time = map.number("real_time", scenario.real_time, kNotNegative);
-  if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")));
+  if (map.has("world")) scenario.world = world_of(YamlMap(map.at("world")), world_is_given);
   if (map.has("pose")) scenario.pose = belief_of(YamlMap(map.at("pose")));
   if (map.has("navigation")) {
     const YamlValue navigation = map.at("navigation");
@@ -413,53 +416,26 @@ void require_use_of_keys(const ReadScenario& read) {
   }
 }
 
-ReadScenario read_scenario(const std::string& path, const std::vector<Override>& overrides,
+/// `scene`: the world, where it was given with the scenario; else null.
+ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
+                           const std::vector<Override>& overrides, const Scene* scene,
                            const std::vector<Method>& methods, Diagnostics& diagnostics) {
-  const YAML::Node root = read_yaml(path);
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
     YamlMap map(YamlValue(root, path, ""));
-    return {scenario_of(map, methods, diagnostics), key_without_physical_antenna(map)};
+    return {scenario_of(map, scene != nullptr, methods, diagnostics),
+            key_without_physical_antenna(map)};
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
 }
 
-}  // namespace
-
-Override parse_override(const std::string& argument) {
-  const std::size_t equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
-    fail({"--set " + argument, 0}, "expected key.path=value");
-  }
-  return {argument.substr(0, equals), argument.substr(equals + 1)};
-}
-
-Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
-                       Diagnostics& diagnostics, const std::vector<Method>& methods) {
-  const ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
-  // The world of one that has it may bring antennas.
-  if (read.scenario.world.path.empty()) {
-    require_use_of_keys(read);
-    require_use_of_neighbours(read.scenario, diagnostics);
-  }
-  return read.scenario;
-}
-
-Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
-  Diagnostics unheard;
-  return load_scenario(path, overrides, unheard);
-}
-
-ScenarioWithWorld load_scenario_with_world(const std::string& path,
-                                           const std::vector<Override>& overrides,
-                                           Diagnostics& diagnostics,
-                                           const WorldOptions& world_options,
-                                           const std::vector<Method>& methods) {
+ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const Scene* scene,
+                             Diagnostics& diagnostics, const WorldOptions& world_options = {}) {
   ScenarioWithWorld loaded;
   Scenario& scenario = loaded.scenario;
-  ReadScenario read = read_scenario(path, overrides, methods, diagnostics);
   scenario = read.scenario;
+  if (scene != nullptr) loaded.scene = *scene;
   if (!scenario.world.path.empty()) {
     WorldOptions options = world_options;
     options.skip_missing = options.skip_missing || scenario.world.skip_missing;
@@ -481,6 +457,50 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
   require_use_of_neighbours(scenario, diagnostics);
   require_end(scenario, path);
   return loaded;
+}
+
+}  // namespace
+
+Override parse_override(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
+    fail({"--set " + argument, 0}, "expected key.path=value");
+  }
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides,
+                       Diagnostics& diagnostics, const std::vector<Method>& methods) {
+  const ReadScenario read =
+      read_scenario(read_yaml(path), path, overrides, nullptr, methods, diagnostics);
+  // The world of one that has it may bring antennas.
+  if (read.scenario.world.path.empty()) {
+    require_use_of_keys(read);
+    require_use_of_neighbours(read.scenario, diagnostics);
+  }
+  return read.scenario;
+}
+
+Scenario load_scenario(const std::string& path, const std::vector<Override>& overrides) {
+  Diagnostics unheard;
+  return load_scenario(path, overrides, unheard);
+}
+
+ScenarioWithWorld load_scenario_with_world(const std::string& path,
+                                           const std::vector<Override>& overrides,
+                                           Diagnostics& diagnostics,
+                                           const WorldOptions& world_options,
+                                           const std::vector<Method>& methods) {
+  return with_world(read_scenario(read_yaml(path), path, overrides, nullptr, methods, diagnostics),
+                    path, nullptr, diagnostics, world_options);
+}
+
+ScenarioWithWorld scenario_from_text(const std::string& text, const std::string& name,
+                                     const std::vector<Override>& overrides, const Scene* scene,
+                                     Diagnostics& diagnostics, const std::vector<Method>& methods) {
+  return with_world(
+      read_scenario(yaml_in(text, name), name, overrides, scene, methods, diagnostics), name, scene,
+      diagnostics);
 }
 
 }  // namespace tagfield

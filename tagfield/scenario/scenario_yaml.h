@@ -42,4 +42,12 @@ ScenarioWithWorld load_scenario_with_world(const std::string& path,
                                            const WorldOptions& world_options = {},
                                            const std::vector<Method>& methods = built_in_methods());
 
+/// Likewise from YAML text that stands in no file, for programs that make scenarios themselves.
+/// Complaints call it `name`, which is its name too where it says none; paths in it are relative to
+/// the current folder. `scene`: its world, instead of `world.path`; null for none.
+ScenarioWithWorld scenario_from_text(const std::string& text, const std::string& name,
+                                     const std::vector<Override>& overrides, const Scene* scene,
+                                     Diagnostics& diagnostics,
+                                     const std::vector<Method>& methods = built_in_methods());
+
 }  // namespace tagfield

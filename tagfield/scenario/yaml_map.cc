@@ -258,7 +258,10 @@ void YamlMap::finish() const {
 }
 
 YAML::Node read_yaml(const std::string& path) {
-  const std::string text = read_text_file(path, kMostYamlBytes);
+  return yaml_in(read_text_file(path, kMostYamlBytes), path);
+}
+
+YAML::Node yaml_in(const std::string& text, const std::string& path) {
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap())

@@ -86,6 +86,8 @@ class YamlMap {
 
 /// Reads a file that holds one mapping. Throws Error "FILE:LINE: …" if it is missing or malformed.
 YAML::Node read_yaml(const std::string& path);
+/// Likewise of text that is there already; complaints call it `path`.
+YAML::Node yaml_in(const std::string& text, const std::string& path);
 
 /// Puts `value` (YAML text) under `key_path` ("pose.sigma_m", "antennas.0.range_m", or with a
 /// list's element by its name or id: "antennas.mobile.range_m"). Throws Error where that leads

@@ -268,5 +268,18 @@ def installed_headers_stand_alone(context):
             check(not complaint, f"{header} does not stand alone: {complaint}")
 
 
+@case
+def planning_environment(context):
+    package = context.build / "lib/python"
+    if not any(package.glob("tagfield/_core*.so")):
+        raise Skip("the Python package is not built")
+    example = context.source / "examples/09_planning_environment/read_aware_env.py"
+    result = run(["env", f"PYTHONPATH={package}", "/usr/bin/python3", "-B", example])
+    check_equal(result.code, 0, f"exit code: {result.err[-300:]}")
+    told = dict(re.findall(r"^(\w+): (\d+) of 10 tags", result.out, re.MULTILINE))
+    check_equal(told.get("greedy"), "10", f"tags that the greedy policy reads: {result.out!r}")
+    check_between(int(told.get("random", -1)), 0, 9, "tags that the random one reads")
+
+
 if __name__ == "__main__":
     main()

@@ -78,6 +78,22 @@ MethodSettings settings_in(const std::vector<Override>& overrides) {
   return settings;
 }
 
+ScenarioWithWorld scenario_in(const Condition& condition, const std::vector<Override>& overrides,
+                              const std::vector<Method>& methods, Diagnostics& diagnostics) {
+  if (condition.make_scenario) return condition.make_scenario(overrides, diagnostics, methods);
+  return load_scenario_with_world(condition.scenario, overrides, diagnostics, {}, methods);
+}
+
+/// What localization is told there. The world has no part in that.
+LocalizationSpec localization_in(const Condition& condition, const std::vector<Override>& overrides,
+                                 const std::vector<Method>& methods) {
+  Diagnostics unheard;
+  if (condition.make_scenario) {
+    return condition.make_scenario(overrides, unheard, methods).scenario.localization;
+  }
+  return load_scenario(condition.scenario, overrides, unheard, methods).localization;
+}
+
 /// There is no scenario to say what else localization could be told.
 PreparedMethod prepare_for_recording(const SuiteMethod& method, const Condition& condition,
                                      const std::vector<Method>& methods) {
@@ -105,9 +121,7 @@ PreparedMethod prepare_method(const Suite& suite, const SuiteMethod& method,
     refuse_others(method, methods);
     std::vector<Override> overrides = overrides_of(suite, prepared.condition);
     overrides.insert(overrides.end(), method.localization.begin(), method.localization.end());
-    Diagnostics unheard;
-    scenario.localization =
-        load_scenario(prepared.condition.scenario, overrides, unheard, methods).localization;
+    scenario.localization = localization_in(prepared.condition, overrides, methods);
     ready.known = known_in(scenario, prepared.condition);
   }
   ready.method = configured(find_method(methods, method.method), scenario.localization.settings);
@@ -150,8 +164,8 @@ void require_faults_possible(const Condition& condition, const std::vector<std::
 void load(const Suite& suite, const std::vector<Method>& methods, PreparedCondition& prepared,
           Diagnostics& diagnostics) {
   const Condition& condition = prepared.condition;
-  ScenarioWithWorld loaded = load_scenario_with_world(
-      condition.scenario, overrides_of(suite, condition), diagnostics, {}, methods);
+  ScenarioWithWorld loaded =
+      scenario_in(condition, overrides_of(suite, condition), methods, diagnostics);
   prepared.scenario = std::move(loaded.scenario);
   prepared.scenario.real_time = 0.0;  // Nobody watches.
   prepared.known = known_in(prepared.scenario, condition);

@@ -24,6 +24,9 @@ struct SuiteMethod {
   std::string method;                  ///< "hyperbola"
   std::vector<Override> localization;  ///< Of the scenario's, with paths "localization.KEY".
   Location location;                   ///< Where it was written, for messages.
+  /// A program to be run as the method `method`, which whoever runs the suite must allow; "" for
+  /// none. This room starts none.
+  std::string command{};
 };
 
 /// Reads that get lost on the way.
@@ -64,10 +67,15 @@ struct UnknownPoseError {};
 /// What localization is told of the pose error: what the scenario says of it, nothing, or this.
 using ToldPoseError = std::variant<std::monostate, UnknownPoseError, PoseErrorModel>;
 
+/// Makes a condition's scenario with these overrides, as load_scenario_with_world() does of a file.
+using MakeScenario = std::function<ScenarioWithWorld(const std::vector<Override>&, Diagnostics&,
+                                                     const std::vector<Method>&)>;
+
 /// One situation that all methods are put into.
 struct Condition {
   std::string name;                         ///< Unique.
   std::string scenario;                     ///< Path of the file; "" of a recording.
+  MakeScenario make_scenario;               ///< Instead of a file; null where there is one.
   std::optional<SuiteRecording> recording;  ///< Instead of a scenario.
   std::vector<Override> settings;           ///< Of the scenario.
   std::optional<std::uint64_t> count;       ///< Number of seeds, instead of the suite's.

@@ -76,6 +76,12 @@ SuiteMethod method_of(const YamlValue& value) {
     return method;
   }
   YamlMap map(value);
+  if (map.has("command")) {
+    method.command = map.at("command").text();
+    method.name = method.method = map.at("name").text();
+    map.finish();
+    return method;
+  }
   method.method = map.at("method").text();
   method.name = map.text("name", method.method);
   if (map.has("localization")) {

@@ -1,0 +1,218 @@
+#include "apps/tagfield/command_method.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "tagfield/files/files.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/tag_heights_csv.h"
+#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/report/estimates_csv.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "tagfield-method-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw Error(fmt::format("'{}' can't be made: {}", name, std::strerror(errno)));
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// In order of time. Phases that are known but for π are given in [0, π).
+std::vector<TagRead> reads_of(const LocalizationProblem& problem) {
+  std::vector<TagRead> reads;
+  for (const auto& [tag, samples] : problem.samples) {
+    for (const auto& [antenna, series] : samples) {
+      for (const PhaseSample& sample : series) {
+        reads.push_back({sample.stamp, "", antenna, tag, sample.frequency_hz / problem.multiple(),
+                         sample.phase_rad / problem.multiple(), sample.rssi_dbm});
+      }
+    }
+  }
+  std::stable_sort(reads.begin(), reads.end(),
+                   [](const TagRead& a, const TagRead& b) { return a.stamp < b.stamp; });
+  return reads;
+}
+
+std::vector<AntennaPose> poses_of(const LocalizationProblem& problem) {
+  std::vector<AntennaPose> poses;
+  for (const auto& [antenna, track] : problem.tracks) {
+    for (std::size_t i = 0; i < track.X_WA.size(); ++i) {
+      AntennaPose pose{track.X_WA[i].stamp, antenna, track.X_WA[i].X_WB};
+      if (!track.covariance.empty()) pose.covariance = track.covariance[i];
+      poses.push_back(pose);
+    }
+  }
+  return poses;
+}
+
+std::map<std::string, double> heights_of(const LocalizationProblem& problem) {
+  std::map<std::string, double> heights;
+  for (const auto& [tag, samples] : problem.samples) {
+    const auto known = problem.heights.of_tag.find(tag);
+    if (known != problem.heights.of_tag.end()) {
+      heights[tag] = known->second;
+    } else if (problem.heights.of_all) {
+      heights[tag] = *problem.heights.of_all;
+    }
+  }
+  return heights;
+}
+
+void write_problem(const LocalizationProblem& problem, const fs::path& folder) {
+  write_text_file((folder / "reads.csv").string(), reads_to_csv(reads_of(problem)));
+  write_text_file((folder / "antenna_poses.csv").string(), poses_to_csv(poses_of(problem)));
+  const auto heights = heights_of(problem);
+  if (!heights.empty()) {
+    write_text_file((folder / "tag_heights.csv").string(), tag_heights_to_csv(heights));
+  }
+  if (!problem.reference_tags.empty()) {
+    write_text_file((folder / "reference_tags.csv").string(),
+                    tag_places_to_csv(problem.reference_tags));
+  }
+}
+
+/// Runs it with its output in `log`; gives waitpid()'s status.
+int run_program(const std::string& command, const std::string& folder, const std::string& log) {
+  posix_spawn_file_actions_t files;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
+  ::posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  std::string words[] = {"sh", "-c", command + " \"$1\"", "sh", folder};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(),
+                       words[3].data(), words[4].data(), nullptr};
+  pid_t program = 0;
+  const int fault = ::posix_spawn(&program, "/bin/sh", &files, nullptr, arguments, environ);
+  ::posix_spawn_file_actions_destroy(&files);
+  if (fault != 0)
+    throw Error(fmt::format("the command can't be started: {}", std::strerror(fault)));
+  int status = 0;
+  while (::waitpid(program, &status, 0) < 0) {
+    if (errno != EINTR) throw Error(fmt::format("the command was lost: {}", std::strerror(errno)));
+  }
+  return status;
+}
+
+/// ": " and the last line of the log that says anything, or nothing.
+std::string last_line(const fs::path& log) {
+  constexpr std::size_t kMostLog = 1U << 26U;
+  std::string text = fs::exists(log) ? read_text_file(log.string(), kMostLog) : "";
+  text.erase(text.find_last_not_of(" \t\r\n") + 1);
+  const std::size_t begin = text.rfind('\n');
+  if (begin != std::string::npos) text.erase(0, begin + 1);
+  return text.empty() ? "" : ": " + text;
+}
+
+void run_command(const std::string& command, const fs::path& folder) {
+  const fs::path log = folder / "output.txt";
+  const int status = run_program(command, folder.string(), log.string());
+  if (WIFSIGNALED(status)) {
+    throw Error(
+        fmt::format("the command was ended by signal {}{}", WTERMSIG(status), last_line(log)));
+  }
+  if (WEXITSTATUS(status) != 0) {
+    throw Error(
+        fmt::format("the command ended with code {}{}", WEXITSTATUS(status), last_line(log)));
+  }
+  if (!fs::exists(folder / "estimates.csv")) {
+    throw Error(fmt::format(
+        "the command wrote no estimates.csv into the folder that it was given{}", last_line(log)));
+  }
+}
+
+/// The program's estimates, of the problem's tags.
+std::map<std::string, TagEstimate> estimates_in(const LocalizationProblem& problem,
+                                                const fs::path& folder) {
+  const fs::path file = folder / "estimates.csv";
+  std::map<std::string, TagEstimate> estimates;
+  const auto height = [&](const std::string& tag) {
+    return problem.samples.count(tag) > 0 ? plane_height(problem, tag) : 0.0;
+  };
+  try {
+    for (TagEstimate& estimate : read_estimates_csv(file.string(), height)) {
+      estimates[estimate.tag] = std::move(estimate);
+    }
+  } catch (const Error& error) {
+    std::string said = error.what();
+    if (said.rfind(folder.string(), 0) == 0) said.erase(0, folder.string().size() + 1);
+    throw Error(said);
+  }
+  return estimates;
+}
+
+std::vector<TagEstimate> locate(const std::string& command, const LocalizationProblem& problem) {
+  const TemporaryFolder folder;
+  write_problem(problem, folder.path());
+  run_command(command, folder.path());
+  std::map<std::string, TagEstimate> found = estimates_in(problem, folder.path());
+  std::vector<TagEstimate> estimates;
+  for (const auto& [tag, samples] : problem.samples) {
+    const auto reference = problem.reference_tags.find(tag);
+    const auto of_tag = found.find(tag);
+    if (reference != problem.reference_tags.end()) {
+      estimates.push_back(reference_estimate(tag, reference->second));
+    } else if (of_tag == found.end()) {
+      estimates.push_back(not_located(begun(tag, samples), "the command told no place"));
+    } else {
+      of_tag->second.reads = count_reads(samples);
+      estimates.push_back(std::move(of_tag->second));
+    }
+  }
+  return estimates;
+}
+
+}  // namespace
+
+Method command_method(const std::string& name, const std::string& command) {
+  const auto is_plain = [](unsigned char character) {
+    return std::isalnum(character) != 0 || character == '_' || character == '-' || character == '.';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain)) {
+    throw Error(fmt::format(
+        "method '{}': a command's name must be of letters, digits, '_', '-' and '.'", name));
+  }
+  Method method;
+  method.name = name;
+  method.summary = command;
+  method.locate = named(name, [name, command](const LocalizationProblem& problem, int /*threads*/) {
+    try {
+      return locate(command, problem);
+    } catch (const Error& error) {
+      throw Error(fmt::format("method '{}': {}", name, error.what()));
+    }
+  });
+  return method;
+}
+
+}  // namespace tagfield

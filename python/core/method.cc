@@ -1,0 +1,146 @@
+#include "python/core/method.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "python/core/arrays.h"
+#include "python/core/calls.h"
+#include "tagfield/localization/judgement.h"
+
+namespace tagfield::python {
+namespace {
+
+/// What a method is given, as long as it runs.
+struct ProblemView {
+  const LocalizationProblem* problem = nullptr;
+  int threads = 1;
+
+  [[nodiscard]] const LocalizationProblem& get() const {
+    if (problem == nullptr) throw Error("this problem is over: it is good while its method runs");
+    return *problem;
+  }
+};
+
+const SamplesOfTag& samples_of(const ProblemView& view, const std::string& tag) {
+  const auto found = view.get().samples.find(tag);
+  if (found == view.get().samples.end()) throw Error("the problem has no tag '" + tag + "'");
+  return found->second;
+}
+
+py::object samples_table(const ProblemView& view, const std::string& tag) {
+  std::vector<SampleRow> rows;
+  Names antennas;
+  for (const auto& [antenna, samples] : samples_of(view, tag)) {
+    const std::int32_t number = antennas.number_of(antenna);
+    for (const PhaseSample& sample : samples) {
+      rows.push_back({sample.stamp.time_since_epoch().count(),
+                      number,
+                      sample.phase_rad,
+                      sample.frequency_hz,
+                      sample.rssi_dbm,
+                      {sample.p_WA.x(), sample.p_WA.y(), sample.p_WA.z()}});
+    }
+  }
+  return table(std::move(rows), {{"antenna", antennas.all()}});
+}
+
+using Place = std::tuple<Eigen::Vector3d, std::optional<Eigen::Matrix3d>, double, double>;
+using Answer = std::tuple<std::string, std::string, std::vector<Place>>;
+
+TagEstimate estimate_of(const LocalizationProblem& problem, const Answer& answer) {
+  const auto& [tag, why, places] = answer;
+  TagEstimate estimate = begun(tag, problem.samples.at(tag));
+  if (places.empty()) return not_located(estimate, why);
+  for (const auto& [place, covariance, expected_error_m, rms_m] : places) {
+    estimate.candidates.push_back({place, rms_m, expected_error_m, covariance});
+  }
+  judge(problem.limits, estimate);
+  return estimate;
+}
+
+/// The answers of a method that was called with Python's lock held.
+std::vector<Answer> ask(const Held& function, const LocalizationProblem& problem, int threads) {
+  const py::gil_scoped_acquire lock;
+  const auto view = std::make_shared<ProblemView>(ProblemView{&problem, threads});
+  struct End {
+    ProblemView& view;
+    ~End() { view.problem = nullptr; }
+  } const end{*view};
+  return py::cast<std::vector<Answer>>((*function)(view));
+}
+
+LocalizationResult locate(const std::string& name, const Held& function,
+                          const LocalizationProblem& problem, int threads) {
+  std::map<std::string, TagEstimate> by_tag;
+  for (const Answer& answer : ask(function, problem, threads)) {
+    by_tag[std::get<0>(answer)] = estimate_of(problem, answer);
+  }
+  LocalizationResult result;
+  result.method = name;
+  for (const auto& [tag, samples] : problem.samples) {
+    const auto reference = problem.reference_tags.find(tag);
+    result.estimates.push_back(reference == problem.reference_tags.end()
+                                   ? std::move(by_tag.at(tag))
+                                   : reference_estimate(tag, reference->second));
+  }
+  return result;
+}
+
+Method method_of(const std::string& name, const std::string& summary, py::object function) {
+  const Held kept = held(std::move(function));
+  Method method;
+  method.name = name;
+  method.summary = summary;
+  method.locate = [name, kept](const LocalizationProblem& problem, int threads,
+                               Diagnostics& /*diagnostics*/) {
+    return locate(name, kept, problem, threads);
+  };
+  return method;
+}
+
+}  // namespace
+
+void bind_methods(py::module_& module) {
+  py::class_<ProblemView, std::shared_ptr<ProblemView>>(
+      module, "Problem",
+      "What a localization method is given: reads joined with the antennas' believed places, and\n"
+      "what is known beforehand. Nothing of where the tags are. Good while the method runs.")
+      .def_property_readonly(
+          "tags",
+          [](const ProblemView& view) {
+            std::vector<std::string> tags;
+            for (const auto& [tag, samples] : view.get().samples) tags.push_back(tag);
+            return tags;
+          },
+          "IDs of the tags that were read, in rising order.")
+      .def("samples", &samples_table, py::arg("tag"),
+           "Table of a tag's reads: stamp_ns, antenna, phase_rad in [0, 2π), frequency_hz,\n"
+           "rssi_dbm and position_m (3,) [m, world] of the antenna as believed; by antenna, then\n"
+           "in order of time.")
+      .def(
+          "height_m",
+          [](const ProblemView& view, const std::string& tag) {
+            samples_of(view, tag);
+            return plane_height(view.get(), tag);
+          },
+          py::arg("tag"), "Height of the tag [m, world]: known, or else the antennas' mean.")
+      .def_property_readonly(
+          "reference_tags", [](const ProblemView& view) { return view.get().reference_tags; },
+          "Places (3,) [m, world] of tags at known places, by ID.")
+      .def_property_readonly(
+          "half_turns", [](const ProblemView& view) { return view.get().half_turns; },
+          "Whether phases are known but for π: then phases and carriers of samples are doubled.")
+      .def_property_readonly(
+          "has_phases", [](const ProblemView& view) { return view.get().has_phases; },
+          "False where the reads have none.")
+      .def_property_readonly(
+          "threads", [](const ProblemView& view) { return view.threads; },
+          "On how many threads the method may work.");
+  py::class_<Method>(module, "Method",
+                     "A localization method of your own, as tagfield.method() makes one.")
+      .def(py::init(&method_of), py::arg("name"), py::arg("summary"), py::arg("function"))
+      .def_readonly("name", &Method::name, "As tables call it.")
+      .def_readonly("summary", &Method::summary, "One line for people.");
+}
+
+}  // namespace tagfield::python

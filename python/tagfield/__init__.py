@@ -1,0 +1,40 @@
+"""Tagfield: UHF RFID simulated, located and judged.
+
+    import tagfield
+
+    scenario = tagfield.load(tagfield.share("scenarios/paper_warehouse.yaml"))
+    run = scenario.with_({"pose.source": "noisy"}).run(seed=1)
+    print(run)
+    run.reads.to_pandas()
+    tagfield.plot.hall(run)
+
+Lengths are metres, angles radians, times seconds (stamp_ns: nanoseconds), unless a name says otherwise.
+What is wrong with an input raises tagfield.Error, in one line, the same that the command prints.
+docs/python.md has more.
+"""
+
+from . import _core
+from ._bench import Bench, bench
+from ._core import Error, Link, LinkState, Method, Place, Pose, Read
+from ._methods import Estimate, Problem, method
+from ._reads import Calibration, calibrate, localize, methods, poses_table, read, reads_table, track
+from ._runs import Coverage, Explanation, Layer, Localization, Run, Scan, Simulation, Tracks, Truth
+from ._scenario import Outlet, Scenario, World, load, share
+from ._tables import Table
+
+__version__: str = _core.__version__
+
+__all__ = [
+    "Bench", "Calibration", "Coverage", "Error", "Estimate", "Explanation", "Layer", "Link", "LinkState",
+    "Localization", "Method", "Outlet", "Place", "Pose", "Problem", "Read", "Run", "Scan", "Scenario",
+    "Simulation", "Table", "Tracks", "Truth", "World", "bench", "calibrate", "load", "localize", "method",
+    "methods", "plot", "poses_table", "read", "reads_table", "share", "track",
+]
+
+
+def __getattr__(name: str):
+    if name == "plot":  # Not before it is asked for: it needs matplotlib.
+        import importlib
+
+        return importlib.import_module("tagfield.plot")
+    raise AttributeError(f"module 'tagfield' has no attribute '{name}'")

@@ -1,0 +1,100 @@
+"""Methods compared in many conditions with many seeds."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from pathlib import Path
+from typing import Any, Callable, Mapping, Sequence
+
+from . import _core
+from ._scenario import Scenario, _flat, _value_text, load, threads_of
+
+__all__ = ["Bench", "bench"]
+
+
+class Bench:
+    """A comparison: str() is its table, to_pandas() a row for each condition and method.
+
+    docs/bench.md says what the columns mean.
+    """
+
+    def __init__(self, parts: Mapping[str, Any]) -> None:
+        self._parts = dict(parts)
+        self.data: dict[str, Any] = json.loads(parts["json"])
+        self.warnings: list[str] = parts["warnings"]
+
+    def __str__(self) -> str:
+        return self._parts["text"]
+
+    def to_pandas(self):
+        """A row for each condition and method: located, mean_m, ratio_rms, nees_mean, …"""
+        return _frame(self._parts["csv"])
+
+    def tags(self):
+        """A row for each condition, method, seed and tag, as a pandas.DataFrame."""
+        return _frame(self._parts["tags_csv"])
+
+    def save_page(self, path: str | os.PathLike) -> None:
+        """Writes the page with all figures (HTML, self-contained)."""
+        Path(path).write_text(self._parts["html"], encoding="utf-8")
+
+
+def _frame(text: str):
+    import pandas
+
+    return pandas.read_csv(io.StringIO(text), keep_default_na=False, na_values=[""])
+
+
+def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
+          conditions: Mapping[str, Any] | None = None, *, seeds: int | None = None, first_seed: int = 1,
+          phase_noise_rad: float | None = None, name: str = "bench", threads: int | None = None,
+          progress: Callable[[float], Any] | None = None) -> Bench:
+    """Compares methods on the same reads, by the same judge and against the Cramér-Rao bound.
+
+        tagfield.bench(scenario, ["hyperbola", mine], {"true pose": {}, "1 cm": {"pose.source": "noisy"}},
+                       seeds=20)
+
+    what: a scenario, its file, or a suite's file; methods of a suite are compared with those in `methods`.
+    methods: names, methods of your own, or (label, name, {setting: value}).
+    conditions: label and what is different there, as of Scenario.with_(), or a Scenario of its own.
+    seeds: so many in each condition, from first_seed on. phase_noise_rad: for the bound, where the model
+    tells none. progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
+    """
+    own = [entry for entry in methods if isinstance(entry, _core.Method)]
+    own += [entry[1] for entry in methods if isinstance(entry, tuple) and isinstance(entry[1], _core.Method)]
+    if not isinstance(what, Scenario) and _is_suite(what):
+        if conditions is not None or len(own) != len(methods):
+            raise _core.Error("bench: a suite has its own conditions and methods: only methods of your own "
+                              "can be added")
+        return Bench(_core.bench_suite(os.fspath(what), own, seeds, threads_of(threads), progress))
+    scenario = what if isinstance(what, Scenario) else load(what)
+    if not methods:
+        raise _core.Error("bench: methods is empty")
+    entries = [_condition(scenario, label, changes, phase_noise_rad)
+               for label, changes in (conditions or {scenario.name: {}}).items()]
+    return Bench(_core.bench(name, [_method(entry) for entry in methods], entries, own, first_seed,
+                             1 if seeds is None else seeds, threads_of(threads), progress))
+
+
+def _is_suite(path: str | os.PathLike) -> bool:
+    """Suites have conditions, scenarios have none."""
+    return any(line.startswith("conditions:") for line in Path(path).read_text(encoding="utf-8").splitlines())
+
+
+def _method(entry: Any) -> tuple[str, str, list[tuple[str, str]]]:
+    if isinstance(entry, _core.Method):
+        return entry.name, entry.name, []
+    if isinstance(entry, str):
+        return entry, entry, []
+    label, method, settings = entry
+    name = method.name if isinstance(method, _core.Method) else method
+    return label, name, [(f"localization.{key}", _value_text(value)) for key, value in settings.items()]
+
+
+def _condition(scenario: Scenario, label: str, changes: Any, noise: float | None) -> tuple:
+    if isinstance(changes, Scenario):
+        return label, changes._source.for_core(), [], noise
+    pairs = [pair for key, value in changes.items() for pair in _flat(key, value)]
+    return label, scenario._source.for_core(), pairs, noise

@@ -1,0 +1,116 @@
+"""Localization methods written in Python."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Callable, Mapping
+
+import numpy as np
+
+from . import _core
+
+__all__ = ["Estimate", "Problem", "method"]
+
+Problem = _core.Problem
+
+
+@dataclass
+class Estimate:
+    """A place where a tag may be, as a method of one's own says it.
+
+    position_m: x, y [m, world], or x, y, z; without z the tag's height is taken as known.
+    covariance_m2: (3, 3) or (2, 2) covariance of it [m²], if the method knows it.
+    expected_error_m: root of the horizontal variances [m]; by default that of the covariance. Above
+        the scenario's limit (0.15 m) a tag does not count as located.
+    rms_m: root mean square of what the fit leaves unexplained [m].
+    """
+
+    position_m: Any
+    covariance_m2: Any = None
+    expected_error_m: float | None = None
+    rms_m: float = 0.0
+
+
+def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[Callable], _core.Method]:
+    """Makes a localization method of a function, to be run and compared as any other.
+
+    With ``per_tag`` the function is called as ``function(problem, tag, samples)`` for each tag, with
+    ``samples = problem.samples(tag)``. Otherwise as ``function(problem)``, and returns a mapping from
+    tag to what the other returns:
+
+    - a place: two or three numbers [m, world], or an :class:`Estimate`;
+    - a list of such, best first: the tag is ambiguous;
+    - ``None``, or a string that says why: the tag is not located.
+
+    Whatever it says is then held against the phases once more, as with all methods. Called from
+    several threads of a bench, one at a time.
+
+        @tagfield.method("strongest", "where the antenna heard the tag best")
+        def strongest(problem, tag, samples):
+            return samples["position_m"][samples["rssi_dbm"].argmax(), :2]
+    """
+
+    def decorate(function: Callable) -> _core.Method:
+        def locate(problem):
+            if per_tag:
+                answers = {tag: function(problem, tag, problem.samples(tag)) for tag in problem.tags}
+            else:
+                answers = function(problem)
+            return _answers(name, problem, answers)
+
+        return _core.Method(name, summary or (function.__doc__ or "").strip().split("\n")[0], locate)
+
+    if not isinstance(name, str) or not name:
+        raise _core.Error("a method needs a name: @tagfield.method(\"name\")")
+    return decorate
+
+
+def _answers(name: str, problem: Problem, answers: Mapping[str, Any]) -> list[tuple]:
+    """What the core takes: (tag, why not, places) of every tag."""
+    tags = problem.tags
+    if not isinstance(answers, Mapping):
+        raise _core.Error(f"method '{name}': returned {type(answers).__name__}, expected a mapping "
+                          "from tag to place")
+    for tag in answers:
+        if tag not in tags:
+            raise _core.Error(f"method '{name}': the problem has no tag '{tag}'")
+    found = []
+    for tag in tags:
+        answer = answers.get(tag)
+        if answer is None or isinstance(answer, str):
+            found.append((tag, answer or f"{name} found no place", []))
+        else:
+            found.append((tag, "", [_place(name, problem, tag, one) for one in _several(answer)]))
+    return found
+
+
+def _several(answer: Any) -> list:
+    """The answer as a list of places."""
+    if isinstance(answer, (list, tuple)) and answer and not np.isscalar(answer[0]):
+        return list(answer)
+    return [answer]
+
+
+def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
+    estimate = answer if isinstance(answer, Estimate) else Estimate(answer)
+    place = np.asarray(estimate.position_m, dtype=float)
+    if place.shape not in ((2,), (3,)) or not np.isfinite(place).all():
+        raise _core.Error(f"method '{name}': tag '{tag}': {estimate.position_m!r} is no place: expected "
+                          "two or three finite numbers [m]")
+    if len(place) == 2:
+        place = np.append(place, problem.height_m(tag))
+    covariance = None
+    if estimate.covariance_m2 is not None:
+        given = np.asarray(estimate.covariance_m2, dtype=float)
+        if given.shape not in ((2, 2), (3, 3)) or not np.isfinite(given).all():
+            raise _core.Error(f"method '{name}': tag '{tag}': covariance_m2 must be (2, 2) or (3, 3) and "
+                              "finite")
+        covariance = np.zeros((3, 3))
+        covariance[:len(given), :len(given)] = given
+    expected = estimate.expected_error_m
+    if expected is None:
+        expected = 0.0 if covariance is None else math.sqrt(max(covariance[0, 0] + covariance[1, 1], 0.0))
+    if not (math.isfinite(expected) and expected >= 0.0 and math.isfinite(estimate.rms_m)):
+        raise _core.Error(f"method '{name}': tag '{tag}': expected_error_m and rms_m must be finite")
+    return place, covariance, float(expected), float(estimate.rms_m)

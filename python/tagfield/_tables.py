@@ -1,0 +1,117 @@
+"""Structured arrays with names: what a run, a method or a map gives."""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["Table"]
+
+_AXES = {3: ("x", "y", "z"), 4: ("x", "y", "z", "w")}
+
+
+class Table(np.ndarray):
+    """A NumPy structured array whose columns of names hold numbers.
+
+    A table is an ordinary array: ``reads["phase_rad"]`` is a view of the column, slices and masks are
+    tables again, and nothing is copied on the way from the simulation. A column of names (``tag``,
+    ``antenna``, ``reader``, ``verdict``, …) holds the index into ``categories[column]``;
+    ``names(column)`` spells it out, and ``where(tag="tag3")`` selects by name.
+
+    Units are in the columns' names. ``stamp_ns`` is exact; ``time_s`` is the same in seconds.
+    """
+
+    categories: dict[str, tuple[str, ...]]
+
+    def __new__(cls, array, categories=None):
+        table = np.asarray(array).view(cls)
+        table.categories = dict(categories or {})
+        return table
+
+    def __array_finalize__(self, parent):
+        self.categories = getattr(parent, "categories", {})
+
+    def __reduce__(self):
+        function, arguments, state = super().__reduce__()
+        return function, arguments, (state, self.categories)
+
+    def __setstate__(self, state):
+        super().__setstate__(state[0])
+        self.categories = state[1]
+
+    def __getitem__(self, index):
+        item = super().__getitem__(index)
+        if isinstance(item, Table) and item.dtype.names is None:
+            return item.view(np.ndarray)  # A column alone has no names.
+        return item
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return self.dtype.names
+
+    @property
+    def time_s(self) -> np.ndarray:
+        """``stamp_ns`` in seconds, float64 of the table's shape."""
+        return self["stamp_ns"] * 1e-9
+
+    def names(self, column: str) -> np.ndarray:
+        """The names in a column, as strings of the table's shape; "" where there is none."""
+        known = np.array([*self._known(column), ""], dtype=object)
+        return known[np.asarray(self[column])]
+
+    def number(self, column: str, name: str) -> int:
+        """The number that stands for ``name`` in a column, or -1 where it never stands there."""
+        known = self._known(column)
+        return known.index(name) if name in known else -1
+
+    def where(self, **names: str | list[str] | tuple[str, ...]) -> Table:
+        """The rows with these names: ``reads.where(tag="tag3", antenna=["left", "right"])``."""
+        rows = np.ones(self.shape, dtype=bool)
+        for column, wanted in names.items():
+            wanted = [wanted] if isinstance(wanted, str) else wanted
+            rows &= np.isin(self[column], [self.number(column, name) for name in wanted])
+        return self[rows]
+
+    def to_pandas(self):
+        """The table as a pandas.DataFrame.
+
+        Columns of names become categories; a place (3,) becomes three columns ``x_m``, ``y_m``,
+        ``z_m`` (with the column's own name before them where that is not ``position_m``); matrices
+        become columns with their indices; ``time_s`` comes first where there are stamps.
+        """
+        import pandas
+
+        flat = self.reshape(-1)
+        data: dict[str, object] = {}
+        if "stamp_ns" in self.columns:
+            data["time_s"] = flat.time_s
+        for column in self.columns:
+            values = np.asarray(flat[column])
+            if column in self.categories:
+                data[column] = pandas.Categorical.from_codes(values, self.categories[column])
+            elif values.ndim == 1:
+                data[column] = values
+            else:
+                data.update(_split(column, values))
+        return pandas.DataFrame(data)
+
+    def _known(self, column: str) -> tuple[str, ...]:
+        if column not in self.categories:
+            raise KeyError(f"'{column}' is no column of names; these are: {', '.join(self.categories)}")
+        return self.categories[column]
+
+
+def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:
+    """A column of vectors or matrices as several columns."""
+    if values.ndim == 2 and values.shape[1] in _AXES:
+        name, _, unit = column.rpartition("_")
+        if column == "quaternion_xyzw":
+            return {f"q{axis}": values[:, i] for i, axis in enumerate("xyzw")}
+        before = "" if name == "position" else f"{name}_"
+        axes = _AXES[values.shape[1]]
+        if column.endswith("_m_s"):
+            before, unit = f"{column[:-4]}_", "m_s"
+        return {f"{before}{axis}_{unit}": values[:, i] for i, axis in enumerate(axes)}
+    flat = values.reshape(len(values), -1)
+    return {f"{column}_{'_'.join(map(str, index))}": flat[:, i]
+            for i, index in enumerate(np.ndindex(*values.shape[1:]))}

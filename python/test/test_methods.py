@@ -1,0 +1,177 @@
+"""Reads of any origin located by any method; methods in Python, compared."""
+
+import numpy as np
+import pytest
+
+import tagfield
+
+
+@pytest.fixture(scope="module")
+def scenario():
+    return tagfield.load(tagfield.share("scenarios/paper_warehouse.yaml"))
+
+
+@pytest.fixture(scope="module")
+def run(scenario):
+    return scenario.run(seed=1)
+
+
+@tagfield.method("strongest", "where the antenna heard the tag best")
+def strongest(problem, tag, samples):
+    return samples["position_m"][samples["rssi_dbm"].argmax(), :2]
+
+
+def test_other_methods_locate_the_same_reads(run):
+    other = run.localize("ml")
+    assert other.method == "ml"
+    assert len(other.estimates) == 10
+    assert other.errors_m.mean() < 0.02
+    assert run.localize().estimates["position_m"].tobytes() == run.estimates["position_m"].tobytes()
+
+
+def test_reads_by_themselves_are_located(run):
+    truth = run.truth.places_m()
+    heights = {tag: place[2] for tag, place in truth.items()}
+    found = tagfield.localize(run.reads, run.poses, "hyperbola", tag_heights_m=heights, truth=truth, pose_sigma_m=0)
+    np.testing.assert_allclose(found.estimates["position_m"][found.located],
+                               run.estimates["position_m"][run.located], atol=1e-9)
+    frames = tagfield.localize(run.reads.to_pandas(), run.poses.to_pandas().rename(columns={"name": "antenna"}),
+                               "hyperbola", tag_heights_m=heights, pose_sigma_m=0)
+    np.testing.assert_allclose(np.sort(frames.estimates["position_m"], axis=0),
+                               np.sort(found.estimates["position_m"], axis=0), atol=1e-7)
+    assert np.isnan(frames.estimates["error_m"]).all()
+    assert str(found).startswith("tag")
+
+
+def test_what_is_known_is_checked(run):
+    with pytest.raises(tagfield.Error, match="above"):
+        tagfield.localize(run.reads, run.poses, height="beside")
+    with pytest.raises(TypeError, match="tag_hight"):
+        tagfield.localize(run.reads, run.poses, tag_hight=1)
+    with pytest.raises(tagfield.Error, match="tag_height_m"):
+        tagfield.localize(run.reads, run.poses, tag_height_m="high")
+    with pytest.raises(tagfield.Error, match="did you mean 'hyperbola'"):
+        tagfield.localize(run.reads, run.poses, "hyperbole")
+    with pytest.raises(tagfield.Error, match="stride_m"):
+        tagfield.localize(run.reads, run.poses, "sar", settings={"stride_m": 1})
+    spoilt = run.reads.copy()
+    spoilt["phase_rad"][7] = np.nan
+    with pytest.raises(tagfield.Error, match="row 7: phase_rad is not finite"):
+        tagfield.localize(spoilt, run.poses)
+    spoilt = run.reads.copy()
+    spoilt["tag"][7] = 99
+    with pytest.raises(tagfield.Error, match="row 7: tag is 99"):
+        tagfield.localize(spoilt, run.poses)
+
+
+def test_own_method_is_one_like_others(scenario, run):
+    assert strongest.name == "strongest"
+    found = run.localize(strongest)
+    assert found.method == "strongest"
+    again = scenario.run(seed=1, method=strongest)
+    np.testing.assert_array_equal(found.estimates["position_m"], again.estimates["position_m"])
+    for tag, row in zip(found.estimates.names("tag"), found.estimates):
+        if np.isfinite(row["position_m"]).all():
+            reads = run.reads.where(tag=tag)
+            best = reads["stamp_ns"][reads["rssi_dbm"].argmax()]
+            antenna = run.poses["position_m"][run.poses["stamp_ns"] == best][0]
+            np.testing.assert_allclose(row["position_m"][:2], antenna[:2])
+
+
+def test_methods_say_what_they_like(run):
+    truth = run.truth.places_m()
+
+    @tagfield.method("knower", per_tag=False)
+    def knower(problem):
+        assert problem.tags == sorted(truth)
+        assert problem.height_m("tag2") == truth["tag2"][2]
+        return {"tag1": tagfield.Estimate(truth["tag1"], covariance_m2=np.eye(2) * 1e-4),
+                "tag2": [truth["tag2"], truth["tag2"] + [0, 1, 0]],
+                "tag3": "nobody asked", "tag4": tuple(truth["tag4"][:2]),
+                "tag5": tagfield.Estimate(truth["tag5"], expected_error_m=3.0)}
+
+    found = run.localize(knower)
+    by_tag = {tag: (verdict, reason) for tag, verdict, reason in zip(
+        found.estimates.names("tag"), found.estimates.names("verdict"), found.estimates.names("reason"))}
+    assert by_tag["tag1"][0] == "located"
+    assert by_tag["tag3"] == ("not_located", "cannot localize: nobody asked")
+    assert by_tag["tag4"][0] == "located"
+    assert by_tag["tag5"][0] == "not_located"
+    assert by_tag["tag6"] == ("not_located", "cannot localize: knower found no place")
+    one = found.estimates.where(tag="tag1")[0]
+    assert one["error_m"] < 1e-12
+    assert one["expected_error_m"] == pytest.approx(np.sqrt(2e-4))
+
+
+@pytest.mark.parametrize("answer, said", [
+    ((1.0, np.nan), "is no place"), ((1.0,), "is no place"),
+    (tagfield.Estimate((1, 2), covariance_m2=[1, 2]), "covariance_m2"),
+])
+def test_methods_are_checked(run, answer, said):
+    with pytest.raises(tagfield.Error, match=said):
+        run.localize(tagfield.method("odd")(lambda problem, tag, samples: answer))
+
+
+def test_what_a_method_raises_is_raised_as_it_is(scenario):
+    @tagfield.method("broken")
+    def broken(problem, tag, samples):
+        return 1 / 0
+
+    with pytest.raises(ZeroDivisionError):
+        tagfield.bench(scenario, [broken], seeds=2)
+    kept = []
+    tagfield.bench(scenario, [tagfield.method("keeper", per_tag=False)(lambda p: kept.append(p) or {})])
+    with pytest.raises(tagfield.Error, match="this problem is over"):
+        kept[0].samples("tag1")
+
+
+def test_bench_compares_own_methods(scenario):
+    truth = {tag: place for tag, place in scenario.tags.items()}
+    right = tagfield.method("right")(lambda problem, tag, samples: truth[tag])
+    compared = tagfield.bench(scenario, ["hyperbola", strongest, right, ("coarse", "hyperbola", {"stride_m": 1})],
+                              {"true pose": {}, "5 cm": {"pose": {"source": "noisy", "sigma_m": 0.05}}}, seeds=1)
+    rows = compared.to_pandas().set_index(["condition", "name"])
+    assert len(rows) == 8
+    assert rows.loc[("true pose", "right"), "mean_m"] < 1e-12
+    assert rows.loc[("true pose", "hyperbola"), "mean_m"] < rows.loc[("5 cm", "hyperbola"), "mean_m"]
+    assert (rows["tags"] == 10).all()
+    assert {"seed", "tag", "error_m"} <= set(compared.tags().columns)
+    assert "strongest" in str(compared)
+
+
+def test_bench_takes_scenarios_made_here():
+    scenario = tagfield.Scenario(
+        "row", model="paper", antennas=[{"name": "a", "on": "cart", "pose": [0, 0, 1]}],
+        robots=[{"name": "cart", "start": [0, 0, 0], "waypoints": [[3, 0], [3, 1]]}],
+        tags=[{"id": "tag1", "position": [1.5, 2, 1]}])
+    compared = tagfield.bench(scenario, ["hyperbola"], {"here": {}, "there": scenario.with_(pose={"source": "noisy"})})
+    assert compared.to_pandas()["condition"].tolist() == ["here", "there"]
+    with pytest.raises(tagfield.Error, match="condition 'here'.*rang"):
+        tagfield.bench(scenario, ["hyperbola"], {"here": {"antennas.a.rang_m": 1}})
+
+
+def test_runs_are_read_back(run, tmp_path):
+    (tmp_path / "reads.csv").write_text("stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
+                                        "0.5,r,a,t,866e6,1.25,-50\n", encoding="utf-8")
+    (tmp_path / "poses.csv").write_text("stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n0,a,1,2,3,0,0,0,1\n",
+                                        encoding="utf-8")
+    reads, poses = tagfield.read(tmp_path / "reads.csv", tmp_path / "poses.csv")
+    assert reads["stamp_ns"].tolist() == [500_000_000]
+    assert reads["phase_rad"].tolist() == [1.25] and np.isnan(reads["doppler_hz"][0])
+    assert poses["position_m"].tolist() == [[1, 2, 3]]
+    (tmp_path / "reads.csv").write_text("stamp_s,antenna\n1,a\n", encoding="utf-8")
+    with pytest.raises(tagfield.Error, match="reads.csv"):
+        tagfield.read(tmp_path / "reads.csv", tmp_path / "poses.csv")
+    with pytest.raises(tagfield.Error, match="no file 'profiles/datasets/adarff.yaml'"):
+        tagfield.read(tmp_path / "reads.csv", format="adarff")
+
+
+def test_calibration_finds_the_offset(scenario):
+    off = scenario.with_({"antennas.mobile.phase_offset_rad": 1.3}).run(seed=1, locate=False)
+    calibration = tagfield.calibrate(off.reads, off.poses, off.truth.places_m())
+    antenna = calibration.antennas["mobile"]
+    (value, sigma), = antenna["offsets_rad"].values()
+    assert antenna["phase_sign"] == 1
+    assert abs(value - 1.3) < 4 * sigma + 0.02
+    assert antenna["noise_rad"] == pytest.approx(0.1, abs=0.01)
+    assert "phase_sign" in calibration.yaml or "sign" in calibration.yaml

@@ -1,0 +1,17 @@
+/// @file
+/// One link of a scenario at a moment of its run, explained.
+#pragma once
+
+#include <cstdint>
+
+#include "tagfield/planning/link_explanation.h"
+#include "tagfield/scenario/scenario.h"
+
+namespace tagfield {
+
+/// Runs `scenario` to `time` without reads and explains the link between `antenna` and `tag`, which
+/// must be its own, with all others where they are then. Throws Error if the run is over before.
+LinkExplanation explain_link_at(const Scenario& scenario, const AntennaSpec& antenna,
+                                const TagSpec& tag, Time time, std::uint64_t seed);
+
+}  // namespace tagfield

@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""Estimators that are no part of Tagfield: `tagfield score`, and commands as methods of a bench."""
+
+import json
+import sys
+
+from common import case, check, check_equal, check_in, check_near, main, read_csv, read_json, run
+
+SCENARIO = "paper_warehouse"
+# As any language would: reads and poses in, a place a tag out: where the antenna was at the strongest read.
+PROGRAM = """\
+import bisect, csv, pathlib, sys
+folder = pathlib.Path(sys.argv[-1])
+poses = sorted((float(p["stamp_s"]), p) for p in csv.DictReader(open(folder / "antenna_poses.csv")))
+best = {}
+for read in csv.DictReader(open(folder / "reads.csv")):
+    if read["tag"] not in best or float(read["rssi_dbm"]) > float(best[read["tag"]]["rssi_dbm"]):
+        best[read["tag"]] = read
+with open(folder / "estimates.csv", "w") as out:
+    print("tag,x_m,y_m", file=out)
+    for tag, read in best.items():
+        pose = poses[min(bisect.bisect([p[0] for p in poses], float(read["stamp_s"]) - 1e-6), len(poses) - 1)][1]
+        print(tag, pose["x_m"], pose["y_m"], sep=",", file=out)
+"""
+
+
+def suite(context, methods, name="suite.yaml"):
+    return context.write(name, f"scenario: {context.shipped(SCENARIO)}\nmethods: {methods}\n"
+                               "conditions:\n  - {name: true pose}\n")
+
+
+def program(context):
+    return f"{sys.executable} {context.write('mine.py', PROGRAM)}"
+
+
+# --- score ----------------------------------------------------------------------------------------
+
+@case
+def judges_as_run_does(context):
+    folder = context.simulate(SCENARIO, "--no-page")
+    told = context.run_well("score", folder / "estimates.csv", "--run", folder, "--json")
+    ours, theirs = read_json(folder / "summary.json"), json.loads(told.out)
+    check_equal(len(theirs["tags"]), 10, "tags")
+    for one, other in zip(ours["tags"], theirs["tags"]):
+        for key in ("id", "verdict", "truth_m", "reads", "reads_used"):
+            check_equal(other[key], one[key], f"{one['id']}: {key}")
+        check_near(other["error_m"], one["error_m"], 2e-6, f"{one['id']}: error_m")
+    check_near(theirs["error_m"]["mean"], ours["error_m"]["mean"], 2e-6, "mean error")
+    check_in("err [mm]", context.run_well("score", folder / "estimates.csv", "--run", folder).out, "table")
+
+
+@case
+def takes_the_least_that_a_table_can_say(context):
+    folder = context.simulate(SCENARIO, "--record-only")
+    truth = {row["tag"]: row for row in read_csv(folder / "truth/tags.csv")}
+    x, y = float(truth["tag1"]["x_m"]), float(truth["tag1"]["y_m"])
+    table = context.write("e.csv", f"tag,x_m,y_m\ntag1,{x + 0.3},{y - 0.4}\ntag2,0,0\ntag2,1,1\ntagg3,0,0\n")
+    result = context.run_well("score", table, "--run", folder, "--json")
+    tags = {tag["id"]: tag for tag in json.loads(result.out)["tags"]}
+    check_near(tags["tag1"]["error_m"], 0.5, 1e-9, "error of tag1")  # 3-4-5, on its own level
+    check_equal(tags["tag2"]["verdict"], "ambiguous", "two rows")
+    check_equal(tags["tag3"]["verdict"], "not_located", "no row")
+    check_in("errors are horizontal", result.err, "warnings")
+    check_in("the run has no tag 'tagg3' (did you mean 'tag3'?)", result.err, "warnings")
+
+
+@case
+def says_what_is_wrong_in_a_line(context):
+    folder = context.simulate(SCENARIO, "--record-only")
+    for text, said in (("tag,x_m\na,1\n", "y_m"), ("tag,x_m,y_m\na,1,nan\n", ":2: "),
+                       ("tag,x_m,y_m,verdict\na,1,2,sure\n", ":2: "),
+                       ("tag,x_m,y_m,expected_error_m\na,1,2,-1\n", "expected_error_m is below 0"),
+                       ("tag,x_m,y_m,cov_xx,cov_xy,cov_yy\na,1,2,1,5,1\n", "no covariance")):
+        result = context.run("score", context.write("e.csv", text), "--run", folder)
+        check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{text!r}: {result.err!r}")
+        check_in(said, result.err, repr(text))
+    result = context.run("score", context.write("e.csv", "tag,x_m,y_m\n"), "--run", context.folder / "no")
+    check_equal(result.code, 2, "no such run")
+
+
+# --- commands as methods --------------------------------------------------------------------------
+
+@case
+def a_command_is_a_method(context):
+    mine = program(context)
+    out = context.folder / "bench"
+    context.run_well("bench", suite(context, "[hyperbola]"), "--seeds", "2", "--no-page", "--out", out,
+                     "--command", f"strongest={mine}")
+    rows = {row["name"]: row for row in read_csv(out / "bench.csv")}
+    check_equal(set(rows), {"hyperbola", "strongest"}, "methods")
+    check_equal(rows["strongest"]["tags"], "20", "tags")
+    # The same program after a run, judged by score, is off by as much.
+    folder = context.simulate(SCENARIO, "--record-only", "--seed", "1")
+    check_equal(run([*mine.split(), folder]).code, 0, "the program by itself")
+    told = json.loads(context.run_well("score", folder / "estimates.csv", "--run", folder, "--json").out)
+    alone = {tag["id"]: tag["estimate_m"] for tag in told["tags"]}
+    for row in read_csv(out / "tags.csv"):
+        if row["name"] == "strongest" and row["seed"] == "1" and row["verdict"] == "located":
+            check_near(float(row["x_m"]), alone[row["tag"]][0], 1e-5, f"{row['tag']}: x")
+
+
+@case
+def suites_start_no_programs(context):
+    mark = context.folder / "mark"
+    path = suite(context, f'[hyperbola, {{name: mine, command: "touch {mark}; true"}}]')
+    for arguments in ((), ("--methods", "mine"), ("--command", "other=true")):
+        result = context.run("bench", path, *arguments)
+        check_equal(result.code, 2, f"exit code with {arguments}")
+        check_in("suite.yaml:2: method 'mine' is a command", result.err, "refusal")
+        check_in("--allow-commands", result.err, "refusal")
+        check(not mark.exists(), "the command was run")
+    # Not asked for, it does not matter.
+    context.run_well("bench", path, "--methods", "hyperbola", "--no-page", "--out", context.folder / "out")
+    context.run("bench", path, "--allow-commands")
+    check(mark.exists(), "the command was not run with --allow-commands")
+
+
+@case
+def failures_are_told_in_a_line(context):
+    path = suite(context, "[hyperbola]")
+    for command, said in (("echo first; echo 'no licence'; exit 3 #", "ended with code 3: no licence"),
+                          ("true", "wrote no estimates.csv"),
+                          ("kill -9 $$ #", "was ended by signal 9"),
+                          ("sh -c 'echo tag,x_m > $0/estimates.csv'", "estimates.csv")):
+        result = context.run("bench", path, "--command", f"bad={command}", "--out", context.folder / "out")
+        check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{command}: {result.err!r}")
+        check_in(said, result.err, command)
+    for argument, said in (("bad", "expected NAME=COMMAND"), ("a b=true", "letters"), ("hyperbola=true", "name"),
+                           ("sar=true", "already")):
+        result = context.run("bench", path, "--command", argument)
+        check_equal(result.code, 2, argument)
+        check_in(said, result.err, argument)
+
+
+if __name__ == "__main__":
+    main()
