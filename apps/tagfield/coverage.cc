@@ -132,9 +132,10 @@ int coverage(const CoverageArguments& arguments) {
 void add_options(CLI::App& command, CoverageArguments& arguments) {
   add_scenario_options(command, arguments.of_scenario);
   command
-      .add_option("--antenna", arguments.antennas,
-                  "Name of an antenna, or all that match: 'port_*' (default: all). Can be given several "
-                  "times")
+      .add_option(
+          "--antenna", arguments.antennas,
+          "Name of an antenna, or all that match: 'port_*' (default: all). Can be given several "
+          "times")
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--tag-profile", arguments.tag_profile,

@@ -21,7 +21,8 @@ std::string scenario_in(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
   try {
-    const auto json = nlohmann::json::parse(read_text_file(file.string(), kMostBytes), nullptr, false);
+    const auto json =
+        nlohmann::json::parse(read_text_file(file.string(), kMostBytes), nullptr, false);
     if (!json.is_object() || !json.contains("scenario") || !json["scenario"].is_string()) return "";
     return json["scenario"].get<std::string>();
   } catch (const Error&) {

@@ -1,3 +1,5 @@
+#include "tagfield/layout/plan.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +14,6 @@
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/layout/layout_scenario.h"
-#include "tagfield/layout/plan.h"
 #include "tagfield/layout/plan_check.h"
 #include "tagfield/report/plan_page.h"
 
@@ -71,19 +72,18 @@ std::string limits_text(const PlanSpec& plan) {
 }
 
 void add_check(const PlanArguments& arguments, const ScenarioToPlan& to_plan, std::uint64_t seed,
-               Plan& plan) {
+               AntennaPlan& plan) {
   if (arguments.check_seeds == 0) return;
   ProgressBar bar("check");
   RunControl control;
   control.threads = arguments.threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
-  plan.check =
-      check_plan(to_plan, plan.layouts[plan.chosen], seed, arguments.check_seeds, control);
+  plan.check = check_plan(to_plan, plan.layouts[plan.chosen], seed, arguments.check_seeds, control);
 }
 
-void write(const Plan& plan, const std::string& layout, const std::vector<Silhouette>& outlines,
-           StagedFolder& folder) {
+void write(const AntennaPlan& plan, const std::string& layout,
+           const std::vector<Silhouette>& outlines, StagedFolder& folder) {
   const std::vector<Figure> figures = plan_figures(plan, outlines);
   for (const Figure& figure : figures) {
     folder.add("figures/" + figure.name + ".svg",
@@ -98,28 +98,29 @@ void write(const Plan& plan, const std::string& layout, const std::vector<Silhou
   folder.commit({"figures"});
 }
 
-void print_layouts(const Plan& plan) {
+void print_layouts(const AntennaPlan& plan) {
   fmt::print("{:>9} {:>8} {:>8} {:>10} {:>16} {:>8} {:>8}\n", "antennas", "readers", "cost",
              "tags read", "95 % of runs", "score", "bound");
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
     const PlannedLayout& layout = plan.layouts[i];
-    fmt::print("{:>9} {:>8} {:>8g} {:>10.1f} {:>16} {:>8.4f} {:>8.4f}{}{}\n",
-               layout.antennas.size(), layout.readers, layout.cost, layout.read.mean,
-               fmt::format("{:.0f} to {:.0f}", std::ceil(layout.read.low),
-                           std::floor(layout.read.high)),
-               layout.score, layout.bound, layout.is_exact ? " exact" : "",
-               i == plan.chosen ? "  <- chosen" : "");
+    fmt::print(
+        "{:>9} {:>8} {:>8g} {:>10.1f} {:>16} {:>8.4f} {:>8.4f}{}{}\n", layout.antennas.size(),
+        layout.readers, layout.cost, layout.read.mean,
+        fmt::format("{:.0f} to {:.0f}", std::ceil(layout.read.low), std::floor(layout.read.high)),
+        layout.score, layout.bound, layout.is_exact ? " exact" : "",
+        i == plan.chosen ? "  <- chosen" : "");
   }
 }
 
-void print_chosen(const Plan& plan) {
+void print_chosen(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   for (const PlannedAntenna& antenna : layout.antennas) {
-    fmt::print("  {:<20} {:<14} at ({:.2f}, {:.2f}, {:.2f}) m, looks along ({:.2f}, {:.2f}, {:.2f}), "
-               "{:g} dBm\n",
-               antenna.name, antenna.reader, antenna.p_W.x() + 0.0, antenna.p_W.y() + 0.0,
-               antenna.p_W.z() + 0.0, antenna.boresight_W.x() + 0.0, antenna.boresight_W.y() + 0.0,
-               antenna.boresight_W.z() + 0.0, antenna.power_dbm);
+    fmt::print(
+        "  {:<20} {:<14} at ({:.2f}, {:.2f}, {:.2f}) m, looks along ({:.2f}, {:.2f}, {:.2f}), "
+        "{:g} dBm\n",
+        antenna.name, antenna.reader, antenna.p_W.x() + 0.0, antenna.p_W.y() + 0.0,
+        antenna.p_W.z() + 0.0, antenna.boresight_W.x() + 0.0, antenna.boresight_W.y() + 0.0,
+        antenna.boresight_W.z() + 0.0, antenna.power_dbm);
   }
   for (const PlannedZone& zone : layout.zones) {
     fmt::print("  zone {}: {:.1f} of {} tags read, {:.1f} by others (up to {:.0f})\n", zone.zone,
@@ -127,13 +128,12 @@ void print_chosen(const Plan& plan) {
   }
   fmt::print("no layout of {} antennas within the limits is better by more than {:.4f}{}\n",
              layout.antennas.size(), std::max(0.0, layout.bound - layout.score),
-             plan.guaranteed
-                 ? fmt::format("; greed has {:.0f} % of the best for sure",
-                               std::floor(100.0 * *plan.guaranteed))
-                 : std::string());
+             plan.guaranteed ? fmt::format("; greed has {:.0f} % of the best for sure",
+                                           std::floor(100.0 * *plan.guaranteed))
+                             : std::string());
 }
 
-void print_plan(const Plan& plan, const std::string& out) {
+void print_plan(const AntennaPlan& plan, const std::string& out) {
   fmt::print("{}: {} tags in {} places, {} ways to mount an antenna\n", plan.scenario, plan.tags,
              plan.places.size(), plan.options);
   print_layouts(plan);
@@ -148,7 +148,7 @@ void print_plan(const Plan& plan, const std::string& out) {
   fmt::print("layout: {0}/layout.yaml\npage: {0}/plan.html\n", out);
 }
 
-void warn_of_shortfall(const Plan& plan, Diagnostics& diagnostics) {
+void warn_of_shortfall(const AntennaPlan& plan, Diagnostics& diagnostics) {
   if (plan.reaches_aim) return;
   diagnostics.warn(fmt::format(
       "plan.aim.share {:g} is not reached: the best layout found has {:.4f}{}", *plan.aim_share,
@@ -157,8 +157,8 @@ void warn_of_shortfall(const Plan& plan, Diagnostics& diagnostics) {
                               : fmt::format("; plan.{} keeps more out", plan.stopped_by)));
 }
 
-Plan plan_with_progress(const PlanArguments& arguments, const ScenarioToPlan& to_plan,
-                        const LinkMatrix& matrix, std::uint64_t seed) {
+AntennaPlan plan_with_progress(const PlanArguments& arguments, const ScenarioToPlan& to_plan,
+                               const LinkMatrix& matrix, std::uint64_t seed) {
   ProgressBar bar("layouts");
   PlanRequest request;
   request.seed = seed;
@@ -174,8 +174,7 @@ int plan(const PlanArguments& arguments) {
   Diagnostics diagnostics;
   const std::vector<Override> overrides = overrides_of(arguments);
   if (arguments.exact_s > 0.0 && !has_exact_solver()) best_exactly({}, {}, arguments.exact_s);
-  const ScenarioToPlan to_plan =
-      load_scenario_to_plan(arguments.scenario, overrides, diagnostics);
+  const ScenarioToPlan to_plan = load_scenario_to_plan(arguments.scenario, overrides, diagnostics);
   const Scenario& scenario = to_plan.loaded.scenario;
   const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
   const std::string out =
@@ -183,7 +182,7 @@ int plan(const PlanArguments& arguments) {
   require_own_folder(out, scenario.name, arguments.force);
   StagedFolder folder(out);
   catch_interrupts();
-  Plan made;
+  AntennaPlan made;
   try {
     const LinkMatrix matrix = links_of(arguments, to_plan, seed, out, diagnostics);
     made = plan_with_progress(arguments, to_plan, matrix, seed);
@@ -197,8 +196,8 @@ int plan(const PlanArguments& arguments) {
   warn_of_shortfall(made, diagnostics);
   made.warnings = alike_as_one(diagnostics.warnings());
   print_warnings(diagnostics);
-  const std::string layout = layout_to_yaml(arguments.scenario, overrides, to_plan,
-                                            made.layouts[made.chosen], seed, out);
+  const std::string layout =
+      layout_to_yaml(arguments.scenario, overrides, to_plan, made.layouts[made.chosen], seed, out);
   write(made, layout, outlines_of(to_plan.loaded), folder);
   print_plan(made, out);
   return interrupted() ? kExitInterrupted : kExitOk;
@@ -221,17 +220,20 @@ void add_plan_command(CLI::App& app, Action& chosen) {
   command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
   command
-      ->add_option("--samples", arguments->samples,
-                   "Samples of tags, hops and slots that each layout's range comes from (default 32)")
+      ->add_option(
+          "--samples", arguments->samples,
+          "Samples of tags, hops and slots that each layout's range comes from (default 32)")
       ->check(CLI::Range(std::size_t{8}, std::size_t{10'000}));
   command
-      ->add_option("--check", arguments->check_seeds,
-                   "Run the chosen layout in full with so many other samples and seeds, and compare")
+      ->add_option(
+          "--check", arguments->check_seeds,
+          "Run the chosen layout in full with so many other samples and seeds, and compare")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}));
   command
-      ->add_option("--exact", arguments->exact_s,
-                   "Look for the best layout of the chosen number of antennas by an integer program "
-                   "for up to so many seconds (needs CBC), and say how far the layout can be from it")
+      ->add_option(
+          "--exact", arguments->exact_s,
+          "Look for the best layout of the chosen number of antennas by an integer program "
+          "for up to so many seconds (needs CBC), and say how far the layout can be from it")
       ->check(CLI::Range(0.1, 86'400.0));
   command->add_flag("--no-links", arguments->no_links,
                     "Keep no links on disk: nothing to go on from where it is interrupted");
@@ -242,8 +244,9 @@ void add_plan_command(CLI::App& app, Action& chosen) {
       ->check(CLI::Range(1, 1024));
   command->footer(
       "The section 'plan' says where tags can be, where antennas can be, what is allowed and what\n"
-      "is aimed at; scenarios/plan_store.yaml is one to start from, docs/plan.md has all keys.\n"
-      "The folder then holds plan.html with a slider over the number of antennas, layout.yaml (the\n"
+      "is aimed at; scenarios/plan/store.yaml is one to start from, docs/plan.md has all keys.\n"
+      "The folder then holds plan.html with a slider over the number of antennas, layout.yaml "
+      "(the\n"
       "chosen layout as a scenario: tagfield run takes it as it is), plan.json, three tables, and\n"
       "links/, from which the same command goes on or plans again with other limits at once.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return plan(*arguments); }; });

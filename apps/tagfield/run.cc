@@ -127,8 +127,9 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
                        Diagnostics& diagnostics, Summary& summary) {
   if (!arguments.leave_one_out || interrupted()) return;
   if (!summary.inventory) {
-    diagnostics.warn("--leave-one-out: antennas that move locate tags; it is of inventories by "
-                     "antennas at rest, or with localization.method=none");
+    diagnostics.warn(
+        "--leave-one-out: antennas that move locate tags; it is of inventories by "
+        "antennas at rest, or with localization.method=none");
     return;
   }
   ProgressBar bar("leave one out");
@@ -136,8 +137,8 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
   control.threads = arguments.threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
-  summary.inventory->without = leave_one_out(scenario, arguments.seed.value_or(scenario.seed),
-                                             arguments.seeds, control);
+  summary.inventory->without =
+      leave_one_out(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control);
 }
 
 void print_result(const Summary& summary, const std::string& out, bool page) {

@@ -209,10 +209,10 @@ std::string effect_lines(const Summary& summary) {
 
 std::string inventory_head(const InventorySummary& inventory) {
   const auto all = static_cast<double>(inventory.tags);
-  std::string text = fmt::format(
-      "inventory: {:.6g} of {} tags read in {:.1f} s ({:.1f} %), {:.6g} missed\n", inventory.read,
-      inventory.tags, inventory.duration_s, 100.0 * share_of(inventory.read, inventory.tags),
-      all - inventory.read);
+  std::string text =
+      fmt::format("inventory: {:.6g} of {} tags read in {:.1f} s ({:.1f} %), {:.6g} missed\n",
+                  inventory.read, inventory.tags, inventory.duration_s,
+                  100.0 * share_of(inventory.read, inventory.tags), all - inventory.read);
   text += "read after:";
   for (const ReachedShare& reached : inventory.reached) {
     text += fmt::format("  {:.0f} % {}", 100.0 * reached.share,
@@ -244,8 +244,8 @@ std::string antenna_lines(const InventorySummary& inventory) {
                         inventory.duration_s > 0.0 ? antenna.reads / inventory.duration_s : 0.0);
   }
   if (shown < inventory.antennas.size()) {
-    text += fmt::format("  … and {} more (summary.json has all)\n",
-                        inventory.antennas.size() - shown);
+    text +=
+        fmt::format("  … and {} more (summary.json has all)\n", inventory.antennas.size() - shown);
   }
   return text;
 }

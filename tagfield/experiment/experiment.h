@@ -40,7 +40,7 @@ struct SeedRun {
   std::vector<AntennaPose> corrected_poses;  ///< Of methods that estimate the poses' error.
   /// Who was read, by whom and how soon, where all antennas stand still or nothing else is asked.
   std::optional<InventorySummary> inventory;
-  std::vector<ComparedMethod> compared;      ///< None of them the same as `method`.
+  std::vector<ComparedMethod> compared;  ///< None of them the same as `method`.
 };
 
 /// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots

@@ -198,9 +198,9 @@ std::vector<LevelInventory> Tally::by_level() const {
     }
   }
   for (const auto& [id, tag] : tallies_) {
-    const auto above = std::find_if(levels.begin(), levels.end(), [&, z = tag.height_m](const auto& level) {
-      return z <= level.high_m;
-    });
+    const auto above =
+        std::find_if(levels.begin(), levels.end(),
+                     [&, z = tag.height_m](const auto& level) { return z <= level.high_m; });
     LevelInventory& level = above == levels.end() ? levels.back() : *above;
     ++level.tags;
     if (tag.reads > 0) level.read += 1.0;

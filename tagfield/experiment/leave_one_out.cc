@@ -47,8 +47,8 @@ void take_antennas_away(const std::vector<std::string>& patterns, Scenario& scen
     const std::size_t before = all.size();
     all.erase(std::remove_if(all.begin(), all.end(), goes), all.end());
     if (all.size() == before) {
-      throw Error(
-          fmt::format("--without {}: no antenna is called so{}", pattern, suggestion(pattern, names)));
+      throw Error(fmt::format("--without {}: no antenna is called so{}", pattern,
+                              suggestion(pattern, names)));
     }
     if (all.empty()) throw Error(fmt::format("--without {}: no antenna is left", pattern));
   }

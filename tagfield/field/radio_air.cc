@@ -58,9 +58,9 @@ struct AirAntenna {
   /// nothing else is in the way, no link changes but with the carrier.
   struct AtRest {
     RigidTransform X_WA;
-    std::uint64_t tags = 0;   ///< TagPopulation::version().
-    bool is_known = false;    ///< Of the last update.
-    std::map<double, std::vector<TagOnAir>> powered;                       ///< By carrier.
+    std::uint64_t tags = 0;                           ///< TagPopulation::version().
+    bool is_known = false;                            ///< Of the last update.
+    std::map<double, std::vector<TagOnAir>> powered;  ///< By carrier.
     std::map<double, std::unordered_map<std::uint32_t, RadioLink>> read;  ///< By carrier and slot.
   };
   AntennaParameters parameters;

@@ -74,9 +74,9 @@ class RadioAir {
                                         const TagPopulation& tags) const;
   [[nodiscard]] Eigen::Vector3d tag_velocity(std::uint32_t slot) const;
   bool sees_the_same(AirAntenna& antenna, const RigidTransform& X_WA, const TagPopulation& tags);
-  RadioLink link_of_read(AirAntenna& antenna, const RigidTransform& X_WA, const RigidTransform& X_WT,
-                         std::uint32_t slot, Time stamp, double frequency_hz,
-                         const TagPopulation& tags);
+  RadioLink link_of_read(AirAntenna& antenna, const RigidTransform& X_WA,
+                         const RigidTransform& X_WT, std::uint32_t slot, Time stamp,
+                         double frequency_hz, const TagPopulation& tags);
   void read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                     const TagPopulation& tags, std::vector<TagReply>& replies);
   void read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,

@@ -178,8 +178,8 @@ void add_zones(const PlanSpec& plan, const PlannedLayout& layout, YAML::Node& ro
     YAML::Node node;
     node["name"] = zone.zone;
     const double rim = 0.01;
-    node["box"] = flow({box.min().x() - rim, box.min().y() - rim, box.max().x() + rim,
-                        box.max().y() + rim});
+    node["box"] =
+        flow({box.min().x() - rim, box.min().y() - rim, box.max().x() + rim, box.max().y() + rim});
     std::vector<std::string> readers;
     for (const PlannedAntenna& antenna : layout.antennas) {
       if (antenna.zone == zone.zone) readers.push_back(antenna.reader);
@@ -235,8 +235,8 @@ std::string layout_to_yaml(const std::string& path, const std::vector<Override>&
   YAML::Node root = read_yaml(path);
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   move_paths(root, path, folder);
-  for (const char* const key : {"plan", "antennas", "tags", "tag_table", "tag_recording", "zones",
-                                "localization"}) {
+  for (const char* const key :
+       {"plan", "antennas", "tags", "tag_table", "tag_recording", "zones", "localization"}) {
     root.remove(key);
   }
   root["name"] = to_plan.loaded.scenario.name + "_layout";

@@ -87,10 +87,9 @@ std::string text_of(const ScenarioWithWorld& loaded) {
     append(text, collision.X_WC);
     const Material& material = world.materials[world.material_of[i]];
     text += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {} {} {};", material.name,
-                        material.permittivity_a, material.permittivity_b,
-                        material.conductivity_c, material.conductivity_d,
-                        material.wall_m.value_or(-1.0), material.crossing_db.value_or(-1.0),
-                        material.is_opaque);
+                        material.permittivity_a, material.permittivity_b, material.conductivity_c,
+                        material.conductivity_d, material.wall_m.value_or(-1.0),
+                        material.crossing_db.value_or(-1.0), material.is_opaque);
   }
   return text + fmt::format("{:.17g}", loaded.scenario.materials.least_facet_m2);
 }
@@ -114,8 +113,8 @@ std::string text_of(const PlanSpec& plan, const std::vector<LinkRow>& rows) {
 
 /// A draw's key for the diffuse waves at a row.
 std::uint64_t key_of(const PlanSpec& plan, const LinkRow& row) {
-  return stream_key(fmt::format("{} {} {} {}", plan.tags[row.group].name, row.place,
-                                row.orientation, row.stop));
+  return stream_key(
+      fmt::format("{} {} {} {}", plan.tags[row.group].name, row.place, row.orientation, row.stop));
 }
 
 void require_open_air(const RadioScene& scene, const std::vector<PlanMount>& mounts) {
@@ -157,8 +156,8 @@ class Evaluation {
     const std::size_t size = matrix_.rows.size() * kFadingPlaces * carriers.size();
     std::string hash;
     if (!request_.folder.empty()) {
-      std::string text = common_ + text_of(model.settings) +
-                         fmt::format("{:.17g} ", model.transmit_power_dbm);
+      std::string text =
+          common_ + text_of(model.settings) + fmt::format("{:.17g} ", model.transmit_power_dbm);
       append(text, mount.X_WA[column.look]);
       hash = content_hash(text);
       bool damaged = false;
@@ -232,8 +231,8 @@ LinkStates LinkMatrix::states(std::size_t column, std::size_t row) const {
   const std::size_t count = kFadingPlaces * carriers[column];
   const auto begin = steps[column].begin() + static_cast<std::ptrdiff_t>(row * count);
   std::vector<std::int8_t> of_link(begin, begin + static_cast<std::ptrdiff_t>(count));
-  const bool is_empty = std::all_of(of_link.begin(), of_link.end(),
-                                    [](std::int8_t step) { return step == -128; });
+  const bool is_empty =
+      std::all_of(of_link.begin(), of_link.end(), [](std::int8_t step) { return step == -128; });
   return is_empty ? LinkStates() : LinkStates(std::move(of_link));
 }
 

@@ -42,7 +42,7 @@ std::vector<PlanStop> stops_of(const PlanTags& tags, double dwell_s);
 struct LinkMatrix {
   std::vector<LinkRow> rows;
   std::vector<LinkColumn> columns;
-  std::vector<std::size_t> carriers;           ///< By column.
+  std::vector<std::size_t> carriers;            ///< By column.
   std::vector<std::vector<std::int8_t>> steps;  ///< By column: row by row, 9 × carriers each.
 
   [[nodiscard]] LinkStates states(std::size_t column, std::size_t row) const;
@@ -59,7 +59,7 @@ struct LinkMatrixRequest {
 /// How much of a matrix was there already.
 struct LinkMatrixCounts {
   std::size_t columns = 0;
-  std::size_t kept = 0;    ///< Taken from the folder.
+  std::size_t kept = 0;     ///< Taken from the folder.
   std::size_t damaged = 0;  ///< Found there, but not whole; computed again.
 };
 

@@ -43,8 +43,8 @@ std::vector<Element> elements_of(const LinkMatrix& matrix) {
   return elements;
 }
 
-/// Probability that none of `looks` looks on different carriers hears a tag that is heard on `share`
-/// of `carriers`.
+/// Probability that none of `looks` looks on different carriers hears a tag that is heard on
+/// `share` of `carriers`.
 double miss_of(double share, double looks, std::size_t carriers) {
   if (looks < 1.0) return 1.0 - looks * share;
   const auto all = static_cast<double>(carriers);
@@ -102,8 +102,8 @@ class Builder {
       const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
       const auto ways = static_cast<double>(group.places.size() * group.orientations.size());
       SelectionElement one;
-      one.weight = static_cast<double>(group.count) / ways /
-                   (tags * static_cast<double>(kFadingPlaces));
+      one.weight =
+          static_cast<double>(group.count) / ways / (tags * static_cast<double>(kFadingPlaces));
       if (!group.zone.empty()) one.zone = zone_number(group.zone, problem);
       for (std::size_t place = 0; place < kFadingPlaces; ++place) {
         problem.selection.elements.push_back(one);
@@ -120,7 +120,8 @@ class Builder {
       miss.fill(1.0);
       const Element& element = elements_[number];
       const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
-      const std::vector<PlanStop>& stops = stops_.try_emplace(&group, stops_of(group, plan_.dwell_s)).first->second;
+      const std::vector<PlanStop>& stops =
+          stops_.try_emplace(&group, stops_of(group, plan_.dwell_s)).first->second;
       for (std::size_t stop = 0; stop < element.stops; ++stop) {
         const LinkStates states = matrix_.states(column, element.first_row + stop);
         if (states.is_empty()) continue;
@@ -173,13 +174,14 @@ const char* key_of(Limit limit) {
   return "";
 }
 
-/// The limit that keeps most of the options out that would add something to the choice; "" for none.
-std::string holding_limit(const SelectionProblem& problem, const Choice& choice) {
+/// The limit that keeps most of the options out that would add something to the choice; "" for
+/// none.
+std::string holding_limit(const SelectionProblem& problem, const OptionSet& choice) {
   const double score = score_of(problem, choice);
   std::map<Limit, std::size_t> kept_out;
   for (std::size_t option = 0; option < problem.options.size(); ++option) {
     if (std::binary_search(choice.begin(), choice.end(), option)) continue;
-    Choice more = choice;
+    OptionSet more = choice;
     more.insert(std::upper_bound(more.begin(), more.end(), option), option);
     const Limit limit = broken_limit(problem, more);
     if (limit == Limit::kNone || limit == Limit::kSite) continue;
@@ -199,21 +201,22 @@ std::string holding_limit(const SelectionProblem& problem, const Choice& choice)
   const std::string limit = holding_limit(problem, {});
   const Location location = to_plan.plan.mounts.front().location;
   if (limit.empty()) {
-    fail(location, "plan: no mount reaches any tag: nearer mounts, more power or other tags are needed");
+    fail(location,
+         "plan: no mount reaches any tag: nearer mounts, more power or other tags are needed");
   }
   fail(location, fmt::format("plan: no layout is feasible: plan.{} lets no antenna in", limit));
 }
 
 /// The best found of `count` antennas at most.
-Choice layout_of(const PlanProblem& problem, const std::vector<std::vector<std::size_t>>& orders,
-                 std::size_t count) {
+OptionSet layout_of(const PlanProblem& problem, const std::vector<std::vector<std::size_t>>& orders,
+                    std::size_t count) {
   SelectionProblem of_count = problem.selection;
   of_count.limits.antennas = count;
-  Choice best;
+  OptionSet best;
   double most = -1.0;
   for (const std::vector<std::size_t>& order : orders) {
-    Choice choice(order.begin(),
-                  order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size())));
+    OptionSet choice(order.begin(),
+                     order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size())));
     std::sort(choice.begin(), choice.end());
     choice = exchanged(of_count, choice, 4 * static_cast<int>(count));
     const double score = score_of(of_count, choice);
@@ -225,7 +228,7 @@ Choice layout_of(const PlanProblem& problem, const std::vector<std::vector<std::
 }
 
 std::vector<double> place_probabilities(const PlanSpec& plan, const LinkMatrix& matrix,
-                                        const PlanProblem& problem, const Choice& choice) {
+                                        const PlanProblem& problem, const OptionSet& choice) {
   std::vector<double> miss(problem.selection.elements.size(), 1.0);
   for (const std::size_t option : choice) {
     for (const Miss& one : problem.selection.options[option].misses) {
@@ -242,8 +245,7 @@ std::vector<double> place_probabilities(const PlanSpec& plan, const LinkMatrix& 
   const std::vector<Element> elements = elements_of(matrix);
   for (std::size_t number = 0; number < elements.size(); ++number) {
     const LinkRow& row = matrix.rows[elements[number].first_row];
-    const auto ways =
-        static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
+    const auto ways = static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
     for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
       probability[first_place[row.group] + row.place] +=
           (1.0 - miss[number * kFadingPlaces + fade]) / ways;
@@ -270,7 +272,7 @@ double median_margin_of(std::vector<double> values) {
 }
 
 BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanProblem& problem,
-                   const Choice& choice, std::size_t group, std::size_t place) {
+                   const OptionSet& choice, std::size_t group, std::size_t place) {
   BestLink best;
   for (const std::size_t number : choice) {
     const PlanOption& option = problem.options[number];
@@ -296,8 +298,7 @@ BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanPro
     }
     const double median = median_margin_of(all);
     if (median <= best.median_db) continue;
-    best = {plan.mounts[column.mount].name, nearest_m, median, 100.0, -100.0,
-            median > -32.0};
+    best = {plan.mounts[column.mount].name, nearest_m, median, 100.0, -100.0, median > -32.0};
     for (auto& [turn, margins] : by_turn) {
       const double of_turn = median_margin_of(margins);
       best.worst_turn_db = std::min(best.worst_turn_db, of_turn);
@@ -318,7 +319,8 @@ std::string why_hard(const BestLink& link) {
   if (link.median_db < 0.0) {
     return fmt::format("too weak by {:.1f} dB in the median", -link.median_db);
   }
-  return fmt::format("fading: {:.1f} dB to spare in the median, which notches take", link.median_db);
+  return fmt::format("fading: {:.1f} dB to spare in the median, which notches take",
+                     link.median_db);
 }
 
 }  // namespace
@@ -328,7 +330,7 @@ PlanProblem problem_of(const PlanSpec& plan, const LinkMatrix& matrix) {
 }
 
 std::vector<PlannedAntenna> antennas_of(const PlanSpec& plan, const LinkMatrix& matrix,
-                                        const PlanProblem& problem, const Choice& choice) {
+                                        const PlanProblem& problem, const OptionSet& choice) {
   std::map<std::string, std::size_t> of_zone;
   std::vector<PlannedAntenna> antennas;
   for (const std::size_t number : choice) {
@@ -386,8 +388,8 @@ class Planner {
         problem_(problem_of(to_plan.plan, matrix)),
         forecast_(to_plan.plan, matrix, problem_, request) {}
 
-  Plan make() {
-    Plan plan;
+  AntennaPlan make() {
+    AntennaPlan plan;
     const SelectionProblem& selection = problem_.selection;
     plan.scenario = to_plan_.loaded.scenario.name;
     plan.description = to_plan_.loaded.scenario.description;
@@ -421,7 +423,7 @@ class Planner {
     if (request_.on_progress) request_.on_progress(share);
   }
 
-  void add_layouts(Plan& plan) {
+  void add_layouts(AntennaPlan& plan) {
     const SelectionProblem& selection = problem_.selection;
     std::vector<std::vector<std::size_t>> orders = {greedy_order(selection)};
     if (std::isfinite(selection.limits.cost)) orders.push_back(greedy_order(selection, true));
@@ -429,14 +431,14 @@ class Planner {
     for (const auto& order : orders) most = std::max(most, order.size());
     if (most == 0) fail_without_layout(to_plan_, selection);
     for (std::size_t count = 1; count <= most; ++count) {
-      const Choice choice = layout_of(problem_, orders, count);
+      const OptionSet choice = layout_of(problem_, orders, count);
       if (!choices_.empty() && choice.size() <= choices_.back().size()) continue;
       add_layout(choice, plan);
       told(0.7 * static_cast<double>(count) / static_cast<double>(most));
     }
   }
 
-  void add_layout(const Choice& choice, Plan& plan) {
+  void add_layout(const OptionSet& choice, AntennaPlan& plan) {
     PlannedLayout layout;
     SelectionProblem of_count = problem_.selection;
     of_count.limits.antennas = choice.size();
@@ -452,7 +454,7 @@ class Planner {
   }
 
   /// The smallest that is enough, or the best.
-  void choose(Plan& plan) {
+  void choose(AntennaPlan& plan) {
     plan.chosen = plan.layouts.size() - 1;
     const auto& share = to_plan_.plan.aim.share;
     for (std::size_t i = 0; share && i < plan.layouts.size(); ++i) {
@@ -466,14 +468,14 @@ class Planner {
     plan.stopped_by = holding_limit(of_all, choices_[plan.chosen]);
   }
 
-  void solve_exactly(Plan& plan) {
+  void solve_exactly(AntennaPlan& plan) {
     SelectionProblem of_count = problem_.selection;
     of_count.limits.antennas = choices_[plan.chosen].size();
     const ExactChoice exact = best_exactly(of_count, choices_[plan.chosen], request_.exact_s);
     const double bound = std::min(exact.bound, plan.layouts[plan.chosen].bound);
     if (exact.choice != choices_[plan.chosen]) {
-      Plan scratch;
-      std::vector<Choice> before = std::move(choices_);
+      AntennaPlan scratch;
+      std::vector<OptionSet> before = std::move(choices_);
       choices_.clear();
       add_layout(exact.choice, scratch);
       before[plan.chosen] = exact.choice;
@@ -484,7 +486,7 @@ class Planner {
     plan.layouts[plan.chosen].is_exact = true;
   }
 
-  void add_hard(Plan& plan) const {
+  void add_hard(AntennaPlan& plan) const {
     const PlannedLayout& layout = plan.layouts[plan.chosen];
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < layout.places.size(); ++i) {
@@ -507,18 +509,19 @@ class Planner {
     }
   }
 
-  void add_sensitivity(Plan& plan) const {
-    const Choice& choice = choices_[plan.chosen];
+  void add_sensitivity(AntennaPlan& plan) const {
+    const OptionSet& choice = choices_[plan.chosen];
     plan.sensitivity.push_back({"as planned", plan.layouts[plan.chosen].read});
     plan.sensitivity.push_back({fmt::format("{:g} dB less power at all antennas", kLessPower_db),
                                 forecast_.read(choice, kLessPower_db)});
-    plan.sensitivity.push_back(
-        {fmt::format("all tags detuned by {:g} dB", kDetuning_db), forecast_.read(choice, kDetuning_db)});
+    plan.sensitivity.push_back({fmt::format("all tags detuned by {:g} dB", kDetuning_db),
+                                forecast_.read(choice, kDetuning_db)});
     for (std::size_t i = 0; i < choice.size() && choice.size() > 1; ++i) {
-      Choice rest = choice;
+      OptionSet rest = choice;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      plan.sensitivity.push_back({fmt::format("{} fails", plan.layouts[plan.chosen].antennas[i].name),
-                                  forecast_.read(rest, 0.0)});
+      plan.sensitivity.push_back(
+          {fmt::format("{} fails", plan.layouts[plan.chosen].antennas[i].name),
+           forecast_.read(rest, 0.0)});
       told(0.7 + 0.3 * static_cast<double>(i + 1) / static_cast<double>(choice.size()));
     }
   }
@@ -528,13 +531,13 @@ class Planner {
   const PlanRequest& request_;
   PlanProblem problem_;
   LayoutForecast forecast_;
-  std::vector<Choice> choices_;  ///< Of the layouts.
+  std::vector<OptionSet> choices_;  ///< Of the layouts.
 };
 
 }  // namespace
 
-Plan make_plan(const ScenarioToPlan& to_plan, const LinkMatrix& matrix,
-               const PlanRequest& request) {
+AntennaPlan make_plan(const ScenarioToPlan& to_plan, const LinkMatrix& matrix,
+                      const PlanRequest& request) {
   return Planner(to_plan, matrix, request).make();
 }
 

@@ -41,9 +41,10 @@ struct PlanProblem {
 
 PlanProblem problem_of(const PlanSpec& plan, const LinkMatrix& matrix);
 
-/// The antennas of a choice, with names and readers: of each zone as many readers as its ports need.
+/// The antennas of a choice, with names and readers: of each zone as many readers as its ports
+/// need.
 std::vector<PlannedAntenna> antennas_of(const PlanSpec& plan, const LinkMatrix& matrix,
-                                        const PlanProblem& problem, const Choice& choice);
+                                        const PlanProblem& problem, const OptionSet& choice);
 
 /// One tag of a sample: which place and orientation of its group it has.
 struct PlanTag {
@@ -57,6 +58,7 @@ std::vector<PlanTag> tags_of_sample(const PlanSpec& plan, std::uint64_t seed, st
 
 /// All layouts, and what there is to say of the chosen one; without a check. Throws Error where the
 /// limits let no antenna in, saying which one is at fault, and where it was stopped.
-Plan make_plan(const ScenarioToPlan& to_plan, const LinkMatrix& matrix, const PlanRequest& request);
+AntennaPlan make_plan(const ScenarioToPlan& to_plan, const LinkMatrix& matrix,
+                      const PlanRequest& request);
 
 }  // namespace tagfield

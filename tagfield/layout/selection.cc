@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastGain = 1e-12;
 
-std::vector<double> misses_of(const SelectionProblem& problem, const Choice& choice) {
+std::vector<double> misses_of(const SelectionProblem& problem, const OptionSet& choice) {
   std::vector<double> miss(problem.elements.size(), 1.0);
   for (const std::size_t option : choice) {
     for (const Miss& one : problem.options[option].misses) {
@@ -37,12 +37,12 @@ double gain_of(const SelectionProblem& problem, const std::vector<double>& miss,
   return gain;
 }
 
-Choice with(Choice choice, std::size_t option) {
+OptionSet with(OptionSet choice, std::size_t option) {
   choice.insert(std::upper_bound(choice.begin(), choice.end(), option), option);
   return choice;
 }
 
-Choice without(Choice choice, std::size_t place) {
+OptionSet without(OptionSet choice, std::size_t place) {
   choice.erase(choice.begin() + static_cast<std::ptrdiff_t>(place));
   return choice;
 }
@@ -56,19 +56,20 @@ std::vector<double> weights_of(const SelectionProblem& problem) {
   return weights;
 }
 
-/// One exchange, or addition, that adds the most for one place of the choice; whether there was one.
-bool improve(const SelectionProblem& problem, double& score, Choice& choice) {
+/// One exchange, or addition, that adds the most for one place of the choice; whether there was
+/// one.
+bool improve(const SelectionProblem& problem, double& score, OptionSet& choice) {
   for (std::size_t place = 0; place <= choice.size(); ++place) {
     const bool adds = place == choice.size();
-    const Choice rest = adds ? choice : without(choice, place);
+    const OptionSet rest = adds ? choice : without(choice, place);
     const std::vector<double> miss = misses_of(problem, rest);
     const double of_rest = adds ? score : score_of(problem, rest);
     double most = score - of_rest + 1e-9;
-    std::optional<Choice> best;
+    std::optional<OptionSet> best;
     for (std::size_t option = 0; option < problem.options.size(); ++option) {
       const double gain = gain_of(problem, miss, option);
       if (gain <= most || std::binary_search(rest.begin(), rest.end(), option)) continue;
-      Choice other = with(rest, option);
+      OptionSet other = with(rest, option);
       if (broken_limit(problem, other) != Limit::kNone) continue;
       most = gain;
       best = std::move(other);
@@ -83,14 +84,14 @@ bool improve(const SelectionProblem& problem, double& score, Choice& choice) {
 
 }  // namespace
 
-double score_of(const SelectionProblem& problem, const Choice& choice) {
+double score_of(const SelectionProblem& problem, const OptionSet& choice) {
   const std::vector<double> miss = misses_of(problem, choice);
   double score = 0.0;
   for (std::size_t i = 0; i < miss.size(); ++i) score += worth_of(problem, i, miss[i]);
   return score;
 }
 
-std::size_t readers_of(const SelectionProblem& problem, const Choice& choice) {
+std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice) {
   std::map<std::size_t, std::size_t> antennas;
   for (const std::size_t option : choice) ++antennas[problem.options[option].zone];
   std::size_t readers = 0;
@@ -100,13 +101,13 @@ std::size_t readers_of(const SelectionProblem& problem, const Choice& choice) {
   return readers;
 }
 
-double cost_of(const SelectionProblem& problem, const Choice& choice) {
+double cost_of(const SelectionProblem& problem, const OptionSet& choice) {
   double cost = problem.limits.reader_cost * static_cast<double>(readers_of(problem, choice));
   for (const std::size_t option : choice) cost += problem.options[option].cost;
   return cost;
 }
 
-std::vector<double> cross_of(const SelectionProblem& problem, const Choice& choice) {
+std::vector<double> cross_of(const SelectionProblem& problem, const OptionSet& choice) {
   std::vector<double> cross(problem.zones, 0.0);
   if (problem.zones == 0) return cross;
   std::vector<double> miss(problem.elements.size(), 1.0);
@@ -131,7 +132,7 @@ std::vector<double> cross_of(const SelectionProblem& problem, const Choice& choi
   return cross;
 }
 
-Limit broken_limit(const SelectionProblem& problem, const Choice& choice) {
+Limit broken_limit(const SelectionProblem& problem, const OptionSet& choice) {
   const SelectionLimits& limits = problem.limits;
   if (choice.size() > limits.antennas) return Limit::kAntennas;
   std::set<std::size_t> sites;
@@ -166,7 +167,7 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
     queue.push({value_of(i, gain_of(problem, miss, i)), i, 0});
   }
   std::vector<std::size_t> order;
-  Choice choice;
+  OptionSet choice;
   while (!queue.empty() && order.size() < problem.limits.antennas) {
     Entry top = queue.top();
     queue.pop();
@@ -178,7 +179,7 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
       continue;
     }
     // Limits only get narrower, so what does not fit now never does.
-    const Choice more = with(choice, top.option);
+    const OptionSet more = with(choice, top.option);
     if (broken_limit(problem, more) != Limit::kNone) continue;
     choice = more;
     order.push_back(top.option);
@@ -189,14 +190,14 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
   return order;
 }
 
-Choice exchanged(const SelectionProblem& problem, Choice choice, int rounds) {
+OptionSet exchanged(const SelectionProblem& problem, OptionSet choice, int rounds) {
   double score = score_of(problem, choice);
   for (int round = 0; round < rounds && improve(problem, score, choice); ++round) {
   }
   return choice;
 }
 
-double upper_bound(const SelectionProblem& problem, const Choice& choice) {
+double upper_bound(const SelectionProblem& problem, const OptionSet& choice) {
   const std::vector<double> miss = misses_of(problem, choice);
   std::vector<double> gains;
   for (std::size_t i = 0; i < problem.options.size(); ++i) {
@@ -215,7 +216,8 @@ std::optional<double> guaranteed_share(const SelectionProblem& problem) {
   if (std::isfinite(limits.cost) || std::isfinite(limits.cross)) return std::nullopt;
   // Each antenna may need a reader of its own zone.
   if (limits.readers < limits.antennas && problem.zones > 0) return std::nullopt;
-  if (limits.readers < limits.antennas / std::max<std::size_t>(limits.ports, 1)) return std::nullopt;
+  if (limits.readers < limits.antennas / std::max<std::size_t>(limits.ports, 1))
+    return std::nullopt;
   std::set<std::size_t> sites;
   for (const SelectionOption& option : problem.options) {
     if (!sites.insert(option.site).second) return 0.5;
@@ -223,10 +225,11 @@ std::optional<double> guaranteed_share(const SelectionProblem& problem) {
   return 1.0 - std::exp(-1.0);
 }
 
-Choice best_by_trying(const SelectionProblem& problem) {
-  Choice best;
+OptionSet best_by_trying(const SelectionProblem& problem) {
+  OptionSet best;
   double most = -1.0;
-  const std::function<void(std::size_t, Choice&)> go_on = [&](std::size_t from, Choice& choice) {
+  const std::function<void(std::size_t, OptionSet&)> go_on = [&](std::size_t from,
+                                                                 OptionSet& choice) {
     const double score = score_of(problem, choice);
     if (score > most + 1e-15) {
       most = score;
@@ -239,7 +242,7 @@ Choice best_by_trying(const SelectionProblem& problem) {
       choice.pop_back();
     }
   };
-  Choice none;
+  OptionSet none;
   go_on(0, none);
   return best;
 }

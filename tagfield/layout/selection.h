@@ -51,21 +51,21 @@ struct SelectionProblem {
   double cap = 1.0;  ///< Probability beyond which more is worth nothing; in (0, 1].
 };
 
-using Choice = std::vector<std::size_t>;  ///< Numbers of options, rising.
+using OptionSet = std::vector<std::size_t>;  ///< Numbers of options, rising.
 
 /// Σ w·min(1 − Π p, cap)/cap over the elements: monotone and submodular in the choice.
-double score_of(const SelectionProblem& problem, const Choice& choice);
+double score_of(const SelectionProblem& problem, const OptionSet& choice);
 
 /// Readers that the choice needs: of each zone as many as its antennas need ports.
-std::size_t readers_of(const SelectionProblem& problem, const Choice& choice);
+std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice);
 /// Of antennas and readers.
-double cost_of(const SelectionProblem& problem, const Choice& choice);
+double cost_of(const SelectionProblem& problem, const OptionSet& choice);
 /// For each zone, the share of its weight that options of other zones read.
-std::vector<double> cross_of(const SelectionProblem& problem, const Choice& choice);
+std::vector<double> cross_of(const SelectionProblem& problem, const OptionSet& choice);
 
 /// Which limit the choice is beyond.
 enum class Limit { kNone, kAntennas, kSite, kReaders, kCost, kCross };
-Limit broken_limit(const SelectionProblem& problem, const Choice& choice);
+Limit broken_limit(const SelectionProblem& problem, const OptionSet& choice);
 
 /// The options in the order in which greed takes them: each time the one that adds most, or adds
 /// most for its cost where `by_cost` is set, as long as one that fits adds anything. Lazy: an
@@ -74,32 +74,32 @@ std::vector<std::size_t> greedy_order(const SelectionProblem& problem, bool by_c
 
 /// Improves a choice by exchanging one option for another, and adding what fits, as long as that
 /// adds anything, at most `rounds` times over all.
-Choice exchanged(const SelectionProblem& problem, Choice choice, int rounds);
+OptionSet exchanged(const SelectionProblem& problem, OptionSet choice, int rounds);
 
 /// No choice of at most `limits.antennas` has more: the score and the greatest gains of so many
 /// options, which submodularity bounds it by (Nemhauser, Wolsey, Fisher 1978, (1.9)); 1 at most.
-double upper_bound(const SelectionProblem& problem, const Choice& choice);
+double upper_bound(const SelectionProblem& problem, const OptionSet& choice);
 
-/// What greed has for sure of the best, before anything is known of the case: 1 − 1/e where only the
-/// number of antennas is limited, ½ where sites have several options as well (Fisher, Nemhauser,
-/// Wolsey 1978), and none with other limits that hold greed back.
+/// What greed has for sure of the best, before anything is known of the case: 1 − 1/e where only
+/// the number of antennas is limited, ½ where sites have several options as well (Fisher,
+/// Nemhauser, Wolsey 1978), and none with other limits that hold greed back.
 std::optional<double> guaranteed_share(const SelectionProblem& problem);
 
 /// Tries all; for up to some 25 options.
-Choice best_by_trying(const SelectionProblem& problem);
+OptionSet best_by_trying(const SelectionProblem& problem);
 
 /// The best choice, or what was found in time.
 struct ExactChoice {
-  Choice choice;
+  OptionSet choice;
   double bound = 1.0;  ///< No choice has more.
 };
 
 /// Whether this was built with a solver of integer programs.
 bool has_exact_solver();
 
-/// By an integer program: elements' probabilities are bounded by tangents of 1 − e^−L, of which more
-/// are added where the solution is not on the curve, and by cuts where it crosses zones too much.
-/// `begin` is a choice that fits. Throws Error without a solver.
-ExactChoice best_exactly(const SelectionProblem& problem, const Choice& begin, double seconds);
+/// By an integer program: elements' probabilities are bounded by tangents of 1 − e^−L, of which
+/// more are added where the solution is not on the curve, and by cuts where it crosses zones too
+/// much. `begin` is a choice that fits. Throws Error without a solver.
+ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds);
 
 }  // namespace tagfield

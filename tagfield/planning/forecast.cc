@@ -8,6 +8,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
 #include "tagfield/field/port_turns.h"
 #include "tagfield/planning/local_link.h"
 #include "tagfield/reader/radio_model.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kStep_db = 0.25;
 constexpr int kMostSteps = 126;
 constexpr std::int8_t kNoLink = -128;
-/// A turn without a change of port is looked at in pieces of this.
+/// An inventory without a change of port is followed in pieces of this or more.
 constexpr double kPiece_s = 0.25;
 constexpr double kS1_s = 2.0;    ///< Persistence of flags, as TagMemories has it.
 constexpr double kS23_s = 10.0;  ///< Likewise.
@@ -29,17 +30,55 @@ std::int8_t step_of(double margin_db) {
       std::clamp<long>(std::lround(std::floor(margin_db / kStep_db)), -kMostSteps, kMostSteps));
 }
 
-/// A stretch of time in which one antenna sends.
+/// A stretch of time in which one antenna sends, and who has power does not change.
 struct Turn {
   std::size_t port = 0;
   double begin_s = 0.0;
   double end_s = 0.0;
+  double since_s = 0.0;    ///< When the inventory that goes on here had begun.
+  double carrier_s = 0.0;  ///< The carrier is that of this moment.
 };
 
 std::size_t port_named(const ForecastRequest& request, const std::string& name) {
   std::size_t port = 0;
   while (request.ports[port].antenna.name != name) ++port;
   return port;
+}
+
+/// How long an inventory is followed before it is taken to begin anew.
+double followed_s(const RadioModel& model) {
+  return std::clamp(model.gen2->port_dwell_s, kPiece_s, 8.0 * kPiece_s);
+}
+
+/// Hops that were made at the antenna's last update by `time_s`, and when that was. Who has power
+/// is looked at with each update, on the carrier that is then.
+struct LastUpdate {
+  double stamp_s = 0.0;
+  double hop = 0.0;
+};
+LastUpdate last_update(const AntennaParameters& antenna, double time_s) {
+  const double stamp_s = std::floor(time_s * antenna.rate_hz + 1e-9) / antenna.rate_hz;
+  return {stamp_s, std::floor(stamp_s / physical(antenna)->plan.dwell_s + 1e-9)};
+}
+
+/// A port's turn in pieces on one carrier each.
+void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, double end_s,
+              std::vector<Turn>& turns) {
+  const AntennaParameters& antenna = request.ports[port].antenna;
+  const double most_s = followed_s(*physical(antenna));
+  double since_s = begin_s;
+  double at = begin_s;
+  while (at < end_s - 1e-9) {
+    const LastUpdate now = last_update(antenna, at);
+    double until = now.stamp_s;
+    do {
+      until += 1.0 / antenna.rate_hz;
+    } while (until < end_s && last_update(antenna, until).hop == now.hop);
+    if (at - since_s >= most_s - 1e-9) since_s = at;
+    const double end = std::min({until, end_s, since_s + most_s});
+    turns.push_back({port, at, end, since_s, now.stamp_s});
+    at = end;
+  }
 }
 
 /// Turns of all readers' ports in order of time.
@@ -49,13 +88,14 @@ std::vector<Turn> turns_of(const ForecastRequest& request) {
   std::vector<Turn> turns;
   for (const PortCycle& cycle : port_cycles(antennas)) {
     const double period_s = to_seconds(cycle.back().end);
+    if (cycle.size() == 1) {
+      add_turn(request, port_named(request, cycle.front().antenna), 0.0, request.duration_s, turns);
+      continue;
+    }
     for (double at = 0.0; at < request.duration_s; at += period_s) {
       for (const PortTurn& turn : cycle) {
-        const std::size_t port = port_named(request, turn.antenna);
-        const double end = std::min(at + to_seconds(turn.end), request.duration_s);
-        for (double begin = at + to_seconds(turn.begin); begin < end; begin += kPiece_s) {
-          turns.push_back({port, begin, std::min(begin + kPiece_s, end)});
-        }
+        add_turn(request, port_named(request, turn.antenna), at + to_seconds(turn.begin),
+                 std::min(at + to_seconds(turn.end), request.duration_s), turns);
       }
     }
   }
@@ -79,6 +119,28 @@ struct Memory {
 struct Link {
   std::size_t tag = 0;
   const ForecastLink* link = nullptr;
+};
+
+/// The links of a port that hold at a time that only grows.
+class HoldingLinks {
+ public:
+  /// `links` by rising begin.
+  explicit HoldingLinks(const std::vector<Link>& links) : links_(links) {}
+
+  const std::vector<Link>& at(double time_s) {
+    holding_.erase(std::remove_if(holding_.begin(), holding_.end(),
+                                  [&](const Link& link) { return link.link->end_s <= time_s; }),
+                   holding_.end());
+    for (; next_ < links_.size() && links_[next_].link->begin_s <= time_s; ++next_) {
+      if (links_[next_].link->end_s > time_s) holding_.push_back(links_[next_]);
+    }
+    return holding_;
+  }
+
+ private:
+  const std::vector<Link>& links_;
+  std::size_t next_ = 0;
+  std::vector<Link> holding_;
 };
 
 class Sampler {
@@ -112,6 +174,11 @@ Sampler::Sampler(const ForecastRequest& request)
       if (is_there) links_[link.port].push_back({tag, &link});
     }
   }
+  for (std::vector<Link>& links : links_) {
+    std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+      return a.link->begin_s < b.link->begin_s;
+    });
+  }
   std::map<std::string, std::size_t> ports_of;
   for (const ForecastPort& port : request.ports) ++ports_of[port.antenna.reader];
   std::vector<std::string> groups;
@@ -130,7 +197,8 @@ Sampler::Sampler(const ForecastRequest& request)
     // Antennas of one reader have one pace.
     for (std::size_t other = 0; other < i; ++other) {
       const RadioModel* const model = physical(request.ports[other].antenna);
-      if (request.ports[other].antenna.reader == port.antenna.reader && model->gen2) {
+      if (request.ports[other].antenna.reader == port.antenna.reader && model != nullptr &&
+          model->gen2) {
         pace = pace_[other];
       }
     }
@@ -144,13 +212,14 @@ std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double tim
                                 std::size_t carriers) const {
   const RadioModel& model = *physical(request_.ports[port].antenna);
   if (carriers < 2) return 0;
-  const auto hop = static_cast<std::uint64_t>(time_s / model.plan.dwell_s);
+  const auto hop = static_cast<std::uint64_t>(std::max(0.0, time_s) / model.plan.dwell_s + 1e-9);
   RandomStream stream(request_.seed, Purpose::kForecast, number,
                       stream_key(request_.ports[port].antenna.reader), 1 + hop / carriers);
   std::vector<std::size_t> order(carriers);
   for (std::size_t i = 0; i < carriers; ++i) order[i] = i;
   for (std::size_t i = carriers - 1; i > 0; --i) {
-    std::swap(order[i], order[static_cast<std::size_t>(uniform(stream) * static_cast<double>(i + 1))]);
+    std::swap(order[i],
+              order[static_cast<std::size_t>(uniform(stream) * static_cast<double>(i + 1))]);
   }
   return order[hop % carriers];
 }
@@ -166,16 +235,16 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
     RandomStream stream(request_.seed, Purpose::kForecast, number, stream_key(antenna.name), 0);
     const bool is_paper = physical(antenna) == nullptr;
     const std::size_t carriers = is_paper ? 1 : links_[port].front().link->states->carriers();
+    HoldingLinks holding(links_[port]);
     for (std::size_t update = 0; update < updates; ++update) {
       const double time_s = static_cast<double>(update) / antenna.rate_hz;
       const std::size_t carrier = is_paper ? 0 : carrier_at(number, port, time_s, carriers);
       // The paper's range is drawn once an update for all tags.
       const double draw = uniform(stream);
-      for (const Link& link : links_[port]) {
-        if (time_s < link.link->begin_s || time_s >= link.link->end_s) continue;
-        const bool is_heard = is_paper ? draw < link.link->update_probability
-                                       : link.link->states->margin_db(places[link.tag], carrier) >=
-                                             request_.less_db;
+      for (const Link& link : holding.at(time_s)) {
+        const bool is_heard =
+            is_paper ? draw < link.link->update_probability
+                     : link.link->states->margin_db(places[link.tag], carrier) >= request_.less_db;
         if (is_heard) on_read(link.tag, port);
       }
     }
@@ -189,7 +258,8 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
   RandomStream stream(request_.seed, Purpose::kForecast, number);
   std::vector<std::size_t> places(count);
   for (std::size_t tag = 0; tag < count; ++tag) {
-    const auto drawn = static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
+    const auto drawn =
+        static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
     places[tag] = request_.tags[tag].place.value_or(drawn);
   }
   std::vector<char>& read = forecast.read[place];
@@ -202,6 +272,8 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
   // Until when each session's flag says that the tag was read, by tag.
   std::array<std::vector<double>, 4> silent_until;
   for (auto& of_session : silent_until) of_session.assign(count, -1.0);
+  std::vector<HoldingLinks> holding;
+  for (const std::vector<Link>& links : links_) holding.emplace_back(links);
   std::vector<std::size_t> heard;
   for (const Turn& turn : turns_) {
     const auto& links = links_[turn.port];
@@ -210,23 +282,29 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
     auto& silent = silent_until[static_cast<std::size_t>(memory.session)];
     const double middle_s = 0.5 * (turn.begin_s + turn.end_s);
     const std::size_t carrier =
-        carrier_at(number, turn.port, middle_s, links.front().link->states->carriers());
+        carrier_at(number, turn.port, turn.carrier_s, links.front().link->states->carriers());
     heard.clear();
-    for (const Link& link : links) {
-      const bool is_there = middle_s >= link.link->begin_s && middle_s < link.link->end_s &&
-                            middle_s >= request_.tags[link.tag].begin_s;
-      if (!is_there || (silent[link.tag] > turn.begin_s && !memory.asks_all)) continue;
+    for (const Link& link : holding[turn.port].at(middle_s)) {
+      const bool is_silent = memory.is_lost_between ? silent[link.tag] >= turn.since_s
+                                                    : silent[link.tag] > turn.begin_s;
+      if (is_silent && !memory.asks_all) continue;
       if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;
       heard.push_back(link.tag);
     }
     if (heard.empty()) continue;
     const auto all = static_cast<double>(heard.size());
-    const double share = pace_[turn.port]->read(all, turn.end_s - turn.begin_s) / all;
+    // Of those that are not read yet as many as the inventory, begun with them, reads in this time.
+    const InventoryPace& pace = *pace_[turn.port];
+    const double before = pace.read(all, turn.begin_s - turn.since_s);
+    const double share =
+        before >= all - 1e-9
+            ? 1.0
+            : (pace.read(all, turn.end_s - turn.since_s) - before) / (all - before);
     for (const std::size_t tag : heard) {
       if (uniform(stream) >= share) continue;
       on_read(tag, turn.port);
       if (memory.session == Session::kS0) {
-        silent[tag] = memory.is_lost_between ? turn.begin_s : request_.duration_s;
+        silent[tag] = memory.is_lost_between ? turn.since_s : request_.duration_s;
       } else {
         silent[tag] = turn.end_s + (memory.session == Session::kS1 ? kS1_s : kS23_s);
       }
@@ -287,7 +365,7 @@ double LinkStates::best_db() const {
 
 std::shared_ptr<const InventoryPace> pace_of(const RadioModel& model, std::size_t tags,
                                              std::uint64_t seed) {
-  return std::make_shared<const InventoryPace>(*model.gen2, kPiece_s,
+  return std::make_shared<const InventoryPace>(*model.gen2, followed_s(model),
                                                std::max<std::size_t>(1, tags), seed);
 }
 

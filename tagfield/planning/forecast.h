@@ -62,7 +62,6 @@ struct ForecastLink {
 
 struct ForecastTag {
   std::vector<ForecastLink> links;
-  double begin_s = 0.0;  ///< When it comes.
   /// The place within the neighbourhood; drawn anew for each sample where it is not known.
   std::optional<std::size_t> place;
 };
@@ -71,8 +70,8 @@ struct ForecastRequest {
   std::vector<ForecastPort> ports;  ///< In the order in which they take turns.
   std::vector<ForecastTag> tags;
   double duration_s = 1.0;
-  double less_db = 0.0;      ///< Power that all links lack.
-  std::size_t samples = 32;  ///< At least 1; the range that is told needs 2.
+  double less_db = 0.0;          ///< Power that all links lack.
+  std::size_t samples = 32;      ///< At least 1; the range that is told needs 2.
   std::size_t first_sample = 0;  ///< Samples of other numbers are other draws.
   std::uint64_t seed = 1;
   int threads = 1;  ///< The result does not depend on it.
@@ -86,11 +85,11 @@ struct Forecasted {
 };
 
 struct Forecast {
-  std::vector<double> probability;                ///< Of each tag to be read at least once.
-  std::vector<std::vector<double>> by_port;       ///< The same, by tag and port; empty of no links.
-  std::vector<std::vector<char>> read;            ///< By sample, then tag.
+  std::vector<double> probability;           ///< Of each tag to be read at least once.
+  std::vector<std::vector<double>> by_port;  ///< The same, by tag and port; empty of no links.
+  std::vector<std::vector<char>> read;       ///< By sample, then tag.
   std::vector<std::vector<std::vector<char>>> read_by_group;  ///< By sample, group, tag.
-  std::vector<std::string> groups;                ///< Distinct, in the ports' order.
+  std::vector<std::string> groups;                            ///< Distinct, in the ports' order.
   Forecasted tags_read;
   double reads = 0.0;  ///< Mean number of all reads.
 };
@@ -101,8 +100,8 @@ struct Forecast {
 /// Error on a request without ports or samples.
 Forecast forecast(const ForecastRequest& request);
 
-/// Mean and 95 % prediction range of a count of `most` at most, from samples of it: Student's t, and
-/// half a count, as counts are whole. Of one sample the range is that one.
+/// Mean and 95 % prediction range of a count of `most` at most, from samples of it: Student's t,
+/// and half a count, as counts are whole. Of one sample the range is that one.
 Forecasted range_of(const std::vector<double>& samples, double most);
 
 }  // namespace tagfield

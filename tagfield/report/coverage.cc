@@ -148,8 +148,9 @@ std::string coverage_tags_to_csv(const Coverage& coverage) {
     }
     text += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{:.3f},{},{},{:.3f},{}\n", csv_field(tag.id),
                         tag.p_WT.x(), tag.p_WT.y(), tag.p_WT.z(), word_of(tag.verdict),
-                        antenna_name(coverage, tag.nearest), tag.nearest_m, csv_field(joined(tag.meant_for)),
-                        csv_field(joined(readers)), tag.probability, cell_fields(tag.best));
+                        antenna_name(coverage, tag.nearest), tag.nearest_m,
+                        csv_field(joined(tag.meant_for)), csv_field(joined(readers)),
+                        tag.probability, cell_fields(tag.best));
   }
   return text;
 }

@@ -85,9 +85,9 @@ struct ExpectedCount {
 struct TagCoverage {
   std::string id;
   Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< [m] Where it begins, if it moves.
-  int nearest = -1;        ///< The antenna that comes nearest.
-  double nearest_m = 0.0;  ///< How near.
-  CoverageCell best;       ///< By the antenna with the greatest margin, at one moment.
+  int nearest = -1;                                ///< The antenna that comes nearest.
+  double nearest_m = 0.0;                          ///< How near.
+  CoverageCell best;                   ///< By the antenna with the greatest margin, at one moment.
   double probability = 0.0;            ///< To be read at least once in the run.
   std::vector<ReaderChance> readers;   ///< Those that may read it, the likeliest first.
   std::vector<std::string> meant_for;  ///< Readers: of its zone, or the nearest antenna's.
@@ -104,8 +104,8 @@ struct Coverage {
   CoverageGrid grid;
   std::vector<CoverageLayer> layers;
   std::vector<TagCoverage> tags;
-  double run_s = 0.0;              ///< That the tags' probabilities are for.
-  ExpectedCount expected_read;     ///< Of the tags, in that time.
+  double run_s = 0.0;           ///< That the tags' probabilities are for.
+  ExpectedCount expected_read;  ///< Of the tags, in that time.
   std::vector<std::string> warnings;
 };
 

@@ -260,7 +260,8 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
   Figure figure;
   figure.name = "tags";
   figure.title = "The scenario’s tags";
-  figure.caption = "By who reads them in the run. A tag is meant for its zone’s readers or, without zones, for "
+  figure.caption =
+      "By who reads them in the run. A tag is meant for its zone’s readers or, without zones, for "
       "that of the antenna that comes nearest to it; all antennas of one robot are one reader.";
   const double top =
       draw_legend(figure.svg, {{Symbol::kDiamond, "cover-own", "read by its own reader only"},

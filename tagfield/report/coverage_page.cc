@@ -33,10 +33,10 @@ std::size_t count(const Coverage& coverage, TagVerdict verdict) {
 
 std::string numbers(const Coverage& coverage) {
   std::string html = "<dl class=\"numbers\">\n";
-  html += big_number(fmt::format("Tags read in {:.3g} s", coverage.run_s),
-                     fmt::format("{:.0f} of {}", coverage.expected_read.mean,
-                                 grouped(coverage.tags.size())),
-                     true);
+  html += big_number(
+      fmt::format("Tags read in {:.3g} s", coverage.run_s),
+      fmt::format("{:.0f} of {}", coverage.expected_read.mean, grouped(coverage.tags.size())),
+      true);
   html += big_number("With 95 % confidence",
                      fmt::format("{:.0f} to {:.0f}", std::ceil(coverage.expected_read.low),
                                  std::floor(coverage.expected_read.high)));
@@ -109,7 +109,8 @@ std::string table(const Coverage& coverage) {
       "<th scope=\"col\">Margin<br>[dB]</th><th scope=\"col\">";
   html += paper ? "RSSI<br>[dBm]" : "Power at<br>chip [dBm]";
   html +=
-      "</th><th scope=\"col\">Read in<br>the run [%]</th><th scope=\"col\">Nearest<br>antenna [m]</th>"
+      "</th><th scope=\"col\">Read in<br>the run [%]</th><th scope=\"col\">Nearest<br>antenna "
+      "[m]</th>"
       "</tr></thead>\n<tbody>\n";
   const std::vector<const TagCoverage*> tags = sorted(coverage);
   const std::size_t shown = std::min(tags.size(), kMostTags);
@@ -177,9 +178,9 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
     maps += figures_html(figures, next, next + quantities_of(coverage).size());
     next += quantities_of(coverage).size();
   }
-  return page_head(coverage.scenario + " – Tagfield coverage", {table_script().hash}) + "<body>\n" + header(coverage) +
-         "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) + maps +
-         "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
+  return page_head(coverage.scenario + " – Tagfield coverage", {table_script().hash}) + "<body>\n" +
+         header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) +
+         maps + "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
          table(coverage) +
          "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
          "maps in figures/ as SVG files.</p>\n</footer>\n" +

@@ -75,7 +75,7 @@ struct InventorySummary {
   std::vector<InventoryShare> readers;
   std::vector<InventoryShare> antennas;
   std::vector<ZoneInventory> zones;
-  std::vector<LevelInventory> levels;  ///< From the lowest.
+  std::vector<LevelInventory> levels;     ///< From the lowest.
   std::vector<InventoryWithout> without;  ///< Each antenna in turn; empty where that was not asked.
 };
 

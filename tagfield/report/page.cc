@@ -47,8 +47,7 @@ std::string page_of(const Summary& summary, const std::vector<Figure>& figures,
          run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
          navigation_table(summary) + effects_table(summary) +
          (view ? "<h2>The run over time</h2>\n" + view->html : "") + "<h2>Figures</h2>\n" +
-         figures_html(figures) +
-         (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) +
+         figures_html(figures) + (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) +
          "</main>\n" + page_footer() + script_html(table_script()) + "</body>\n</html>\n";
 }
 

@@ -19,17 +19,22 @@ PlanJson plan_json(const ExpectedCount& count) {
 PlanJson plan_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 PlanJson plan_json(const PlannedAntenna& antenna) {
-  return {{"name", antenna.name},         {"mount", antenna.mount},
-          {"reader", antenna.reader},     {"zone", antenna.zone},
-          {"position_m", plan_json(antenna.p_W)}, {"boresight", plan_json(antenna.boresight_W)},
-          {"power_dbm", antenna.power_dbm}, {"cost", antenna.cost}};
+  return {{"name", antenna.name},
+          {"mount", antenna.mount},
+          {"reader", antenna.reader},
+          {"zone", antenna.zone},
+          {"position_m", plan_json(antenna.p_W)},
+          {"boresight", plan_json(antenna.boresight_W)},
+          {"power_dbm", antenna.power_dbm},
+          {"cost", antenna.cost}};
 }
 
 PlanJson plan_json(const PlannedLayout& layout) {
-  PlanJson json = {{"antennas", PlanJson::array()}, {"readers", layout.readers},
-                   {"cost", layout.cost},           {"score", layout.score},
-                   {"bound", layout.bound},         {"gap", std::max(0.0, layout.bound - layout.score)},
-                   {"exact", layout.is_exact},      {"read", plan_json(layout.read)}};
+  PlanJson json = {
+      {"antennas", PlanJson::array()}, {"readers", layout.readers},
+      {"cost", layout.cost},           {"score", layout.score},
+      {"bound", layout.bound},         {"gap", std::max(0.0, layout.bound - layout.score)},
+      {"exact", layout.is_exact},      {"read", plan_json(layout.read)}};
   for (const PlannedAntenna& antenna : layout.antennas) {
     json["antennas"].push_back(plan_json(antenna));
   }
@@ -43,7 +48,7 @@ PlanJson plan_json(const PlannedLayout& layout) {
   return json;
 }
 
-PlanJson hard_json(const Plan& plan) {
+PlanJson hard_json(const AntennaPlan& plan) {
   PlanJson all = PlanJson::array();
   for (const HardPlace& hard : plan.hard) {
     const PlannedPlace& place = plan.places[hard.place];
@@ -68,18 +73,18 @@ double worst_cross(const PlannedLayout& layout) {
 
 }  // namespace
 
-std::string plan_layouts_to_csv(const Plan& plan) {
+std::string plan_layouts_to_csv(const AntennaPlan& plan) {
   std::string text = "antennas,readers,cost,score,bound,read_mean,read_low,read_high,cross_worst\n";
   for (const PlannedLayout& layout : plan.layouts) {
-    text += fmt::format("{},{},{:g},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.5f}\n",
-                        layout.antennas.size(), layout.readers, layout.cost, layout.score,
-                        layout.bound, layout.read.mean, layout.read.low, layout.read.high,
-                        worst_cross(layout));
+    text +=
+        fmt::format("{},{},{:g},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.5f}\n",
+                    layout.antennas.size(), layout.readers, layout.cost, layout.score, layout.bound,
+                    layout.read.mean, layout.read.low, layout.read.high, worst_cross(layout));
   }
   return text;
 }
 
-std::string plan_antennas_to_csv(const Plan& plan) {
+std::string plan_antennas_to_csv(const AntennaPlan& plan) {
   std::string text =
       "antennas,antenna,mount,reader,zone,x_m,y_m,z_m,boresight_x,boresight_y,boresight_z,"
       "power_dbm,cost\n";
@@ -97,7 +102,7 @@ std::string plan_antennas_to_csv(const Plan& plan) {
   return text;
 }
 
-std::string plan_places_to_csv(const Plan& plan) {
+std::string plan_places_to_csv(const AntennaPlan& plan) {
   std::string text = "group,zone,x_m,y_m,z_m";
   for (const PlannedLayout& layout : plan.layouts) {
     text += fmt::format(",p_{}", layout.antennas.size());
@@ -115,19 +120,16 @@ std::string plan_places_to_csv(const Plan& plan) {
   return text;
 }
 
-std::string plan_to_json(const Plan& plan) {
-  PlanJson json = {{"scenario", plan.scenario},
-                   {"dwell_s", plan.dwell_s},
-                   {"tags", plan.tags},
-                   {"places", plan.places.size()},
-                   {"options", plan.options},
-                   {"limits", plan.limits},
-                   {"stopped_by", plan.stopped_by},
-                   {"aim_read_probability", plan.aim}};
+std::string plan_to_json(const AntennaPlan& plan) {
+  PlanJson json = {
+      {"scenario", plan.scenario},     {"dwell_s", plan.dwell_s},         {"tags", plan.tags},
+      {"places", plan.places.size()},  {"options", plan.options},         {"limits", plan.limits},
+      {"stopped_by", plan.stopped_by}, {"aim_read_probability", plan.aim}};
   json["aim_share"] = plan.aim_share ? PlanJson(*plan.aim_share) : PlanJson(nullptr);
   json["reaches_aim"] = plan.reaches_aim;
   json["cross_limit"] = plan.cross_limit ? PlanJson(*plan.cross_limit) : PlanJson(nullptr);
-  json["guaranteed_share_of_best"] = plan.guaranteed ? PlanJson(*plan.guaranteed) : PlanJson(nullptr);
+  json["guaranteed_share_of_best"] =
+      plan.guaranteed ? PlanJson(*plan.guaranteed) : PlanJson(nullptr);
   json["confidence"] = 0.95;
   json["chosen_antennas"] = plan.layouts.empty() ? 0 : plan.layouts[plan.chosen].antennas.size();
   json["layouts"] = PlanJson::array();
@@ -139,9 +141,8 @@ std::string plan_to_json(const Plan& plan) {
   }
   json["check"] = nullptr;
   if (plan.check) {
-    json["check"] = {{"seeds", plan.check->seeds},
-                     {"read", plan.check->read},
-                     {"inside", plan.check->inside}};
+    json["check"] = {
+        {"seeds", plan.check->seeds}, {"read", plan.check->read}, {"inside", plan.check->inside}};
   }
   json["warnings"] = plan.warnings;
   return json.dump(2, ' ', false, PlanJson::error_handler_t::replace) + "\n";

@@ -29,7 +29,7 @@ struct Level {
   std::vector<std::size_t> places;
 };
 
-std::vector<Level> levels_of(const Plan& plan) {
+std::vector<Level> levels_of(const AntennaPlan& plan) {
   std::vector<double> heights;
   for (const PlannedPlace& place : plan.places) heights.push_back(place.p_W.z());
   std::sort(heights.begin(), heights.end());
@@ -56,7 +56,7 @@ std::vector<Level> levels_of(const Plan& plan) {
   return levels;
 }
 
-Extent extent_of_plan(const Plan& plan) {
+Extent extent_of_plan(const AntennaPlan& plan) {
   Extent extent;
   for (const PlannedPlace& place : plan.places) extent.extend(place.p_W.head<2>());
   for (const PlannedLayout& layout : plan.layouts) {
@@ -66,7 +66,8 @@ Extent extent_of_plan(const Plan& plan) {
   return {extent.min() - rim, extent.max() + rim};
 }
 
-void draw_place(Svg& svg, const MapView& map, const Plan& plan, std::size_t place, double radius) {
+void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size_t place,
+                double radius) {
   const ColorBands bands = probability_bands();
   const double p = plan.layouts[plan.chosen].places[place];
   const std::string& color = bands.colors[band_of(bands, p)];
@@ -100,7 +101,7 @@ void draw_planned_antenna(Svg& svg, const MapView& map, const PlannedAntenna& an
   add_rectangle(svg, at - Place(5, 5), {10, 10}, body, said);
 }
 
-std::vector<std::string> readers_of_all(const Plan& plan) {
+std::vector<std::string> readers_of_all(const AntennaPlan& plan) {
   std::vector<std::string> readers;
   for (const PlannedLayout& layout : plan.layouts) {
     for (const PlannedAntenna& antenna : layout.antennas) {
@@ -112,13 +113,14 @@ std::vector<std::string> readers_of_all(const Plan& plan) {
   return readers;
 }
 
-Figure level_figure(const Plan& plan, const Level& level, std::size_t number,
+Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t number,
                     const std::vector<Silhouette>& top_view) {
   Figure figure;
   figure.name = fmt::format("plan_level_{}", number + 1);
-  figure.title = level.high_m - level.low_m < 0.005
-                     ? fmt::format("Tags at {:.2f} m", level.low_m + 0.0)
-                     : fmt::format("Tags from {:.2f} to {:.2f} m", level.low_m + 0.0, level.high_m + 0.0);
+  figure.title =
+      level.high_m - level.low_m < 0.005
+          ? fmt::format("Tags at {:.2f} m", level.low_m + 0.0)
+          : fmt::format("Tags from {:.2f} to {:.2f} m", level.low_m + 0.0, level.high_m + 0.0);
   MapView map = make_map(figure.name, extent_of_plan(plan), {}, 6.0);
   figure.svg.height = map_bottom(map);
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
@@ -148,14 +150,15 @@ Figure level_figure(const Plan& plan, const Level& level, std::size_t number,
                 {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to},
                 styled("frame"));
   figure.caption = fmt::format(
-      "{} from above; antennas as squares, a colour a reader, with where they look (a disc: down or "
+      "{} from above; antennas as squares, a colour a reader, with where they look (a disc: down "
+      "or "
       "up).",
       counted(level.places.size(), "place"));
   if (step > 1) figure.caption += fmt::format(" One in {} is drawn.", step);
   return figure;
 }
 
-Figure curve_figure(const Plan& plan) {
+Figure curve_figure(const AntennaPlan& plan) {
   Figure figure{"plan_curve", "", "What each antenna adds", "", {}, ""};
   const auto most = static_cast<double>(plan.layouts.size());
   const auto tags = static_cast<double>(std::max<std::size_t>(plan.tags, 1));
@@ -185,7 +188,8 @@ Figure curve_figure(const Plan& plan) {
                            layout.read.mean, plan.tags, layout.cost));
   }
   figure.caption =
-      "Tags read in the time, with the range of 95 % of runs. Dashed: no layout of as many antennas "
+      "Tags read in the time, with the range of 95 % of runs. Dashed: no layout of as many "
+      "antennas "
       "within the limits has more, before contention for slots. The large dot is the chosen one.";
   return figure;
 }
@@ -212,7 +216,7 @@ std::string cross_text(const PlannedLayout& layout) {
   return fmt::format("{:.1f} %", 100.0 * worst);
 }
 
-std::string plan_numbers(const Plan& plan) {
+std::string plan_numbers(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   std::string html = "<dl class=\"numbers\">\n";
   html += planned_number("Antennas", fmt::format("{}", layout.antennas.size()), "antennas");
@@ -224,14 +228,14 @@ std::string plan_numbers(const Plan& plan) {
     html += planned_number("Cross-read in the worst zone", cross_text(layout), "cross");
   }
   html += planned_number("Cost", fmt::format("{:g}", layout.cost), "cost");
-  html += planned_number("Short of the best by at most",
-                         fmt::format("{:.2f} %", 100.0 * std::max(0.0, layout.bound - layout.score)),
-                         "gap");
+  html += planned_number(
+      "Short of the best by at most",
+      fmt::format("{:.2f} %", 100.0 * std::max(0.0, layout.bound - layout.score)), "gap");
   return html + "</dl>\n";
 }
 
 /// What the script needs.
-std::string plan_data(const Plan& plan) {
+std::string plan_data(const AntennaPlan& plan) {
   const ColorBands bands = probability_bands();
   nlohmann::json data;
   data["edges"] = bands.edges;
@@ -255,7 +259,8 @@ std::string plan_data(const Plan& plan) {
     one["cost"] = fmt::format("{:g}", layout.cost);
     one["gap"] = fmt::format("{:.2f} %", 100.0 * std::max(0.0, layout.bound - layout.score));
     std::vector<int> percent;
-    for (const double p : layout.places) percent.push_back(static_cast<int>(std::lround(100.0 * p)));
+    for (const double p : layout.places)
+      percent.push_back(static_cast<int>(std::lround(100.0 * p)));
     one["places"] = percent;
     data["layouts"].push_back(std::move(one));
   }
@@ -276,7 +281,7 @@ std::string swatches(const char* id, const std::vector<std::pair<std::string, st
   return html + "</p>\n";
 }
 
-std::string controls(const Plan& plan) {
+std::string controls(const AntennaPlan& plan) {
   std::string html = fmt::format(
       "<div class=\"controls\" id=\"plan-controls\" hidden><label>Antennas <input type=\"range\" "
       "id=\"plan-count\" min=\"0\" max=\"{}\" value=\"{}\"></label>\n"
@@ -309,9 +314,9 @@ std::string controls(const Plan& plan) {
 }
 
 std::string table_begin(const std::string& id, const std::vector<std::string>& columns) {
-  std::string html = fmt::format(
-      "<div class=\"table told\" role=\"region\" tabindex=\"0\"{}><table>\n<thead><tr>",
-      id.empty() ? "" : " id=\"" + id + "\"");
+  std::string html =
+      fmt::format("<div class=\"table told\" role=\"region\" tabindex=\"0\"{}><table>\n<thead><tr>",
+                  id.empty() ? "" : " id=\"" + id + "\"");
   for (const std::string& column : columns) html += "<th scope=\"col\">" + column + "</th>";
   return html + "</tr></thead>\n<tbody>\n";
 }
@@ -320,7 +325,8 @@ constexpr const char* kTableEnd = "</tbody></table></div>\n";
 
 std::string plan_row(const std::string& name, const std::vector<std::string>& cells,
                      const std::string& words = "", const std::string& attributes = "") {
-  std::string html = "<tr" + attributes + "><th scope=\"row\"><bdi>" + escaped(name) + "</bdi></th>";
+  std::string html =
+      "<tr" + attributes + "><th scope=\"row\"><bdi>" + escaped(name) + "</bdi></th>";
   for (const std::string& cell : cells) html += "<td>" + escaped(cell) + "</td>";
   if (!words.empty()) html += "<td class=\"words\">" + escaped(words) + "</td>";
   return html + "</tr>\n";
@@ -330,7 +336,7 @@ std::string count_range(const ExpectedCount& count) {
   return fmt::format("{:.0f} to {:.0f}", std::ceil(count.low), std::floor(count.high));
 }
 
-std::string layouts_table(const Plan& plan) {
+std::string layouts_table(const AntennaPlan& plan) {
   std::string html = "<h2>By number of antennas</h2>\n" +
                      table_begin("", {"Antennas", "Readers", "Cost", "Tags read", "95 % of runs",
                                       "Score", "Bound", "Cross reads,<br>worst zone"});
@@ -345,12 +351,12 @@ std::string layouts_table(const Plan& plan) {
   return html + kTableEnd;
 }
 
-std::string zones_of_plan(const Plan& plan) {
+std::string zones_of_plan(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   if (layout.zones.size() < 2) return "";
-  std::string html = "<h2>By zone, as chosen</h2>\n" +
-                     table_begin("", {"Zone", "Tags", "Read", "95 % of runs", "Cross-read",
-                                      "95 % of runs"});
+  std::string html =
+      "<h2>By zone, as chosen</h2>\n" +
+      table_begin("", {"Zone", "Tags", "Read", "95 % of runs", "Cross-read", "95 % of runs"});
   for (const PlannedZone& zone : layout.zones) {
     html += plan_row(zone.zone, {grouped(zone.tags), fmt::format("{:.1f}", zone.read.mean),
                                  count_range(zone.read), fmt::format("{:.1f}", zone.cross.mean),
@@ -359,27 +365,27 @@ std::string zones_of_plan(const Plan& plan) {
   return html + kTableEnd;
 }
 
-std::string antennas_table(const Plan& plan) {
+std::string antennas_table(const AntennaPlan& plan) {
   std::string html = "<h2>The antennas</h2>\n" +
                      table_begin("plan-antennas", {"Antenna", "Reader", "x [m]", "y [m]", "z [m]",
                                                    "Looks along", "Power [dBm]", "Cost"});
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
     for (const PlannedAntenna& antenna : plan.layouts[i].antennas) {
       const Eigen::Vector3d& b = antenna.boresight_W;
-      html += plan_row(
-          antenna.name,
-          {clean_text(antenna.reader), fmt::format("{:.2f}", antenna.p_W.x() + 0.0),
-           fmt::format("{:.2f}", antenna.p_W.y() + 0.0),
-           fmt::format("{:.2f}", antenna.p_W.z() + 0.0),
-           fmt::format("{:.2f}, {:.2f}, {:.2f}", b.x() + 0.0, b.y() + 0.0, b.z() + 0.0),
-           fmt::format("{:g}", antenna.power_dbm), fmt::format("{:g}", antenna.cost)},
-          "", fmt::format(" data-layout=\"{}\"{}", i, i == plan.chosen ? "" : " hidden"));
+      html +=
+          plan_row(antenna.name,
+                   {clean_text(antenna.reader), fmt::format("{:.2f}", antenna.p_W.x() + 0.0),
+                    fmt::format("{:.2f}", antenna.p_W.y() + 0.0),
+                    fmt::format("{:.2f}", antenna.p_W.z() + 0.0),
+                    fmt::format("{:.2f}, {:.2f}, {:.2f}", b.x() + 0.0, b.y() + 0.0, b.z() + 0.0),
+                    fmt::format("{:g}", antenna.power_dbm), fmt::format("{:g}", antenna.cost)},
+                   "", fmt::format(" data-layout=\"{}\"{}", i, i == plan.chosen ? "" : " hidden"));
     }
   }
   return html + kTableEnd;
 }
 
-std::string hard_table(const Plan& plan) {
+std::string hard_table(const AntennaPlan& plan) {
   if (plan.hard.empty()) return "<h2>Hard tags</h2>\n<p>Every place is read by 90 % or more.</p>\n";
   std::string html = "<h2>Hard tags, as chosen</h2>\n" +
                      table_begin("", {"Place", "Read [%]", "Best antenna", "Distance [m]", "Why"});
@@ -395,18 +401,19 @@ std::string hard_table(const Plan& plan) {
   return html + kTableEnd;
 }
 
-std::string sensitivity_table(const Plan& plan) {
+std::string sensitivity_table(const AntennaPlan& plan) {
   std::string html = "<h2>Where something is otherwise</h2>\n" +
                      table_begin("", {"The chosen layout", "Tags read", "95 % of runs", "Lost"});
   for (const PlanVariant& variant : plan.sensitivity) {
-    html += plan_row(variant.what,
-                     {fmt::format("{:.1f}", variant.read.mean), count_range(variant.read),
-                      fmt::format("{:.1f}", plan.sensitivity.front().read.mean - variant.read.mean + 0.0)});
+    html += plan_row(
+        variant.what,
+        {fmt::format("{:.1f}", variant.read.mean), count_range(variant.read),
+         fmt::format("{:.1f}", plan.sensitivity.front().read.mean - variant.read.mean + 0.0)});
   }
   return html + kTableEnd;
 }
 
-std::string check_text(const Plan& plan) {
+std::string check_text(const AntennaPlan& plan) {
   if (!plan.check || plan.check->read.empty()) return "";
   double mean = 0.0;
   for (const double read : plan.check->read) {
@@ -414,8 +421,10 @@ std::string check_text(const Plan& plan) {
   }
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   return fmt::format(
-      "<div class=\"note\"><p><strong>Checked.</strong> {} with other tags and seeds read {:.1f} tags "
-      "in the mean; {:.1f} were forecast, and {} of {} lie within the range of {:.0f} to {:.0f} that "
+      "<div class=\"note\"><p><strong>Checked.</strong> {} with other tags and seeds read {:.1f} "
+      "tags "
+      "in the mean; {:.1f} were forecast, and {} of {} lie within the range of {:.0f} to {:.0f} "
+      "that "
       "was stated.</p></div>\n",
       counted(plan.check->read.size(), "full simulation"), mean, layout.read.mean,
       plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
@@ -441,7 +450,7 @@ std::string download(const std::string& name, const std::string& words, const st
                      percent_encoded(text), words);
 }
 
-std::string plan_warnings(const Plan& plan) {
+std::string plan_warnings(const AntennaPlan& plan) {
   if (plan.warnings.empty()) return "";
   std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
   for (const std::string& warning : plan.warnings) html += "<li>" + escaped(warning) + "</li>\n";
@@ -452,10 +461,10 @@ std::string plan_fact(const std::string& name, const std::string& value) {
   return value.empty() ? "" : "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
 }
 
-std::string aim_text(const Plan& plan) {
-  std::string text = plan.aim < 1.0
-                         ? fmt::format("each tag read with {:g} % in {:g} s", 100.0 * plan.aim, plan.dwell_s)
-                         : fmt::format("most tags read in {:g} s", plan.dwell_s);
+std::string aim_text(const AntennaPlan& plan) {
+  std::string text = plan.aim < 1.0 ? fmt::format("each tag read with {:g} % in {:g} s",
+                                                  100.0 * plan.aim, plan.dwell_s)
+                                    : fmt::format("most tags read in {:g} s", plan.dwell_s);
   if (plan.aim_share) {
     text += fmt::format(", to {:g} %: {}", 100.0 * *plan.aim_share,
                         plan.reaches_aim ? "reached" : "not reached");
@@ -463,23 +472,24 @@ std::string aim_text(const Plan& plan) {
   return text;
 }
 
-std::string plan_facts(const Plan& plan) {
+std::string plan_facts(const AntennaPlan& plan) {
   const std::string guaranteed =
-      plan.guaranteed ? fmt::format("at least {:.0f} % of the best, whatever the case; the table "
-                                    "has what holds for this one",
-                                    std::floor(100.0 * *plan.guaranteed))
+      plan.guaranteed ? fmt::format(
+                            "at least {:.0f} % of the best, whatever the case; the table "
+                            "has what holds for this one",
+                            std::floor(100.0 * *plan.guaranteed))
                       : "none beforehand with these limits; the table has what holds for this case";
   return "<dl class=\"facts\">\n" + plan_fact("Aim", aim_text(plan)) +
-         plan_fact("Limits", plan.limits) +
-         plan_fact("More is kept out by", plan.stopped_by) +
-         plan_fact("Choice", fmt::format("of {} ways to mount an antenna, for {}",
-                                         grouped(plan.options), counted(plan.places.size(), "place"))) +
+         plan_fact("Limits", plan.limits) + plan_fact("More is kept out by", plan.stopped_by) +
+         plan_fact("OptionSet",
+                   fmt::format("of {} ways to mount an antenna, for {}", grouped(plan.options),
+                               counted(plan.places.size(), "place"))) +
          plan_fact("Greed guarantees", guaranteed) + "</dl>\n";
 }
 
 }  // namespace
 
-std::vector<Figure> plan_figures(const Plan& plan, const std::vector<Silhouette>& top_view) {
+std::vector<Figure> plan_figures(const AntennaPlan& plan, const std::vector<Silhouette>& top_view) {
   std::vector<Figure> figures;
   const std::vector<Level> levels = levels_of(plan);
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -489,15 +499,16 @@ std::vector<Figure> plan_figures(const Plan& plan, const std::vector<Silhouette>
   return figures;
 }
 
-std::string plan_page(const Plan& plan, const std::vector<Figure>& figures) {
+std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figures) {
   std::string maps = "<div class=\"figures\">\n";
   for (const Figure& figure : figures) maps += figure_html(figure);
   maps += "</div>\n";
-  std::string html = page_head(plan.scenario + " – Tagfield plan",
-                               {table_script().hash, plan_script().hash}) +
-                     "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" +
-                     escaped(plan.scenario) + "</bdi></h1>\n";
-  if (!plan.description.empty()) html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
+  std::string html =
+      page_head(plan.scenario + " – Tagfield plan", {table_script().hash, plan_script().hash}) +
+      "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" + escaped(plan.scenario) +
+      "</bdi></h1>\n";
+  if (!plan.description.empty())
+    html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
           plan_warnings(plan) + "<h2>The hall from above</h2>\n" +
           "<p>Each dot is a place where tags can be, with the probability that one there is read, "

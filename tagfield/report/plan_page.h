@@ -13,9 +13,9 @@ namespace tagfield {
 
 /// The hall from above, one map a level of the places, four at most; then what each number of
 /// antennas reads, and what it costs.
-std::vector<Figure> plan_figures(const Plan& plan, const std::vector<Silhouette>& top_view);
+std::vector<Figure> plan_figures(const AntennaPlan& plan, const std::vector<Silhouette>& top_view);
 
 /// Self-contained: all figures, the tables, a slider over the number of antennas.
-std::string plan_page(const Plan& plan, const std::vector<Figure>& figures);
+std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figures);
 
 }  // namespace tagfield

@@ -119,14 +119,13 @@ constexpr auto fields(const InventoryWithout* /*of*/) {
 
 constexpr auto fields(const InventorySummary* /*of*/) {
   using S = InventorySummary;
-  return std::tuple(
-      std::pair("tags", &S::tags), std::pair("duration_s", &S::duration_s),
-      std::pair("read", &S::read), std::pair("least_read", &S::least_read),
-      std::pair("most_read", &S::most_read), std::pair("reads", &S::reads),
-      std::pair("median_reads", &S::median_reads), std::pair("reached", &S::reached),
-      std::pair("readers", &S::readers), std::pair("antennas", &S::antennas),
-      std::pair("zones", &S::zones), std::pair("levels", &S::levels),
-      std::pair("without", &S::without), std::pair("curve", &S::curve));
+  return std::tuple(std::pair("tags", &S::tags), std::pair("duration_s", &S::duration_s),
+                    std::pair("read", &S::read), std::pair("least_read", &S::least_read),
+                    std::pair("most_read", &S::most_read), std::pair("reads", &S::reads),
+                    std::pair("median_reads", &S::median_reads), std::pair("reached", &S::reached),
+                    std::pair("readers", &S::readers), std::pair("antennas", &S::antennas),
+                    std::pair("zones", &S::zones), std::pair("levels", &S::levels),
+                    std::pair("without", &S::without), std::pair("curve", &S::curve));
 }
 
 constexpr auto fields(const EffectCost* /*of*/) {

@@ -1,6 +1,6 @@
 /// @file
-/// What `tagfield plan` is asked: where tags can be, where antennas can be, what is allowed and what
-/// is aimed at. docs/plan.md lists the keys.
+/// What `tagfield plan` is asked: where tags can be, where antennas can be, what is allowed and
+/// what is aimed at. docs/plan.md lists the keys.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ struct PlanTags {
   /// Where they can be [m]: in the world, or on the pallet where there is a path.
   std::vector<Eigen::Vector3d> places;
   std::vector<Eigen::Quaterniond> orientations;  ///< Each as likely.
-  Trajectory path;        ///< Of the pallet; empty for tags at rest.
-  std::size_t count = 0;  ///< Tags that there are at a time.
+  Trajectory path;                               ///< Of the pallet; empty for tags at rest.
+  std::size_t count = 0;                         ///< Tags that there are at a time.
   Location location;
 };
 
@@ -33,8 +33,8 @@ struct PlanMount {
   std::string name;
   std::string zone;  ///< Of the reader that it is for; "" for any.
   std::vector<RigidTransform> X_WA;
-  std::vector<double> power_dbm;  ///< To choose from; at least one.
-  AntennaParameters antenna;      ///< Without names; always a physical one.
+  std::vector<double> power_dbm;       ///< To choose from; at least one.
+  AntennaParameters antenna;           ///< Without names; always a physical one.
   std::vector<RawParameter> settings;  ///< As they were written.
   std::vector<std::string> profiles;   ///< Files.
   double cost = 0.0;                   ///< Of the antenna with its cable and mounting.
@@ -44,10 +44,10 @@ struct PlanMount {
 struct PlanLimits {
   std::size_t antennas = 16;
   std::size_t readers = 4;
-  std::size_t ports = 4;           ///< Of each reader.
+  std::size_t ports = 4;  ///< Of each reader.
   double reader_cost = 0.0;
-  std::optional<double> cost;      ///< Of all antennas and readers.
-  std::optional<double> cross;     ///< Most share of a zone's tags that other zones' readers read.
+  std::optional<double> cost;   ///< Of all antennas and readers.
+  std::optional<double> cross;  ///< Most share of a zone's tags that other zones' readers read.
 };
 
 struct PlanAim {
@@ -75,7 +75,8 @@ struct ScenarioToPlan {
 
 /// Reads a scenario with a section `plan`; it needs no antennas and no tags of its own. Tags of its
 /// own that rest are a group "tags" of the plan's. Throws Error "FILE:LINE: …".
-ScenarioToPlan load_scenario_to_plan(const std::string& path, const std::vector<Override>& overrides,
+ScenarioToPlan load_scenario_to_plan(const std::string& path,
+                                     const std::vector<Override>& overrides,
                                      Diagnostics& diagnostics);
 
 }  // namespace tagfield

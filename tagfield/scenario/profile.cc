@@ -84,7 +84,8 @@ std::vector<std::string> shipped_profiles(ProfileKind kind) {
 }
 
 std::string shipped_profile(const std::string& name, const std::vector<ProfileKind>& kinds) {
-  const bool is_plain = name.find_first_of("/\\") == std::string::npos && name != "." && name != "..";
+  const bool is_plain =
+      name.find_first_of("/\\") == std::string::npos && name != "." && name != "..";
   if (!is_plain) return "";
   std::error_code error;
   for (const ProfileKind kind : kinds) {

@@ -550,13 +550,15 @@ void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& 
     plan.tags.push_back(std::move(alone));
   }
   if (moving > 0) {
-    diagnostics.warn(fmt::format("{} of the scenario's tags move and are not planned for: give them "
-                                 "as plan.tags with a path",
-                                 moving));
+    diagnostics.warn(
+        fmt::format("{} of the scenario's tags move and are not planned for: give them "
+                    "as plan.tags with a path",
+                    moving));
   }
 }
 
-ScenarioToPlan load_scenario_to_plan(const std::string& path, const std::vector<Override>& overrides,
+ScenarioToPlan load_scenario_to_plan(const std::string& path,
+                                     const std::vector<Override>& overrides,
                                      Diagnostics& diagnostics) {
   ReadScenario read = read_scenario(path, overrides, built_in_methods(), diagnostics, true);
   ScenarioToPlan to_plan;
@@ -564,7 +566,8 @@ ScenarioToPlan load_scenario_to_plan(const std::string& path, const std::vector<
   scenario = std::move(read.scenario);
   to_plan.plan = std::move(*read.plan);
   if (!scenario.world.path.empty()) {
-    to_plan.loaded.scene = load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
+    to_plan.loaded.scene =
+        load_world(scenario.world.path, scenario.world.search_paths, diagnostics);
     add_placements(to_plan.loaded.scene, scenario, diagnostics);
   }
   scenario.radio_world = std::make_shared<const RadioWorld>(

@@ -31,8 +31,9 @@ void require_readers_of_zones(const Scenario& scenario) {
   for (const ZoneSpec& zone : scenario.zones) {
     for (const std::string& reader : zone.readers) {
       if (std::find(known.begin(), known.end(), reader) != known.end()) continue;
-      fail(zone.location, fmt::format("zone '{}' is for reader '{}', but no antenna belongs to it{}",
-                                      zone.name, reader, suggestion(reader, known)));
+      fail(zone.location,
+           fmt::format("zone '{}' is for reader '{}', but no antenna belongs to it{}", zone.name,
+                       reader, suggestion(reader, known)));
     }
   }
 }

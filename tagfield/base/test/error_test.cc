@@ -41,9 +41,13 @@ TEST(Diagnostics, TellPlacesApart) {
 }
 
 TEST(AlikeAsOne, CountsThreeAndMore) {
-  const Lines all = {"a.yaml:3: antennas[0].gain is odd", "a.yaml:9: tags[1] is odd",
-                     "a.yaml:5: antennas[1].gain is odd", "no line at all", "no line at all",
-                     "a.yaml:7: antennas[12].gain is odd", "a.yaml:10: tags[2] is odd"};
+  const Lines all = {"a.yaml:3: antennas[0].gain is odd",
+                     "a.yaml:9: tags[1] is odd",
+                     "a.yaml:5: antennas[1].gain is odd",
+                     "no line at all",
+                     "no line at all",
+                     "a.yaml:7: antennas[12].gain is odd",
+                     "a.yaml:10: tags[2] is odd"};
   EXPECT_EQ(alike_as_one(all),
             (Lines{"a.yaml:3: antennas[0].gain is odd (and 2 more like it, to line 7)",
                    "a.yaml:9: tags[1] is odd", "no line at all", "no line at all",

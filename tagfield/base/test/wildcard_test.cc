@@ -36,8 +36,7 @@ bool naively_matches(const std::string& pattern, const std::string& name) {
 
 RC_GTEST_PROP(Wildcard, IsWhatTryingAllSays, ()) {
   const auto word = [](const char* letters) {
-    return *rc::gen::container<std::string>(rc::gen::elementOf(std::string(letters)))
-                .as("a word");
+    return *rc::gen::container<std::string>(rc::gen::elementOf(std::string(letters))).as("a word");
   };
   const std::string pattern = word("ab*?").substr(0, 8);
   const std::string name = word("ab").substr(0, 10);

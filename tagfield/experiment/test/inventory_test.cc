@@ -71,8 +71,10 @@ TEST(Inventory, TellsWhoWasReadByWhomAndWhen) {
 
 TEST(Inventory, GoesByTheScenariosZones) {
   Scenario scenario = two_doors();
-  scenario.zones = {{"all", Eigen::AlignedBox3d(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(11, 3, 1)),
-                     {"west", "east"}, {}}};
+  scenario.zones = {{"all",
+                     Eigen::AlignedBox3d(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(11, 3, 1)),
+                     {"west", "east"},
+                     {}}};
   const InventorySummary inventory = inventory_of(scenario, {read(0.1, "w1", "b")}, 2.0);
   ASSERT_EQ(inventory.zones.size(), 2U);
   EXPECT_EQ(inventory.zones[0].tags, 2U);

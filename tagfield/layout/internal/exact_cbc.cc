@@ -42,7 +42,7 @@ double log_of(const Miss& miss) {
 /// of each zone (whole).
 class Program {
  public:
-  Program(const SelectionProblem& problem, const Choice& begin);
+  Program(const SelectionProblem& problem, const OptionSet& begin);
   ExactChoice solve(double seconds);
 
  private:
@@ -58,10 +58,10 @@ class Program {
   }
   void add_limits();
   void add_tangent(std::size_t element, double at);
-  bool add_cross_cut(const Choice& choice);
-  std::size_t add_tangents(const Choice& choice, const std::vector<double>& worth);
+  bool add_cross_cut(const OptionSet& choice);
+  std::size_t add_tangents(const OptionSet& choice, const std::vector<double>& worth);
   struct Solved {
-    Choice choice;
+    OptionSet choice;
     std::vector<double> worth;  ///< Of the elements.
     double bound = 1.0;
     bool is_optimal = false;
@@ -70,13 +70,13 @@ class Program {
   [[nodiscard]] Solved solve_once(double seconds) const;
 
   const SelectionProblem& problem_;
-  Choice best_;
+  OptionSet best_;
   std::vector<std::vector<Term>> logs_;  ///< By element, over options.
   std::vector<std::size_t> zones_;       ///< That options have; kNoZone is one.
   std::vector<Row> rows_;
 };
 
-Program::Program(const SelectionProblem& problem, const Choice& begin)
+Program::Program(const SelectionProblem& problem, const OptionSet& begin)
     : problem_(problem), best_(begin), logs_(problem.elements.size()) {
   for (std::size_t i = 0; i < problem.options.size(); ++i) {
     for (const Miss& miss : problem.options[i].misses) {
@@ -132,14 +132,14 @@ void Program::add_tangent(std::size_t element, double at) {
 
 /// Where a zone is crossed too much, the foreign options that do it are not all taken again. As few
 /// of them as still do it, so that the cut is strong.
-bool Program::add_cross_cut(const Choice& choice) {
+bool Program::add_cross_cut(const OptionSet& choice) {
   const std::vector<double> cross = cross_of(problem_, choice);
   bool any = false;
   for (std::size_t zone = 0; zone < cross.size(); ++zone) {
     if (cross[zone] <= problem_.limits.cross + 1e-12) continue;
-    Choice guilty = choice;
+    OptionSet guilty = choice;
     for (std::size_t i = guilty.size(); i-- > 0;) {
-      Choice fewer = guilty;
+      OptionSet fewer = guilty;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
       if (cross_of(problem_, fewer)[zone] > problem_.limits.cross + 1e-12) guilty = fewer;
     }
@@ -152,7 +152,7 @@ bool Program::add_cross_cut(const Choice& choice) {
 }
 
 /// Tangents where the program promises an element more than the choice gives it; how many.
-std::size_t Program::add_tangents(const Choice& choice, const std::vector<double>& worth) {
+std::size_t Program::add_tangents(const OptionSet& choice, const std::vector<double>& worth) {
   std::vector<double> log(problem_.elements.size(), 0.0);
   for (const std::size_t option : choice) {
     for (const Miss& miss : problem_.options[option].misses) log[miss.element] += log_of(miss);
@@ -256,7 +256,7 @@ ExactChoice Program::solve(double seconds) {
 
 bool has_exact_solver() { return true; }
 
-ExactChoice best_exactly(const SelectionProblem& problem, const Choice& begin, double seconds) {
+ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds) {
   return Program(problem, begin).solve(seconds);
 }
 

@@ -5,7 +5,7 @@ namespace tagfield {
 
 bool has_exact_solver() { return false; }
 
-ExactChoice best_exactly(const SelectionProblem& /*problem*/, const Choice& /*begin*/,
+ExactChoice best_exactly(const SelectionProblem& /*problem*/, const OptionSet& /*begin*/,
                          double /*seconds*/) {
   throw Error(
       "--exact needs CBC, which Tagfield was built without: install coinor-libcbc-dev and build "

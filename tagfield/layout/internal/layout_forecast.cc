@@ -27,14 +27,19 @@ ExpectedCount expected(const std::vector<double>& samples, double most) {
 }
 
 double count_of(const std::vector<char>& flags) {
-  return static_cast<double>(std::count_if(flags.begin(), flags.end(), [](char flag) { return flag != 0; }));
+  return static_cast<double>(
+      std::count_if(flags.begin(), flags.end(), [](char flag) { return flag != 0; }));
 }
 
 }  // namespace
 
 LayoutForecast::LayoutForecast(const PlanSpec& plan, const LinkMatrix& matrix,
                                const PlanProblem& problem, const PlanRequest& request)
-    : plan_(plan), matrix_(matrix), problem_(problem), request_(request), duration_s_(plan.dwell_s) {
+    : plan_(plan),
+      matrix_(matrix),
+      problem_(problem),
+      request_(request),
+      duration_s_(plan.dwell_s) {
   for (std::size_t sample = 0; sample < request.samples; ++sample) {
     tags_.push_back(tags_of_sample(plan, request.seed, sample));
   }
@@ -53,7 +58,7 @@ LayoutForecast::LayoutForecast(const PlanSpec& plan, const LinkMatrix& matrix,
   }
 }
 
-std::vector<ForecastPort> LayoutForecast::ports_of(const Choice& choice) const {
+std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) const {
   const std::vector<PlannedAntenna> antennas = antennas_of(plan_, matrix_, problem_, choice);
   std::vector<ForecastPort> ports;
   for (std::size_t i = 0; i < choice.size(); ++i) {
@@ -69,7 +74,7 @@ std::vector<ForecastPort> LayoutForecast::ports_of(const Choice& choice) const {
   return ports;
 }
 
-std::vector<LayoutForecast::Sample> LayoutForecast::samples(const Choice& choice,
+std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& choice,
                                                             double less_db) const {
   const std::vector<ForecastPort> ports = ports_of(choice);
   // Each link once, by port and row.
@@ -95,8 +100,8 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const Choice& choice
     for (const PlanTag& tag : tags_[number]) {
       ForecastTag& of_tag = request.tags.emplace_back();
       const std::size_t first =
-          first_rows_[tag.group][tag.place * plan_.tags[tag.group].orientations.size() +
-                                 tag.orientation];
+          first_rows_[tag.group]
+                     [tag.place * plan_.tags[tag.group].orientations.size() + tag.orientation];
       const std::vector<PlanStop>& stops = stops_[tag.group];
       for (std::size_t port = 0; port < ports.size(); ++port) {
         for (std::size_t stop = 0; stop < stops.size(); ++stop) {
@@ -126,13 +131,13 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const Choice& choice
   return samples;
 }
 
-ExpectedCount LayoutForecast::read(const Choice& choice, double less_db) const {
+ExpectedCount LayoutForecast::read(const OptionSet& choice, double less_db) const {
   std::vector<double> counts;
   for (const Sample& sample : samples(choice, less_db)) counts.push_back(count_of(sample.read));
   return expected(counts, static_cast<double>(tags_.front().size()));
 }
 
-void LayoutForecast::fill(const Choice& choice, PlannedLayout& layout) const {
+void LayoutForecast::fill(const OptionSet& choice, PlannedLayout& layout) const {
   const std::vector<Sample> all = samples(choice, 0.0);
   std::vector<double> counts;
   for (const Sample& sample : all) counts.push_back(count_of(sample.read));

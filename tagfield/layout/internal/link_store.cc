@@ -64,9 +64,9 @@ std::optional<std::vector<std::int8_t>> stored_column(const std::string& folder,
   if (number_at(bytes, kMagicSize) != size) return std::nullopt;
   std::vector<std::int8_t> column(size);
   uLongf length = size;
-  const int result =
-      uncompress(reinterpret_cast<Bytef*>(column.data()), &length,
-                 reinterpret_cast<const Bytef*>(bytes.data()) + kHeadSize, bytes.size() - kHeadSize);
+  const int result = uncompress(reinterpret_cast<Bytef*>(column.data()), &length,
+                                reinterpret_cast<const Bytef*>(bytes.data()) + kHeadSize,
+                                bytes.size() - kHeadSize);
   if (result != Z_OK || length != size) return std::nullopt;
   if (number_at(bytes, kMagicSize + 8) != checksum(column)) return std::nullopt;
   damaged = false;

@@ -12,8 +12,8 @@ namespace tagfield {
 /// Text of 32 hexadecimal digits that tells contents apart.
 std::string content_hash(const std::string& bytes);
 
-/// A column of `size` bytes from `folder`; none where it is not there. `damaged` is set where a file
-/// is there that is not whole.
+/// A column of `size` bytes from `folder`; none where it is not there. `damaged` is set where a
+/// file is there that is not whole.
 std::optional<std::vector<std::int8_t>> stored_column(const std::string& folder,
                                                       const std::string& hash, std::size_t size,
                                                       bool& damaged);

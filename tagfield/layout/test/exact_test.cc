@@ -12,7 +12,7 @@ constexpr double kEnough_s = 60.0;
 TEST(ExactSelection, IsWhatTryingAllSays) {
   if (!has_exact_solver()) GTEST_SKIP() << "built without CBC";
   for (std::uint64_t number = 0; number < 30; ++number) {
-    const SelectionProblem problem = random_problem(number, 12, 24);
+    const SelectionProblem problem = random_problem(number, 10, 12);
     const double best = score_of(problem, best_by_trying(problem));
     const ExactChoice exact = best_exactly(problem, {}, kEnough_s);
     EXPECT_EQ(broken_limit(problem, exact.choice), Limit::kNone) << number;
@@ -24,7 +24,7 @@ TEST(ExactSelection, IsWhatTryingAllSays) {
 TEST(ExactSelection, HasABoundWhereTimeIsUp) {
   if (!has_exact_solver()) GTEST_SKIP() << "built without CBC";
   const SelectionProblem problem = random_problem(4, 12, 24);
-  const Choice begin = greedy_order(problem);
+  const OptionSet begin = greedy_order(problem);
   const ExactChoice none = best_exactly(problem, {}, 0.0);
   EXPECT_TRUE(none.choice.empty());
   EXPECT_GE(none.bound, score_of(problem, best_by_trying(problem)));

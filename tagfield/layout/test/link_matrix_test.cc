@@ -39,16 +39,16 @@ TEST(LinkMatrix, HasAStateForEachPlaceAndCarrier) {
   const RadioModel& model = *physical(mount.antenna);
   const std::vector<double> carriers = sampled_carriers(model);
   ASSERT_EQ(matrix.carriers[4], carriers.size());
-  const RadioView view =
-      view_from(model, *to_plan.loaded.scenario.radio_world, mount.X_WA.front(),
-                carriers[carriers.size() / 2], 0, 1);
+  const RadioView view = view_from(model, *to_plan.loaded.scenario.radio_world, mount.X_WA.front(),
+                                   carriers[carriers.size() / 2], 0, 1);
   std::vector<RadioPath> paths;
   const TagEnd tag{*to_plan.plan.tags[row.group].model, row.X_WT};
   const std::vector<double> margins = fading_margins_db(view, tag, carriers, 0, paths);
   const LinkStates states = matrix.states(4, 100);
   for (std::size_t place = 0; place < kFadingPlaces; ++place) {
     for (std::size_t carrier = 0; carrier < carriers.size(); ++carrier) {
-      EXPECT_NEAR(states.margin_db(place, carrier), margins[place * carriers.size() + carrier], 0.25);
+      EXPECT_NEAR(states.margin_db(place, carrier), margins[place * carriers.size() + carrier],
+                  0.25);
     }
   }
 }

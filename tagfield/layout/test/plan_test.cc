@@ -16,7 +16,7 @@ struct Planned {
   std::string path;
   ScenarioToPlan to_plan;
   LinkMatrix matrix;
-  Plan plan;
+  AntennaPlan plan;
 };
 
 Planned planned(const std::string& text, int threads = 1) {
@@ -43,8 +43,8 @@ std::string complaint_of(const std::string& text) {
   }
 }
 
-TEST(Plan, ReadsMoreWithMoreAntennas) {
-  const Plan plan = planned(small_store()).plan;
+TEST(AntennaPlan, ReadsMoreWithMoreAntennas) {
+  const AntennaPlan plan = planned(small_store()).plan;
   ASSERT_EQ(plan.layouts.size(), 4U);
   EXPECT_EQ(plan.tags, 60U);
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
@@ -62,19 +62,20 @@ TEST(Plan, ReadsMoreWithMoreAntennas) {
   EXPECT_LE(plan.sensitivity[2].read.mean, plan.sensitivity[0].read.mean);
 }
 
-TEST(Plan, IsTheSameForAnyNumberOfThreads) {
-  EXPECT_EQ(plan_to_json(planned(small_store(), 1).plan), plan_to_json(planned(small_store(), 4).plan));
+TEST(AntennaPlan, IsTheSameForAnyNumberOfThreads) {
+  EXPECT_EQ(plan_to_json(planned(small_store(), 1).plan),
+            plan_to_json(planned(small_store(), 4).plan));
 }
 
-TEST(Plan, StopsWhereTheAimIsReached) {
-  const Plan plan = planned(small_store("  aim: {share: 0.3}\n")).plan;
+TEST(AntennaPlan, StopsWhereTheAimIsReached) {
+  const AntennaPlan plan = planned(small_store("  aim: {share: 0.3}\n")).plan;
   EXPECT_GE(plan.layouts[plan.chosen].score, 0.3);
   EXPECT_TRUE(plan.chosen == 0 || plan.layouts[plan.chosen - 1].score < 0.3);
   EXPECT_TRUE(plan.reaches_aim);
   EXPECT_FALSE(planned(small_store("  aim: {share: 1}\n")).plan.reaches_aim);
 }
 
-TEST(Plan, SaysWhichLimitIsAtFault) {
+TEST(AntennaPlan, SaysWhichLimitIsAtFault) {
   const auto with_limits = [](const std::string& limits) {
     std::string text = small_store();
     const std::string before = "{antennas: 4, readers: 1, ports: 4}";
@@ -89,7 +90,7 @@ TEST(Plan, SaysWhichLimitIsAtFault) {
   EXPECT_NE(complaint_of(far).find("no mount reaches any tag"), std::string::npos);
 }
 
-TEST(Plan, GivesEachZoneReadersOfItsOwn) {
+TEST(AntennaPlan, GivesEachZoneReadersOfItsOwn) {
   std::string text = small_store();
   text.replace(text.find("ports: 4"), 8, "ports: 2");
   text.replace(text.find("readers: 1"), 10, "readers: 2");
@@ -101,17 +102,16 @@ TEST(Plan, GivesEachZoneReadersOfItsOwn) {
   EXPECT_EQ(layout.antennas[3].reader, "reader_2");
 }
 
-TEST(Plan, IsWithinItsRangeOfFullSimulations) {
+TEST(AntennaPlan, IsWithinItsRangeOfFullSimulations) {
   const Planned all = planned(small_store());
   RunControl control;
-  const PlanCheck check =
-      check_plan(all.to_plan, all.plan.layouts.back(), 1, 20, control);
+  const PlanCheck check = check_plan(all.to_plan, all.plan.layouts.back(), 1, 20, control);
   ASSERT_EQ(check.read.size(), 20U);
   // 95 % of runs are within the range: of 20, fewer than 16 are with probability 0.003.
   EXPECT_GE(check.inside, 16U);
 }
 
-TEST(Plan, IsWrittenAsAScenarioThatRuns) {
+TEST(AntennaPlan, IsWrittenAsAScenarioThatRuns) {
   const Planned all = planned(small_store());
   TemporaryFolder folder;
   const PlannedLayout& layout = all.plan.layouts.back();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kCases = 30;
 
-Choice sorted(std::vector<std::size_t> order) {
+OptionSet sorted(std::vector<std::size_t> order) {
   std::sort(order.begin(), order.end());
   return order;
 }
@@ -80,7 +80,7 @@ TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
   for (std::uint64_t number = 0; number < kCases; ++number) {
     const SelectionProblem problem = random_problem(number, 12, 24);
     const double best = score_of(problem, best_by_trying(problem));
-    const Choice greedy = sorted(greedy_order(problem));
+    const OptionSet greedy = sorted(greedy_order(problem));
     const double score = score_of(problem, greedy);
     EXPECT_EQ(broken_limit(problem, greedy), Limit::kNone) << number;
     EXPECT_LE(score, best + 1e-9) << number;
@@ -89,7 +89,7 @@ TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
     if (const auto share = guaranteed_share(problem)) {
       EXPECT_GE(score, *share * best - 1e-9) << number;
     }
-    const Choice better = exchanged(problem, greedy, 100);
+    const OptionSet better = exchanged(problem, greedy, 100);
     EXPECT_EQ(broken_limit(problem, better), Limit::kNone) << number;
     EXPECT_GE(score_of(problem, better), score - 1e-12) << number;
     EXPECT_LE(score_of(problem, better), best + 1e-9) << number;
@@ -99,13 +99,13 @@ TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
 /// Without laziness.
 std::vector<std::size_t> plainly_greedy(const SelectionProblem& problem) {
   std::vector<std::size_t> order;
-  Choice choice;
+  OptionSet choice;
   for (;;) {
     double most = 1e-12;
     std::size_t best = problem.options.size();
     for (std::size_t option = 0; option < problem.options.size(); ++option) {
       if (std::binary_search(choice.begin(), choice.end(), option)) continue;
-      Choice more = choice;
+      OptionSet more = choice;
       more.insert(std::upper_bound(more.begin(), more.end(), option), option);
       if (broken_limit(problem, more) != Limit::kNone) continue;
       const double gain = score_of(problem, more) - score_of(problem, choice);
@@ -131,12 +131,13 @@ RC_GTEST_PROP(Selection, GainsOnlyShrink, ()) {
   const auto number = *rc::gen::inRange<std::uint64_t>(0, 1000);
   const SelectionProblem problem = random_problem(number, 10, 16);
   const auto size = *rc::gen::inRange<std::size_t>(0, 8);
-  Choice whole;
+  OptionSet whole;
   for (std::size_t i = 0; i < size; ++i) whole.push_back(i);
-  const Choice part(whole.begin(),
-                    whole.begin() + static_cast<std::ptrdiff_t>(*rc::gen::inRange<std::size_t>(0, size + 1)));
-  const auto gain = [&](const Choice& choice) {
-    Choice more = choice;
+  const OptionSet part(
+      whole.begin(),
+      whole.begin() + static_cast<std::ptrdiff_t>(*rc::gen::inRange<std::size_t>(0, size + 1)));
+  const auto gain = [&](const OptionSet& choice) {
+    OptionSet more = choice;
     more.push_back(9);
     return score_of(problem, more) - score_of(problem, choice);
   };

@@ -4,8 +4,8 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
-#include "tagfield/planning/internal/antenna_place.h"
 #include "tagfield/planning/forecast.h"
+#include "tagfield/planning/internal/antenna_place.h"
 #include "tagfield/planning/moment.h"
 #include "tagfield/scenario/zones.h"
 #include "tagfield/simulator/simulation.h"
@@ -108,7 +108,9 @@ class RunForecast {
  public:
   RunForecast(const Scenario& scenario, const std::vector<DriveSample>& samples,
               const CoverageRequest& request)
-      : scenario_(scenario), groups_(reader_groups(scenario)), best_db_(scenario.tags.size(), kNothing_db) {
+      : scenario_(scenario),
+        groups_(reader_groups(scenario)),
+        best_db_(scenario.tags.size(), kNothing_db) {
     for (const std::size_t antenna : request.antennas) {
       request_.ports.push_back({scenario.antennas[antenna].parameters, groups_[antenna]});
       groups_of_ports_.push_back(groups_[antenna]);
@@ -184,10 +186,9 @@ class RunForecast {
       of_tag.readers.push_back(
           {name, read / static_cast<double>(made.read_by_group.size()), is_meant});
     }
-    std::stable_sort(of_tag.readers.begin(), of_tag.readers.end(),
-                     [](const ReaderChance& a, const ReaderChance& b) {
-                       return a.probability > b.probability;
-                     });
+    std::stable_sort(
+        of_tag.readers.begin(), of_tag.readers.end(),
+        [](const ReaderChance& a, const ReaderChance& b) { return a.probability > b.probability; });
   }
 
   const Scenario& scenario_;

@@ -73,8 +73,8 @@ TEST(Forecast, ReadsWhatIsHeardAndNothingElse) {
 
 TEST(Forecast, OfOneCarrierOfEightIsItsChanceToBeOn) {
   const LinkStates one = heard_on(1);
-  // 0.2 s on a channel: 2 of eight in 0.4 s, without a channel coming twice.
-  ForecastRequest request = one_port(one, 1, 0.4);
+  // Two channels of the eight, none of them twice.
+  ForecastRequest request = one_port(one, 1, 2.0 * known_plan("fcc").dwell_s);
   request.samples = 4000;
   const Forecast made = forecast(request);
   // 4 standard deviations of a mean of 4000 with p = 0.25.

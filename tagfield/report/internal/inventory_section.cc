@@ -44,7 +44,7 @@ std::string inventory_head(const std::vector<std::string>& columns, const char* 
 }
 
 std::string inventory_row(const std::string& name, const std::vector<std::string>& cells,
-                const std::string& words = "") {
+                          const std::string& words = "") {
   std::string html = "<tr><th scope=\"row\"><bdi>" + escaped(name) + "</bdi></th>";
   for (const std::string& cell : cells) html += "<td>" + escaped(cell) + "</td>";
   if (!words.empty()) html += "<td class=\"words\">" + escaped(words) + "</td>";
@@ -67,16 +67,17 @@ std::string cross_words(const ZoneInventory& zone) {
 
 std::string zones_table(const InventorySummary& inventory) {
   if (inventory.zones.empty()) return "";
-  std::string html = "<h2>By zone</h2>\n" + inventory_head({"Zone", "Tags", "Read", "", "By its reader",
-                                                  "Read by others", "Cross reads by"},
-                                                 "Zones");
+  std::string html =
+      "<h2>By zone</h2>\n" + inventory_head({"Zone", "Tags", "Read", "", "By its reader",
+                                             "Read by others", "Cross reads by"},
+                                            "Zones");
   for (const ZoneInventory& zone : inventory.zones) {
     const auto all = static_cast<double>(zone.tags);
     html += inventory_row(zone.zone,
-                {grouped(zone.tags), tally(zone.read), percent_of(zone.read, all),
-                 zone.readers.empty() ? "–" : percent_of(zone.read_by_own, all),
-                 zone.readers.empty() ? "–" : percent_of(zone.crossed, all)},
-                cross_words(zone));
+                          {grouped(zone.tags), tally(zone.read), percent_of(zone.read, all),
+                           zone.readers.empty() ? "–" : percent_of(zone.read_by_own, all),
+                           zone.readers.empty() ? "–" : percent_of(zone.crossed, all)},
+                          cross_words(zone));
   }
   return html + kInventoryEnd;
 }
@@ -87,12 +88,12 @@ std::string levels_table(const InventorySummary& inventory) {
       "<h2>By height</h2>\n" + inventory_head({"Level", "Tags", "Read", "", "Missed"}, "Levels");
   for (auto level = inventory.levels.rbegin(); level != inventory.levels.rend(); ++level) {
     const bool is_one = level->high_m - level->low_m < 0.005;
-    const std::string name = is_one ? fmt::format("{:.2f} m", level->low_m + 0.0)
-                                    : fmt::format("{:.2f} to {:.2f} m", level->low_m + 0.0,
-                                                  level->high_m + 0.0);
+    const std::string name =
+        is_one ? fmt::format("{:.2f} m", level->low_m + 0.0)
+               : fmt::format("{:.2f} to {:.2f} m", level->low_m + 0.0, level->high_m + 0.0);
     const auto all = static_cast<double>(level->tags);
-    html += inventory_row(name, {grouped(level->tags), tally(level->read), percent_of(level->read, all),
-                       tally(all - level->read)});
+    html += inventory_row(name, {grouped(level->tags), tally(level->read),
+                                 percent_of(level->read, all), tally(all - level->read)});
   }
   return html + kInventoryEnd;
 }
@@ -102,16 +103,15 @@ std::string share_row(const InventoryShare& share, const InventorySummary& inven
   const auto all = static_cast<double>(inventory.tags);
   std::vector<std::string> cells = {tally(share.tags), percent_of(share.tags, all),
                                     tally(share.only), tally(share.reads)};
-  cells.push_back(inventory.duration_s > 0.0
-                      ? fmt::format("{:.1f}", share.reads / inventory.duration_s)
-                      : "–");
+  cells.push_back(
+      inventory.duration_s > 0.0 ? fmt::format("{:.1f}", share.reads / inventory.duration_s) : "–");
   if (is_antenna) cells.insert(cells.begin(), clean_text(share.reader));
   return inventory_row(share.name, cells);
 }
 
 std::string shares_table(const InventorySummary& inventory, bool is_antenna) {
-  std::vector<std::string> columns = {"Reader", "Tags read", "", "Only by it", "Reads",
-                                      "Reads a second"};
+  std::vector<std::string> columns = {"Reader",     "Tags read", "",
+                                      "Only by it", "Reads",     "Reads a second"};
   if (is_antenna) columns.insert(columns.begin(), "Antenna");
   std::string html = is_antenna ? "<h2>By antenna</h2>\n" : "<h2>By reader</h2>\n";
   html += inventory_head(columns, is_antenna ? "Antennas" : "Readers");
@@ -147,11 +147,10 @@ bool is_inventory_alone(const Summary& summary) {
 }
 
 std::string inventory_sentence(const InventorySummary& inventory, std::size_t seeds) {
-  std::string text = fmt::format(
-      "{} of {} read in {:.1f} s ({}), {} missed", tally(inventory.read),
-      counted(inventory.tags, "tag"), inventory.duration_s,
-      percent_of(inventory.read, static_cast<double>(inventory.tags)),
-      tally(static_cast<double>(inventory.tags) - inventory.read));
+  std::string text = fmt::format("{} of {} read in {:.1f} s ({}), {} missed", tally(inventory.read),
+                                 counted(inventory.tags, "tag"), inventory.duration_s,
+                                 percent_of(inventory.read, static_cast<double>(inventory.tags)),
+                                 tally(static_cast<double>(inventory.tags) - inventory.read));
   if (seeds > 1) {
     text += fmt::format("; the mean of {} runs, of which the worst read {} and the best {}", seeds,
                         tally(inventory.least_read), tally(inventory.most_read));

@@ -41,7 +41,8 @@ TEST(Inventory, IsOnThePage) {
   summary.method = "none";
   summary.inventory = run_of(9.0, std::nullopt);
   EXPECT_TRUE(is_inventory_alone(summary));
-  EXPECT_EQ(inventory_sentence(*summary.inventory, 1), "9 of 10 tags read in 2.0 s (90.0 %), 1 missed.");
+  EXPECT_EQ(inventory_sentence(*summary.inventory, 1),
+            "9 of 10 tags read in 2.0 s (90.0 %), 1 missed.");
   const std::string numbers = inventory_numbers(*summary.inventory);
   EXPECT_NE(numbers.find("90.0 %"), std::string::npos);
   EXPECT_NE(numbers.find("not reached"), std::string::npos);

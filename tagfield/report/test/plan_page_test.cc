@@ -7,8 +7,8 @@
 namespace tagfield {
 namespace {
 
-Plan two_layouts() {
-  Plan plan;
+AntennaPlan two_layouts() {
+  AntennaPlan plan;
   plan.scenario = "a <shop>";
   plan.dwell_s = 5.0;
   plan.tags = 10;
@@ -34,7 +34,7 @@ Plan two_layouts() {
 }
 
 TEST(PlanPage, HoldsAllAndNothingBreaksOut) {
-  const Plan plan = two_layouts();
+  const AntennaPlan plan = two_layouts();
   const std::vector<Figure> figures = plan_figures(plan, {});
   ASSERT_EQ(figures.size(), 3U);  // Two levels and the curve.
   const std::string page = plan_page(plan, figures);
@@ -49,8 +49,8 @@ TEST(PlanPage, HoldsAllAndNothingBreaksOut) {
   EXPECT_EQ(data["layouts"][0]["places"], (std::vector<int>{50, 100}));
 }
 
-TEST(Plan, IsTables) {
-  const Plan plan = two_layouts();
+TEST(AntennaPlan, IsTables) {
+  const AntennaPlan plan = two_layouts();
   EXPECT_EQ(plan_layouts_to_csv(plan),
             "antennas,readers,cost,score,bound,read_mean,read_low,read_high,cross_worst\n"
             "1,0,0,0.500000,1.000000,5.00,4.00,5.00,0.10000\n"

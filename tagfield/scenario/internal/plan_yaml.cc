@@ -30,7 +30,8 @@ Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
 /// So many places from `low` to `high`, both included, that are at most `spacing` apart.
 std::vector<double> spread(double low, double high, double spacing) {
   const double gaps = std::ceil((high - low) / spacing - 1e-9);
-  if (!(gaps < static_cast<double>(kMostPlaces))) throw Error("has too many places: expected a greater spacing_m");
+  if (!(gaps < static_cast<double>(kMostPlaces)))
+    throw Error("has too many places: expected a greater spacing_m");
   const auto count = static_cast<std::size_t>(std::max(gaps, 0.0)) + 1;
   std::vector<double> places;
   for (std::size_t i = 0; i < count; ++i) {
@@ -45,7 +46,8 @@ std::vector<Eigen::Vector3d> places_in(const Eigen::AlignedBox3d& box,
   const std::vector<double> x = spread(box.min().x(), box.max().x(), spacing_m.x());
   const std::vector<double> y = spread(box.min().y(), box.max().y(), spacing_m.y());
   const std::vector<double> z = spread(box.min().z(), box.max().z(), spacing_m.z());
-  if (static_cast<double>(x.size()) * static_cast<double>(y.size()) * static_cast<double>(z.size()) >
+  if (static_cast<double>(x.size()) * static_cast<double>(y.size()) *
+          static_cast<double>(z.size()) >
       static_cast<double>(kMostPlaces)) {
     throw Error(fmt::format("has more than {} places: expected a greater spacing_m", kMostPlaces));
   }
@@ -126,7 +128,8 @@ PlanTags tags_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnosti
   tags.settings = written(map, tag_settings());
   if (map.has("profile")) {
     const YamlValue profile = map.at("profile");
-    tags.settings.insert(tags.settings.begin(), {"profile", profile_file_of_tag(profile), profile.location()});
+    tags.settings.insert(tags.settings.begin(),
+                         {"profile", profile_file_of_tag(profile), profile.location()});
   }
   if (map.has("path")) tags.path = trajectory_of(map.at("path"));
   tags.count = tags.places.size();
@@ -160,13 +163,14 @@ std::vector<Eigen::Vector3d> mount_points(YamlMap& map) {
   }
   const double spacing_m = map.number("spacing_m", 1.0, kPositive);
   const Eigen::Vector3d along = corners[1] - corners[0];
-  const Eigen::Vector3d across =
-      has_line ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(corners[2] - corners[0]);
+  const Eigen::Vector3d across = has_line ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                          : Eigen::Vector3d(corners[2] - corners[0]);
   try {
     const std::vector<double> steps = spread(0.0, along.norm(), spacing_m);
     const std::vector<double> rows = spread(0.0, across.norm(), spacing_m);
     if (steps.size() * rows.size() > kMostMounts) {
-      throw Error(fmt::format("has more than {} mounts: expected a greater spacing_m", kMostMounts));
+      throw Error(
+          fmt::format("has more than {} mounts: expected a greater spacing_m", kMostMounts));
     }
     for (const double row : rows) {
       for (const double step : steps) {
@@ -189,7 +193,8 @@ std::vector<Eigen::Vector3d> looks_of(YamlMap& map) {
     const std::vector<double> n = look.lengths(3, 3);
     rpy.emplace_back(radians(n[0]), radians(n[1]), radians(n[2]));
   }
-  if (rpy.empty()) map.self().fail("has no 'rpy_deg': [[roll, pitch, yaw], …], [0, 90, 0] looks down");
+  if (rpy.empty())
+    map.self().fail("has no 'rpy_deg': [[roll, pitch, yaw], …], [0, 90, 0] looks down");
   return rpy;
 }
 
@@ -213,9 +218,10 @@ void require_legal(const YamlValue& where, const PlanMount& mount, const RadioMo
   const double most = most_power_dbm(model);
   for (const double power : mount.power_dbm) {
     if (power <= most + 0.05) continue;
-    where.fail(fmt::format("sends {:g} dBm into this antenna, more than the {:.1f} dBm that the plan "
-                           "{} allows: lower powers_dbm or transmit_power_dbm",
-                           power, most, model.plan.name));
+    where.fail(
+        fmt::format("sends {:g} dBm into this antenna, more than the {:.1f} dBm that the plan "
+                    "{} allows: lower powers_dbm or transmit_power_dbm",
+                    power, most, model.plan.name));
   }
 }
 
@@ -230,7 +236,8 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
   const std::vector<Eigen::Vector3d> looks = looks_of(map);
   const PropagationModel model = radio.model;
   if (model == PropagationModel::kPaper) {
-    map.self().fail("needs model: link_budget or model: multipath: the paper's antennas have no power");
+    map.self().fail(
+        "needs model: link_budget or model: multipath: the paper's antennas have no power");
   }
   const std::shared_ptr<const RadioModel> made = radio_model_of(map, model, radio, diagnostics);
   like.antenna.model = made;
@@ -298,7 +305,8 @@ PlanLimits limits_of(YamlMap map) {
 
 PlanAim aim_of(YamlMap map) {
   PlanAim aim;
-  if (map.has("read_probability")) aim.read_probability = share_of(map.at("read_probability"), false);
+  if (map.has("read_probability"))
+    aim.read_probability = share_of(map.at("read_probability"), false);
   if (map.has("share")) aim.share = share_of(map.at("share"), false);
   map.finish();
   return aim;

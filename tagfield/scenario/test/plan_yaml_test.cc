@@ -62,8 +62,10 @@ TEST(PlanYaml, SaysWhatIsWrongWhere) {
   says(scenario(kTags + "  mounts:\n" + kMount + "}\n" + kMount + "}\n"), "already");
   says(scenario(kTags + "  mounts:\n" + kMount + "}\n  forbidden: [[-1, -1, 1, 1]]\n"),
        "leaves no mount");
-  says(scenario(kTags + "  mounts:\n" + kMount + ", channel_plan: etsi_low, "
-                "powers_dbm: [36]}\n"), "more than the");
+  says(scenario(kTags + "  mounts:\n" + kMount +
+                ", channel_plan: etsi_low, "
+                "powers_dbm: [36]}\n"),
+       "more than the");
   says(scenario(kTags + "  mounts:\n" + kMount + "}\n  limits: {antennas: 0}\n"), "1 to 256");
   says(scenario(kTags + "  mounts:\n" + kMount + "}\n  limits: {cross_reads: 2}\n"), "0 to 1");
   says(scenario(kTags + "  mounts:\n" + kMount + "}\n  lmits: {}\n"), "did you mean 'limits'");
@@ -73,8 +75,8 @@ TEST(PlanYaml, SaysWhatIsWrongWhere) {
 }
 
 TEST(PlanYaml, TakesTheScenariosOwnTags) {
-  const PlanSpec plan = read(scenario("  mounts:\n" + kMount + "}\n") +
-                             "tags: [{id: own, position: [1, 2, 3]}]\n");
+  const PlanSpec plan =
+      read(scenario("  mounts:\n" + kMount + "}\n") + "tags: [{id: own, position: [1, 2, 3]}]\n");
   ASSERT_EQ(plan.tags.size(), 1U);
   EXPECT_EQ(plan.tags[0].name, "own");
   EXPECT_EQ(plan.tags[0].places[0], Eigen::Vector3d(1, 2, 3));

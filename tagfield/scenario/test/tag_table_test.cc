@@ -26,9 +26,10 @@ TEST(TagTable, GivesATagARow) {
 }
 
 TEST(TagTable, HasOrientationAndKind) {
-  const auto tags = read(write_table(
-      "tag,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,profile\na,1,2,3,0,0,1.5707963267948966,monza_r6\n"
-      "b,1,2,3,0,0,0,\n"));
+  const auto tags =
+      read(write_table("tag,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,profile\na,1,2,3,0,0,1."
+                       "5707963267948966,monza_r6\n"
+                       "b,1,2,3,0,0,0,\n"));
   ASSERT_EQ(tags.size(), 2U);
   // The face looks along y.
   EXPECT_TRUE((tags[0].motion.front().X_WB.rotation * Eigen::Vector3d::UnitX())

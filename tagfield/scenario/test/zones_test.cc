@@ -37,9 +37,9 @@ TEST(Zones, AntennasOfOneRobotAreOneReader) {
 TEST(Zones, HoldPlacesByTheirBox) {
   const Scenario scenario = load_scenario(
       folder_of_test().with(
-          "doors.yaml", kTwoDoors +
-                            "zones:\n  - {name: low, box: [2, 2, 1, -2, -2, 0], readers: [door_1]}\n"
-                            "  - {name: all, box: [-9, -9, 9, 9], readers: [cart]}\n"),
+          "doors.yaml",
+          kTwoDoors + "zones:\n  - {name: low, box: [2, 2, 1, -2, -2, 0], readers: [door_1]}\n"
+                      "  - {name: all, box: [-9, -9, 9, 9], readers: [cart]}\n"),
       {});
   ASSERT_EQ(scenario.zones.size(), 2U);
   EXPECT_EQ(zone_at(scenario.zones, {0.0, 0.0, 0.5}), 0U);
@@ -48,9 +48,10 @@ TEST(Zones, HoldPlacesByTheirBox) {
 }
 
 TEST(Zones, RefuseWhatNobodyReads) {
-  EXPECT_NE(complaint_of("zones: [{name: z, box: [0, 0, 1, 1], readers: [door_3]}]\n")
-                .find("doors.yaml:9: zone 'z' is for reader 'door_3', but no antenna belongs to it"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint_of("zones: [{name: z, box: [0, 0, 1, 1], readers: [door_3]}]\n")
+          .find("doors.yaml:9: zone 'z' is for reader 'door_3', but no antenna belongs to it"),
+      std::string::npos);
   EXPECT_NE(complaint_of("zones: [{name: z, box: [0, 0, 1, 1, 1]}]\n").find("has 5"),
             std::string::npos);
   EXPECT_NE(complaint_of("zones: [{name: z, box: [0, 0, 1, 1]}, {name: z, box: [0, 0, 1, 1]}]\n")
