@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
 #include "tagfield/layout/internal/layout_forecast.h"
 #include "tagfield/planning/local_link.h"
 #include "tagfield/reader/radio_model.h"

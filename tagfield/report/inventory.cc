@@ -33,7 +33,7 @@ void add(const InventorySummary& run, double weight, InventorySummary& mean) {
   mean.reads += weight * run.reads;
   mean.least_read = std::min(mean.least_read, run.least_read);
   mean.most_read = std::max(mean.most_read, run.most_read);
-  for (auto* rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
+  for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
     add_rows(mean.*rows, run.*rows, weight, &InventoryShare::tags, &InventoryShare::only,
              &InventoryShare::reads);
   }
@@ -44,7 +44,7 @@ void add(const InventorySummary& run, double weight, InventorySummary& mean) {
 /// The first run's, with all that is a mean at 0.
 InventorySummary cleared(InventorySummary first) {
   first.read = first.reads = 0.0;
-  for (auto* rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
+  for (auto rows : {&InventorySummary::readers, &InventorySummary::antennas}) {
     clear_rows(first.*rows, &InventoryShare::tags, &InventoryShare::only, &InventoryShare::reads);
   }
   clear_rows(first.zones, &ZoneInventory::read, &ZoneInventory::read_by_own,

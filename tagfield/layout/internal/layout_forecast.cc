@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/planning/local_link.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield {

@@ -54,7 +54,9 @@ TEST(AntennaPlan, ReadsMoreWithMoreAntennas) {
     EXPECT_LE(layout.score, layout.bound + 1e-12);
     EXPECT_LE(layout.read.low, layout.read.mean);
     EXPECT_LE(layout.read.mean, layout.read.high);
-    if (i > 0) EXPECT_GE(layout.score, plan.layouts[i - 1].score - 1e-12);
+    if (i > 0) {
+      EXPECT_GE(layout.score, plan.layouts[i - 1].score - 1e-12);
+    }
   }
   EXPECT_EQ(plan.chosen, 3U);
   EXPECT_EQ(plan.stopped_by, "limits.antennas");
