@@ -15,8 +15,8 @@ namespace tagfield {
 struct ScenarioArguments {
   std::string scenario;
   std::vector<std::string> settings;
-  std::vector<std::string> without;  ///< Names of antennas to leave out, or patterns.
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> without{};  ///< Names of antennas to leave out, or patterns.
 };
 
 /// Adds SCENARIO, --set, --without and --seed.

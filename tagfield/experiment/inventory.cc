@@ -157,7 +157,9 @@ void add_to_zone(const TagTally& tag, ZoneInventory& zone) {
 std::vector<ZoneInventory> Tally::by_zone() const {
   std::vector<ZoneInventory> all;
   for (const ZoneSpec& zone : zones_) {
-    ZoneInventory row{zone.name, zone.readers};
+    ZoneInventory row;
+    row.zone = zone.name;
+    row.readers = zone.readers;
     for (const std::string& reader : readers_) {
       const bool is_meant =
           std::find(zone.readers.begin(), zone.readers.end(), reader) != zone.readers.end();
@@ -165,7 +167,8 @@ std::vector<ZoneInventory> Tally::by_zone() const {
     }
     all.push_back(row);
   }
-  ZoneInventory elsewhere{"elsewhere"};
+  ZoneInventory elsewhere;
+  elsewhere.zone = "elsewhere";
   for (const auto& [id, tag] : tallies_) {
     ZoneInventory& zone = tag.zone < all.size() ? all[tag.zone] : elsewhere;
     add_to_zone(tag, zone);

@@ -197,7 +197,7 @@ std::vector<PlanTag> written_tags(const ScenarioToPlan& to_plan, std::uint64_t s
 }  // namespace
 
 Scenario scenario_of_layout(const ScenarioToPlan& to_plan, const PlannedLayout& layout,
-                            std::uint64_t seed, std::size_t sample) {
+                            std::uint64_t seed, std::size_t sample, double less_db) {
   const PlanSpec& plan = to_plan.plan;
   Scenario scenario = to_plan.loaded.scenario;
   scenario.antennas.clear();
@@ -217,12 +217,18 @@ Scenario scenario_of_layout(const ScenarioToPlan& to_plan, const PlannedLayout& 
     antenna.X_PA = pose_of(mount, planned);
     scenario.antennas.push_back(std::move(antenna));
   }
+  std::vector<std::shared_ptr<const TagModel>> kinds;
+  for (const PlanTags& group : plan.tags) {
+    auto kind = std::make_shared<TagModel>(*group.model);
+    kind->detuning_db += less_db;
+    kinds.push_back(std::move(kind));
+  }
   std::vector<std::size_t> numbers(plan.tags.size(), 0);
   for (const PlanTag& tag : tags_of_sample(plan, seed, sample)) {
     const PlanTags& group = plan.tags[tag.group];
     TagSpec spec;
     spec.id = id_of(group, numbers[tag.group]++);
-    spec.model = group.model;
+    spec.model = kinds[tag.group];
     spec.motion = motion_of(group, tag);
     scenario.tags.push_back(std::move(spec));
   }

@@ -12,9 +12,10 @@
 namespace tagfield {
 
 /// The scenario with the layout's antennas and the tags of a sample (tags_of_sample()) instead of
-/// its own, for as long as tags are there. Nothing is located.
+/// its own, for as long as tags are there. Nothing is located. With `less_db` all tags are detuned
+/// by as much more.
 Scenario scenario_of_layout(const ScenarioToPlan& to_plan, const PlannedLayout& layout,
-                            std::uint64_t seed, std::size_t sample);
+                            std::uint64_t seed, std::size_t sample, double less_db = 0.0);
 
 /// The same as YAML text for a file in `folder`: the scenario at `path`, with `overrides`, less its
 /// section `plan`. Files that it names are found from `folder`. Throws Error as load_scenario().

@@ -314,7 +314,7 @@ std::string why_hard(const BestLink& link) {
   if (!link.arrives) {
     return "nothing of any antenna arrives there: something opaque stands between";
   }
-  if (link.best_turn_db - link.worst_turn_db > 6.0 && link.best_turn_db >= 0.0) {
+  if (link.worst_turn_db < 0.0 && link.best_turn_db >= 0.0) {
     return fmt::format("turned away: {:+.0f} dB as it lies best, {:+.0f} dB as it lies worst",
                        link.best_turn_db, link.worst_turn_db);
   }

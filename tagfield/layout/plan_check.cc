@@ -42,7 +42,8 @@ PlanCheck check_plan(const ScenarioToPlan& to_plan, const PlannedLayout& layout,
   std::size_t finished = 0;
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (stopped(control)) return;
-    const Scenario scenario = scenario_of_layout(to_plan, layout, first, kFirstSample + i);
+    const Scenario scenario =
+        scenario_of_layout(to_plan, layout, first, kFirstSample + i, to_plan.plan.margin_db);
     const double tags = tags_read(scenario, first + i, control);
     const std::lock_guard lock(mutex);
     if (!stopped(control)) read[i] = tags;

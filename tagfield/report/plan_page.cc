@@ -179,7 +179,9 @@ Figure curve_figure(const AntennaPlan& plan) {
     means.push_back(place_in(axes, count, 100.0 * layout.read.mean / tags));
     bounds.push_back(place_in(axes, count, 100.0 * layout.bound * plan.aim));
   }
-  add_polyline(figure.svg, bounds, styled("rule"));
+  Look dashed = styled("rule");
+  dashed.attributes += " fill=\"none\"";
+  add_polyline(figure.svg, bounds, dashed);
   add_polyline(figure.svg, means, styled("curve"));
   for (std::size_t i = 0; i < means.size(); ++i) {
     const PlannedLayout& layout = plan.layouts[i];
@@ -297,11 +299,12 @@ std::string controls(const AntennaPlan& plan) {
   for (std::size_t i = 0; i < bands.colors.size(); ++i) {
     const double from = i == 0 ? 0.0 : bands.edges[i - 1];
     const double to = i < bands.edges.size() ? bands.edges[i] : 1.0;
-    colors.emplace_back(bands.colors[i].empty() ? "#8a949e" : bands.colors[i],
-                        i == 0 ? fmt::format("read by under {:.0f} %", 100.0 * to)
-                        : i + 1 == bands.colors.size()
-                            ? fmt::format("{:.0f} % and more", 100.0 * from)
-                            : fmt::format("{:.0f} to {:.0f} %", 100.0 * from, 100.0 * to));
+    colors.emplace_back(
+        bands.colors[i].empty() ? "#8a949e" : bands.colors[i],
+        i == 0 ? fmt::format("read by under {:.0f} %", 100.0 * to)
+        : i + 1 == bands.colors.size()
+            ? (from >= 1.0 ? std::string("surely") : fmt::format("{:.0f} % and more", 100.0 * from))
+            : fmt::format("{:.0f} to {:.0f} %", 100.0 * from, 100.0 * to));
   }
   html += swatches("plan-legend", colors, false);
   return html + swatches("plan-gain-legend",
@@ -481,7 +484,7 @@ std::string plan_facts(const AntennaPlan& plan) {
                       : "none beforehand with these limits; the table has what holds for this case";
   return "<dl class=\"facts\">\n" + plan_fact("Aim", aim_text(plan)) +
          plan_fact("Limits", plan.limits) + plan_fact("More is kept out by", plan.stopped_by) +
-         plan_fact("OptionSet",
+         plan_fact("Choice",
                    fmt::format("of {} ways to mount an antenna, for {}", grouped(plan.options),
                                counted(plan.places.size(), "place"))) +
          plan_fact("Greed guarantees", guaranteed) + "</dl>\n";

@@ -239,7 +239,9 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
     map.self().fail(
         "needs model: link_budget or model: multipath: the paper's antennas have no power");
   }
-  const std::shared_ptr<const RadioModel> made = radio_model_of(map, model, radio, diagnostics);
+  Diagnostics at_profiles_power;  // That of powers_dbm counts, and is checked below.
+  const std::shared_ptr<const RadioModel> made =
+      radio_model_of(map, model, radio, at_profiles_power);
   like.antenna.model = made;
   like.antenna.rate_hz = map.number("rate_hz", like.antenna.rate_hz, kPositive);
   like.settings = written(map, antenna_settings());
@@ -251,6 +253,9 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
   // Links are evaluated at the greatest of the powers.
   auto strongest = std::make_shared<RadioModel>(*made);
   strongest->transmit_power_dbm = *std::max_element(like.power_dbm.begin(), like.power_dbm.end());
+  Diagnostics found;
+  check(*strongest, found);
+  for (const std::string& warning : found.warnings()) diagnostics.warn(like.location, warning);
   like.antenna.model = std::shared_ptr<const RadioModel>(std::move(strongest));
   map.finish();
   for (std::size_t i = 0; i < points.size(); ++i) {
