@@ -416,8 +416,8 @@ class Planner {
 
  private:
   static Eigen::Vector3d middle_of(const PlanTags& tags) {
-    if (tags.path.empty()) return Eigen::Vector3d::Zero();
-    return tags.path[tags.path.size() / 2].X_WB.translation;
+    const std::vector<PlanStop> stops = stops_of(tags, 1.0);
+    return stops[stops.size() / 2].p_W;
   }
 
   void told(double share) const {
