@@ -24,7 +24,7 @@ tagfield_component(report NEEDS files localization navigation ROOMS report)
 tagfield_component(scenario NEEDS files localization sdf navigation ROOMS scenario)
 tagfield_component(events NEEDS scenario ROOMS events)
 tagfield_component(simulator NEEDS scenario ROOMS simulator)
-tagfield_component(planning NEEDS report simulator ROOMS planning)
+tagfield_component(planning NEEDS report simulator ROOMS planning layout PACKAGES ZLIB)
 tagfield_component(experiment NEEDS report simulator ROOMS experiment)
 tagfield_component(live NEEDS planning ROOMS live)
 

@@ -24,7 +24,7 @@ extern "C" void on_signal(int signal) {
 }  // namespace
 
 void print_warnings(const Diagnostics& diagnostics) {
-  for (const std::string& warning : diagnostics.warnings()) {
+  for (const std::string& warning : alike_as_one(diagnostics.warnings())) {
     fmt::print(stderr, "tagfield: warning: {}\n", warning);
   }
 }

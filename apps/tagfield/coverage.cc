@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/coverage_arguments.h"
+#include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/files/staged_folder.h"
@@ -91,8 +93,12 @@ void print(const Coverage& coverage, const std::string& out) {
     fmt::print("at {:.2f} m: {:.1f} % of the area read\n", layer.height_m + 0.0,
                100.0 * share_read(layer));
   }
+  fmt::print("in {:g} s: {:.0f} of {} tags read, {:.0f} to {:.0f} with 95 % confidence\n",
+             coverage.run_s, coverage.expected_read.mean, coverage.tags.size(),
+             std::ceil(coverage.expected_read.low), std::floor(coverage.expected_read.high));
   print_tags(coverage, TagVerdict::kNever, "never read");
-  print_tags(coverage, TagVerdict::kWrong, "read by the wrong antenna");
+  print_tags(coverage, TagVerdict::kSeldom, "seldom read");
+  print_tags(coverage, TagVerdict::kWrong, "read by the wrong reader");
   print_tags(coverage, TagVerdict::kAlsoOther, "read by others too");
   fmt::print("page: {}/coverage.html\n", out);
 }
@@ -106,6 +112,7 @@ int coverage(const CoverageArguments& arguments) {
   const std::string out = arguments.out.empty()
                               ? "runs/" + folder_name(loaded.scenario.name) + "_coverage"
                               : arguments.out;
+  require_own_folder(out, loaded.scenario.name, arguments.force);
   StagedFolder folder(out);
   Coverage result;
   try {
@@ -125,8 +132,10 @@ int coverage(const CoverageArguments& arguments) {
 void add_options(CLI::App& command, CoverageArguments& arguments) {
   add_scenario_options(command, arguments.of_scenario);
   command
-      .add_option("--antenna", arguments.antennas,
-                  "Name of an antenna (default: all). Can be given several times")
+      .add_option(
+          "--antenna", arguments.antennas,
+          "Name of an antenna, or all that match: 'port_*' (default: all). Can be given several "
+          "times")
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--tag-profile", arguments.tag_profile,
@@ -157,6 +166,7 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
                   "Look at this moment of the run [s] instead of the whole of it")
       ->check(CLI::Range(0.0, 1e9));
   command.add_option("--out", arguments.out, "Folder for the results (default runs/NAME_coverage)");
+  command.add_flag("--force", arguments.force, "Replace results of another scenario in the folder");
   command.add_option("--threads", arguments.threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
 }

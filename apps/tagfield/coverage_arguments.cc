@@ -134,14 +134,7 @@ void set_tag(const CoverageArguments& arguments, const Scenario& scenario, Diagn
 
 void set_antennas(const CoverageArguments& arguments, const Scenario& scenario,
                   WordedRequest& worded) {
-  for (const std::string& name : arguments.antennas) {
-    const AntennaSpec& antenna = antenna_named("coverage", scenario, name);
-    const auto index = static_cast<std::size_t>(&antenna - scenario.antennas.data());
-    auto& chosen = worded.request.antennas;
-    if (std::find(chosen.begin(), chosen.end(), index) == chosen.end()) chosen.push_back(index);
-  }
-  if (!worded.request.antennas.empty()) return;
-  for (std::size_t i = 0; i < scenario.antennas.size(); ++i) worded.request.antennas.push_back(i);
+  worded.request.antennas = antennas_matching("coverage", scenario, arguments.antennas);
 }
 
 /// Those of the tags to 5 cm, or of the middle one where they are many.

@@ -23,6 +23,7 @@ struct CoverageArguments {
   std::string region;
   std::optional<double> time_s;
   std::string out;
+  bool force = false;
   int threads = default_threads();
 };
 

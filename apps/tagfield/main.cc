@@ -33,6 +33,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_check_command(app, chosen);
   tagfield::add_explain_command(app, chosen);
   tagfield::add_coverage_command(app, chosen);
+  tagfield::add_plan_command(app, chosen);
   tagfield::add_bench_command(app, chosen);
   tagfield::add_score_command(app, chosen);
   tagfield::add_events_command(app, chosen);

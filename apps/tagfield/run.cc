@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/outlet_arguments.h"
+#include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
@@ -14,6 +15,7 @@
 #include "tagfield/experiment/effect_breakdown.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/leave_one_out.h"
 #include "tagfield/experiment/tracing_forecast.h"
 #include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/poses_csv.h"
@@ -34,6 +36,9 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::size_t seeds = 1;
   std::vector<std::string> settings;
+  std::vector<std::string> without;
+  bool force = false;
+  bool leave_one_out = false;
   int threads = default_threads();
   bool no_page = false;
   bool breakdown = false;
@@ -119,6 +124,25 @@ std::vector<EffectCost> breakdown_with_progress(const RunArguments& arguments,
   return costs;
 }
 
+/// Fills in what the inventory comes to without each antenna, where that is asked for.
+void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
+                       Diagnostics& diagnostics, Summary& summary) {
+  if (!arguments.leave_one_out || interrupted()) return;
+  if (!summary.inventory) {
+    diagnostics.warn(
+        "--leave-one-out: antennas that move locate tags; it is of inventories by "
+        "antennas at rest, or with localization.method=none");
+    return;
+  }
+  ProgressBar bar("leave one out");
+  RunControl control;
+  control.threads = arguments.threads;
+  control.stop = &interrupted();
+  control.on_progress = [&bar](double share) { bar.show(share); };
+  summary.inventory->without =
+      leave_one_out(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control);
+}
+
 void print_result(const Summary& summary, const std::string& out, bool page) {
   fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
@@ -166,6 +190,7 @@ int run(const RunArguments& arguments) {
   Diagnostics diagnostics;
   ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
+  take_antennas_away(arguments.without, loaded.scenario);
   apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
   // Other warnings come with the result.
@@ -174,6 +199,7 @@ int run(const RunArguments& arguments) {
   print_warnings(beforehand);
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
+  require_own_folder(out, scenario.name, arguments.force);
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
   if (scenario.pose.source == PoseSource::kSlam) {
@@ -191,6 +217,8 @@ int run(const RunArguments& arguments) {
       breakdown_with_progress(arguments, scenario, ways, diagnostics);
   Summary summary = summarize(scenario, runs, wall_s, diagnostics, ways);
   summary.effects = effects;
+  add_leave_one_out(arguments, scenario, diagnostics, summary);
+  summary.warnings = alike_as_one(diagnostics.warnings());
   summary.complete = summary.complete && runs.size() == arguments.seeds;
   print_warnings(diagnostics);
   stage_run(loaded, runs.front(), folder);
@@ -218,12 +246,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--seeds", arguments->seeds, "Run so many seeds, from --seed on")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME)");
-  command
-      ->add_option("--set", arguments->settings,
-                   "Replace a value of the scenario: pose.sigma_m=0.01, "
-                   "antennas.mobile.range_m=5, world.path=FILE. Can be given several times")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_change_options(*command, arguments->settings, arguments->without);
+  command->add_flag("--force", arguments->force,
+                    "Replace results of another scenario in the folder");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");
@@ -236,6 +261,10 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->add_flag("--breakdown", arguments->breakdown,
                  "Run again with each effect of the physical models alone and with all but it, "
                  "and say what each costs")
+      ->excludes("--record-only");
+  command
+      ->add_flag("--leave-one-out", arguments->leave_one_out,
+                 "Run again without each antenna in turn, and say how many tags are read then")
       ->excludes("--record-only");
   add_outlet_options(*command, arguments->outlets);
   command->footer(

@@ -6,6 +6,8 @@
 #include <charconv>
 
 #include "tagfield/base/spelling.h"
+#include "tagfield/base/wildcard.h"
+#include "tagfield/experiment/leave_one_out.h"
 
 namespace tagfield {
 namespace {
@@ -52,11 +54,22 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("SCENARIO", arguments.scenario, "Scenario file (YAML)")->required();
   command.add_option("--seed", arguments.seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
+  add_change_options(command, arguments.settings, arguments.without);
+}
+
+void add_change_options(CLI::App& command, std::vector<std::string>& settings,
+                        std::vector<std::string>& without) {
   command
-      .add_option("--set", arguments.settings,
-                  "Replace a value of the scenario: model=multipath, "
-                  "antennas.mobile.transmit_power_dbm=27, world.path=FILE. Can be given several "
-                  "times")
+      .add_option("--set", settings,
+                  "Replace a value of the scenario: pose.sigma_m=0.01, antennas.mobile.range_m=5, "
+                  "'antennas.port_*.transmit_power_dbm=27' (* and ? match names), "
+                  "world.path=FILE. Can be given several times")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      .add_option("--without", without,
+                  "Leave out an antenna, or all whose names match: 'dock_2_*'. Can be given "
+                  "several times")
       ->take_all()
       ->allow_extra_args(false);
 }
@@ -66,7 +79,10 @@ ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnost
   for (const std::string& setting : arguments.settings) {
     overrides.push_back(parse_override(setting));
   }
-  return load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
+  ScenarioWithWorld loaded =
+      load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
+  take_antennas_away(arguments.without, loaded.scenario);
+  return loaded;
 }
 
 std::string folder_name(const std::string& name) {
@@ -85,6 +101,30 @@ const AntennaSpec& antenna_named(const std::string& command, const Scenario& sce
   std::vector<std::string> names;
   for (const AntennaSpec& antenna : scenario.antennas) names.push_back(antenna.parameters.name);
   return scenario.antennas[find_name(command, "antenna", name, names)];
+}
+
+std::vector<std::size_t> antennas_matching(const std::string& command, const Scenario& scenario,
+                                           const std::vector<std::string>& patterns) {
+  std::vector<char> chosen(scenario.antennas.size(), patterns.empty() ? 1 : 0);
+  for (const std::string& pattern : patterns) {
+    if (!is_pattern(pattern)) {
+      chosen[static_cast<std::size_t>(&antenna_named(command, scenario, pattern) -
+                                      scenario.antennas.data())] = 1;
+      continue;
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (!matches(pattern, scenario.antennas[i].parameters.name)) continue;
+      chosen[i] = 1;
+      any = true;
+    }
+    if (!any) throw Error(fmt::format("{}: --antenna {}: matches no antenna", command, pattern));
+  }
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i] != 0) indices.push_back(i);
+  }
+  return indices;
 }
 
 const TagSpec& tag_named(const std::string& command, const Scenario& scenario,

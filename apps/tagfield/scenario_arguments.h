@@ -17,14 +17,19 @@ struct ScenarioArguments {
   std::string scenario;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> seed;
-  WorldOptions world;
+  std::vector<std::string> without{};  ///< Names of antennas to leave out, or patterns.
+  WorldOptions world{};
 };
 
 /// Adds --skip-missing and --allow-outside.
 void add_world_options(CLI::App& command, WorldOptions& options);
 
-/// Adds SCENARIO, --set, --seed and the world's options.
+/// Adds SCENARIO, --set, --without, --seed and the world's options.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
+
+/// Adds --set and --without.
+void add_change_options(CLI::App& command, std::vector<std::string>& settings,
+                        std::vector<std::string>& without);
 
 /// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
 std::string fault_of_seed(const std::string& word);
@@ -38,6 +43,10 @@ std::string folder_name(const std::string& name);
 /// The antenna of this name; with "" the only one. Throws Error "COMMAND: …" with those there are.
 const AntennaSpec& antenna_named(const std::string& command, const Scenario& scenario,
                                  const std::string& name);
+/// Indices of the antennas whose names match one of `patterns`, in their order; of all where there
+/// are no patterns. Throws Error "COMMAND: …" where one matches none.
+std::vector<std::size_t> antennas_matching(const std::string& command, const Scenario& scenario,
+                                           const std::vector<std::string>& patterns);
 /// Likewise.
 const TagSpec& tag_named(const std::string& command, const Scenario& scenario,
                          const std::string& id);

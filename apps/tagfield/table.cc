@@ -207,9 +207,70 @@ std::string effect_lines(const Summary& summary) {
   return text;
 }
 
+std::string inventory_head(const InventorySummary& inventory) {
+  const auto all = static_cast<double>(inventory.tags);
+  std::string text =
+      fmt::format("inventory: {:.6g} of {} tags read in {:.1f} s ({:.1f} %), {:.6g} missed\n",
+                  inventory.read, inventory.tags, inventory.duration_s,
+                  100.0 * share_of(inventory.read, inventory.tags), all - inventory.read);
+  text += "read after:";
+  for (const ReachedShare& reached : inventory.reached) {
+    text += fmt::format("  {:.0f} % {}", 100.0 * reached.share,
+                        reached.time_s ? fmt::format("{:.2f} s", *reached.time_s) : "not reached");
+  }
+  if (inventory.median_reads) text += fmt::format("; reads a tag: {:g}", *inventory.median_reads);
+  return text + '\n';
+}
+
+std::string zone_lines(const InventorySummary& inventory) {
+  if (inventory.zones.empty()) return "";
+  std::string text = fmt::format("{:<24} {:>7} {:>8} {:>10} {:>10}\n", "zone", "tags", "read",
+                                 "by its own", "by others");
+  for (const ZoneInventory& zone : inventory.zones) {
+    text += fmt::format("  {:<22} {:>7} {:>8.6g} {:>10.6g} {:>10.6g}\n", zone.zone, zone.tags,
+                        zone.read, zone.read_by_own, zone.crossed);
+  }
+  return text;
+}
+
+std::string antenna_lines(const InventorySummary& inventory) {
+  std::string text = fmt::format("{:<24} {:<14} {:>8} {:>10} {:>9} {:>9}\n", "antenna", "reader",
+                                 "tags", "only by it", "reads", "reads/s");
+  const std::size_t shown = std::min(inventory.antennas.size(), kMostRows);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const InventoryShare& antenna = inventory.antennas[i];
+    text += fmt::format("  {:<22} {:<14} {:>8.6g} {:>10.6g} {:>9.6g} {:>9.1f}\n", antenna.name,
+                        antenna.reader, antenna.tags, antenna.only, antenna.reads,
+                        inventory.duration_s > 0.0 ? antenna.reads / inventory.duration_s : 0.0);
+  }
+  if (shown < inventory.antennas.size()) {
+    text +=
+        fmt::format("  … and {} more (summary.json has all)\n", inventory.antennas.size() - shown);
+  }
+  return text;
+}
+
+std::string without_lines(const InventorySummary& inventory) {
+  if (inventory.without.empty()) return "";
+  std::string text = fmt::format("{:<24} {:>8} {:>8}\n", "without", "tags", "lost");
+  for (const InventoryWithout& without : inventory.without) {
+    text += fmt::format("  {:<22} {:>8.6g} {:>8.1f}\n", without.antenna, without.read,
+                        inventory.read - without.read + 0.0);
+  }
+  return text;
+}
+
+/// Who was read, where nothing is located.
+std::string inventory_lines(const Summary& summary) {
+  const std::string why = fmt::format("no places: {}\n", summary.method_why);
+  return inventory_head(*summary.inventory) + zone_lines(*summary.inventory) +
+         antenna_lines(*summary.inventory) + without_lines(*summary.inventory) + why;
+}
+
 }  // namespace
 
 std::string table_of(const Summary& summary) {
+  if (summary.inventory && summary.method == "none") return inventory_lines(summary);
   std::string text = method_line(summary);
   text += summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
   text +=

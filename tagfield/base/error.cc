@@ -1,6 +1,8 @@
 #include "tagfield/base/error.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace tagfield {
@@ -12,6 +14,39 @@ std::string prefixed(const Location& location, const std::string& message) {
 }
 
 constexpr std::size_t kLongestLine = 4000;
+/// So many alike become one.
+constexpr std::size_t kMany = 3;
+
+/// "FILE:LINE: words" apart; `line` is 0 where it is not of that form.
+struct Placed {
+  std::string file;
+  std::string words;  ///< "antennas[].range_m …": without numbers in brackets.
+  int line = 0;
+};
+
+std::string without_numbers_in_brackets(const std::string& text) {
+  std::string words;
+  bool inside = false;
+  for (const char c : text) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!inside || !is_digit) words += c;
+    inside = c == '[' || (inside && is_digit);
+  }
+  return words;
+}
+
+Placed placed(const std::string& warning) {
+  for (std::size_t colon = warning.find(':'); colon != std::string::npos;
+       colon = warning.find(':', colon + 1)) {
+    std::size_t end = colon + 1;
+    while (end < warning.size() && warning[end] >= '0' && warning[end] <= '9') ++end;
+    const bool is_line = end > colon + 1 && end - colon < 10 && warning.compare(end, 2, ": ") == 0;
+    if (!is_line) continue;
+    return {warning.substr(0, colon), without_numbers_in_brackets(warning.substr(end + 2)),
+            std::stoi(warning.substr(colon + 1, end - colon - 1))};
+  }
+  return {"", warning, 0};
+}
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
@@ -65,6 +100,33 @@ void Diagnostics::warn(const std::string& message) {
 
 void Diagnostics::warn(const Location& location, const std::string& message) {
   warn(prefixed(location, message));
+}
+
+std::vector<std::string> alike_as_one(const std::vector<std::string>& warnings) {
+  struct Alike {
+    std::size_t count = 0;
+    int last_line = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Alike> kinds;
+  for (const std::string& warning : warnings) {
+    const Placed at = placed(warning);
+    Alike& alike = kinds[{at.file, at.words}];
+    ++alike.count;
+    alike.last_line = std::max(alike.last_line, at.line);
+  }
+  std::vector<std::string> some;
+  std::set<std::pair<std::string, std::string>> said;
+  for (const std::string& warning : warnings) {
+    const Placed at = placed(warning);
+    const Alike& alike = kinds[{at.file, at.words}];
+    if (at.line == 0 || alike.count < kMany) {
+      some.push_back(warning);
+    } else if (said.insert({at.file, at.words}).second) {
+      some.push_back(warning + " (and " + std::to_string(alike.count - 1) +
+                     " more like it, to line " + std::to_string(alike.last_line) + ")");
+    }
+  }
+  return some;
 }
 
 }  // namespace tagfield

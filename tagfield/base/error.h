@@ -43,4 +43,8 @@ class Diagnostics {
   std::vector<std::string> warnings_;
 };
 
+/// The warnings, those of three and more lines of a file that say the same but for numbers in
+/// brackets as one, in the place of the first: "FILE:12: … (and 15 more like it, to line 90)".
+std::vector<std::string> alike_as_one(const std::vector<std::string>& warnings);
+
 }  // namespace tagfield

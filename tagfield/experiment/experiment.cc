@@ -9,6 +9,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/internal/navigation_summary.h"
+#include "tagfield/experiment/inventory.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/motion/planar_pose.h"
@@ -114,6 +115,25 @@ std::vector<ComparedMethod> compared(const Scenario& scenario, const SeedRun& ru
   return others;
 }
 
+/// An inventory: each tag as it was read, none with a place.
+void leave_unlocated(const Scenario& scenario, const std::string& why, SeedRun& run) {
+  run.method = kNoLocalization;
+  run.method_why = why;
+  for (const std::string& tag : tags_of(scenario)) {
+    run.estimates.push_back({tag, Verdict::kNotLocated, "not asked for: " + why, {}, 0});
+  }
+  run.outcomes = judged(run.estimates, run.recording.reads, run.recording.truth, {}, run.seed);
+}
+
+std::optional<InventorySummary> mean_inventory(const std::vector<SeedRun>& runs) {
+  std::vector<InventorySummary> all;
+  for (const SeedRun& run : runs) {
+    if (run.inventory) all.push_back(*run.inventory);
+  }
+  if (all.empty()) return std::nullopt;
+  return mean_of(all);
+}
+
 /// Of all seeds: the run's own method, then the others.
 std::vector<MethodSummary> compared_methods(const std::string& method, bool believed,
                                             const std::vector<SeedRun>& runs,
@@ -193,6 +213,14 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 }
 
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
+  const std::string why_not = why_inventory_alone(scenario);
+  if (!why_not.empty() || all_antennas_rest(scenario)) {
+    run.inventory = inventory_of(scenario, run.recording.reads, run.simulated_s);
+  }
+  if (!why_not.empty()) {
+    leave_unlocated(scenario, why_not, run);
+    return;
+  }
   LocalizationOptions options = localization_options(scenario, threads);
   options.known.map_error = map_error_of(scenario, run);
   const Recording& recording = run.recording;
@@ -278,11 +306,13 @@ Summary summarize(const Scenario& scenario, const std::vector<SeedRun>& runs, do
   const bool believed = scenario.pose.source != PoseSource::kTrue;
   summary.compared_methods = compared_methods(summary.method, believed, runs, summary.tags);
   summary.real_time_factor = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
-  if (believed) {
+  summary.inventory = mean_inventory(runs);
+  const bool is_located = summary.method != kNoLocalization;
+  if (believed && is_located) {
     summary.pose_error = pose_error_of(scenario, runs);
   }
   if (world != nullptr && first.navigation) summary.navigation = navigation_summary(runs, *world);
-  summary.warnings = diagnostics.warnings();
+  summary.warnings = alike_as_one(diagnostics.warnings());
   return summary;
 }
 

@@ -38,7 +38,9 @@ struct SeedRun {
   /// Errors of the same reads located with the true poses; empty where those are believed anyway.
   std::vector<double> errors_with_true_pose_m;
   std::vector<AntennaPose> corrected_poses;  ///< Of methods that estimate the poses' error.
-  std::vector<ComparedMethod> compared;      ///< None of them the same as `method`.
+  /// Who was read, by whom and how soon, where all antennas stand still or nothing else is asked.
+  std::optional<InventorySummary> inventory;
+  std::vector<ComparedMethod> compared;  ///< None of them the same as `method`.
 };
 
 /// Simulates one seed, in step with real time if the scenario asks for it. `world` is for robots
@@ -50,7 +52,8 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
 /// Of the map that the run's robot has made of the world; none where it was given or not needed.
 std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& run);
 
-/// Locates the tags from the run's reads and believed poses, and fills in all that comes of it.
+/// Locates the tags from the run's reads and believed poses, unless nothing can be or shall be
+/// located (why_inventory_alone()), and fills in all that comes of it.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
 
 /// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of

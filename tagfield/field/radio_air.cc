@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
+#include <unordered_map>
 
 #include "tagfield/base/error.h"
 #include "tagfield/field/radio_port.h"
@@ -52,6 +54,15 @@ struct AirAntenna {
     Time stamp;
     RigidTransform X_WT;
   };
+  /// What was found since antenna and tags have been where they are: as long as neither moves and
+  /// nothing else is in the way, no link changes but with the carrier.
+  struct AtRest {
+    RigidTransform X_WA;
+    std::uint64_t tags = 0;                           ///< TagPopulation::version().
+    bool is_known = false;                            ///< Of the last update.
+    std::map<double, std::vector<TagOnAir>> powered;  ///< By carrier.
+    std::map<double, std::unordered_map<std::uint32_t, RadioLink>> read;  ///< By carrier and slot.
+  };
   AntennaParameters parameters;
   RadioPort port;
   std::unique_ptr<Inventory> inventory;
@@ -65,6 +76,7 @@ struct AirAntenna {
   std::vector<WayMemory> receiver_memories;
   std::optional<RigidTransform> X_WA_sending;  ///< As others see it; none before its first update.
   double interference_mw = 0.0;                ///< Since the last update, in its tags' replies.
+  AtRest at_rest;
 
   [[nodiscard]] const RadioModel& model() const { return *physical(parameters); }
   [[nodiscard]] RigidTransform pose_at(Time stamp, const RigidTransform& X_WA_now, Time now) const {
@@ -141,6 +153,7 @@ void RadioAir::set_world(std::shared_ptr<const RadioWorld> world) {
     antenna->receiver_images.reset();
     antenna->memories.clear();
     antenna->receiver_memories.clear();
+    antenna->at_rest = {};
   }
 }
 
@@ -335,20 +348,55 @@ void RadioAir::run_piece(Time begin, Time end, const TagPopulation& tags) {
   }
 }
 
+/// Whether all that the antenna's links depend on, the carrier aside, is as it was at its last
+/// update. What was found before is forgotten otherwise.
+bool RadioAir::sees_the_same(AirAntenna& antenna, const RigidTransform& X_WA,
+                             const TagPopulation& tags) {
+  AirAntenna::AtRest& rest = antenna.at_rest;
+  const bool is_alone = bodies_.empty() && !is_disturbed(antenna.model());
+  const bool is_same = is_alone && rest.is_known && rest.tags == tags.version() &&
+                       rest.X_WA.translation == X_WA.translation &&
+                       rest.X_WA.rotation.coeffs() == X_WA.rotation.coeffs();
+  if (is_same) return true;
+  rest = {};
+  rest.X_WA = X_WA;
+  rest.tags = tags.version();
+  rest.is_known = is_alone;
+  return false;
+}
+
+RadioLink RadioAir::link_of_read(AirAntenna& antenna, const RigidTransform& X_WA,
+                                 const RigidTransform& X_WT, std::uint32_t slot, Time stamp,
+                                 double frequency_hz, const TagPopulation& tags) {
+  RadioView view = bare_view_of(antenna, *world_, X_WA, frequency_hz);
+  view.bodies = bodies_at(antenna.model(), stamp);
+  const ImageSet* const images = tag_images(view, slot, X_WT);
+  if (images == nullptr) add_images(antenna, view);
+  TagEnd tag{tags.model(slot), X_WT, tags.key(slot), images};
+  surround(tag, slot, stamp, tags, antenna, view);
+  return link_of(view, tag, paths_);
+}
+
 void RadioAir::read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                             const TagPopulation& tags, std::vector<TagReply>& replies) {
   const Eigen::Vector3d velocity = antenna.velocity(X_WA, now);
+  const bool is_same = sees_the_same(antenna, X_WA, tags);
   for (const AirAntenna::Pending& read : antenna.pending) {
     const RigidTransform X_WA_then = antenna.pose_at(read.stamp, X_WA, now);
     const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, read.stamp);
-    RadioView view = bare_view_of(antenna, *world_, X_WA_then, carrier.frequency_hz);
-    view.bodies = bodies_at(antenna.model(), read.stamp);
-    const ImageSet* const images = tag_images(view, read.slot, read.X_WT);
-    if (images == nullptr) add_images(antenna, view);
-    TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot), images};
-    surround(tag, read.slot, read.stamp, tags, antenna, view);
-    replies.push_back(report(antenna.model(), antenna.port, carrier, link_of(view, tag, paths_),
-                             tag, velocity - tag_velocity(read.slot), read.stamp,
+    RadioLink link;
+    auto& known = antenna.at_rest.read[carrier.frequency_hz];
+    const auto found = known.find(read.slot);
+    if (is_same && found != known.end()) {
+      link = found->second;
+    } else {
+      link = link_of_read(antenna, X_WA_then, read.X_WT, read.slot, read.stamp,
+                          carrier.frequency_hz, tags);
+      if (is_same) known[read.slot] = link;
+    }
+    const TagEnd tag{tags.model(read.slot), read.X_WT, tags.key(read.slot)};
+    replies.push_back(report(antenna.model(), antenna.port, carrier, link, tag,
+                             velocity - tag_velocity(read.slot), read.stamp,
                              antenna.interference_mw));
     replies.back().slot = read.slot;
     replies.back().distance_m = (read.X_WT.translation - X_WA_then.translation).norm();
@@ -482,26 +530,36 @@ void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time no
   for_each_link(antenna, tags, view, read);
 }
 
+/// Into field_: who has power until the next update, on the carrier of now.
+void RadioAir::find_powered(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                            const TagPopulation& tags) {
+  const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
+  const auto known = antenna.at_rest.powered.find(carrier.frequency_hz);
+  if (known != antenna.at_rest.powered.end()) {
+    field_ = known->second;
+    return;
+  }
+  RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
+  view.bodies = bodies_at(antenna.model(), now);
+  const std::vector<OtherSender> others = others_of(antenna, now);
+  look_at_others(antenna, view, others);
+  tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
+  const auto power = [&](std::uint32_t slot, const TagEnd& tag, const RadioLink& link) {
+    std::optional<TagOnAir> powered =
+        on_air(antenna.model(), link, tag, disturbance_of(antenna, others, tag));
+    if (!powered) return;
+    powered->tag = slot;
+    field_.push_back(*powered);
+  };
+  for_each_link(antenna, tags, view, power);
+  if (antenna.at_rest.is_known) antenna.at_rest.powered[carrier.frequency_hz] = field_;
+}
+
 /// Who has power until the next update.
 void RadioAir::refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                              const TagPopulation& tags) {
   field_.clear();
-  if (has_turn_soon(antenna, cycles_, now)) {
-    const CarrierNow carrier = carrier_at(antenna.model(), antenna.port, now);
-    RadioView view = bare_view_of(antenna, *world_, X_WA, carrier.frequency_hz);
-    view.bodies = bodies_at(antenna.model(), now);
-    const std::vector<OtherSender> others = others_of(antenna, now);
-    look_at_others(antenna, view, others);
-    tags.index().within(X_WA.translation, reach(antenna.model(), tags), slots_);
-    const auto power = [&](std::uint32_t slot, const TagEnd& tag, const RadioLink& link) {
-      std::optional<TagOnAir> powered =
-          on_air(antenna.model(), link, tag, disturbance_of(antenna, others, tag));
-      if (!powered) return;
-      powered->tag = slot;
-      field_.push_back(*powered);
-    };
-    for_each_link(antenna, tags, view, power);
-  }
+  if (has_turn_soon(antenna, cycles_, now)) find_powered(antenna, X_WA, now, tags);
   antenna.inventory->set_field(now, field_);
 }
 

@@ -73,6 +73,10 @@ class RadioAir {
   [[nodiscard]] RigidTransform tag_pose(std::uint32_t slot, Time stamp,
                                         const TagPopulation& tags) const;
   [[nodiscard]] Eigen::Vector3d tag_velocity(std::uint32_t slot) const;
+  bool sees_the_same(AirAntenna& antenna, const RigidTransform& X_WA, const TagPopulation& tags);
+  RadioLink link_of_read(AirAntenna& antenna, const RigidTransform& X_WA,
+                         const RigidTransform& X_WT, std::uint32_t slot, Time stamp,
+                         double frequency_hz, const TagPopulation& tags);
   void read_pending(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                     const TagPopulation& tags, std::vector<TagReply>& replies);
   void read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
@@ -92,6 +96,8 @@ class RadioAir {
                      const Visit& visit);
   void refresh_field(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
                      const TagPopulation& tags);
+  void find_powered(AirAntenna& antenna, const RigidTransform& X_WA, Time now,
+                    const TagPopulation& tags);
 
   std::shared_ptr<const RadioWorld> world_;
   std::unique_ptr<TagMemories> memories_;  ///< Where inventories can go on pointing to it.

@@ -56,9 +56,11 @@ void TagPopulation::add(std::uint32_t slot, const std::string& id, const Eigen::
   keys_[slot] = stream_key(id);
   tags_[slot] = {id, true, Eigen::Quaterniond::Identity(), models_.front().get()};
   ids_.insert(id);
+  ++version_;
 }
 
 void TagPopulation::set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model) {
+  ++version_;
   tags_[slot].model = model.get();
   if (std::find(models_.begin(), models_.end(), model) == models_.end()) {
     models_.push_back(std::move(model));
@@ -69,6 +71,7 @@ void TagPopulation::remove(std::uint32_t slot) {
   ids_.erase(tags_[slot].id);
   tags_[slot].present = false;
   index_.remove(slot);
+  ++version_;
 }
 
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,

@@ -28,9 +28,15 @@ class TagPopulation {
   /// Throws Error if the slot or the ID is taken, or the position not finite.
   void add(std::uint32_t slot, const std::string& id, const Eigen::Vector3d& p_WT);
   /// Moves the tag in `slot`. Throws Error if the position is not finite.
-  void move(std::uint32_t slot, const Eigen::Vector3d& p_WT) { index_.place(slot, p_WT); }
+  void move(std::uint32_t slot, const Eigen::Vector3d& p_WT) {
+    index_.place(slot, p_WT);
+    ++version_;
+  }
   /// Turns the tag in `slot`, which lies as the world does where it is not told.
-  void turn(std::uint32_t slot, const Eigen::Quaterniond& R_WT) { tags_[slot].R_WT = R_WT; }
+  void turn(std::uint32_t slot, const Eigen::Quaterniond& R_WT) {
+    tags_[slot].R_WT = R_WT;
+    ++version_;
+  }
   /// Says what kind of tag is in `slot`; default_tag_model() where it is not told.
   void set_model(std::uint32_t slot, std::shared_ptr<const TagModel> model);
   /// Takes out the tag in `slot`, which must hold one.
@@ -55,6 +61,8 @@ class TagPopulation {
   [[nodiscard]] std::uint64_t key(std::uint32_t slot) const { return keys_[slot]; }
   [[nodiscard]] const TagIndex& index() const { return index_; }
   [[nodiscard]] std::size_t size() const { return ids_.size(); }
+  /// Grows with each change of any tag: while it stays, all are where and what they were.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
   /// Calls `visit(slot)` for each tag, in rising order of slots.
   template <class Visit>
   void for_each(const Visit& visit) const {
@@ -76,6 +84,7 @@ class TagPopulation {
   std::vector<Tag> tags_;
   std::vector<std::uint64_t> keys_;  ///< By slot, close together: each read needs one.
   std::unordered_set<std::string> ids_;
+  std::uint64_t version_ = 0;
 };
 
 /// What an antenna sees of one tag: a TagRead without what all of an antenna have in common.

@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kMostCarriers = 8;
-constexpr std::size_t kPlaces = 9;
+constexpr std::size_t kPlaces = kFadingPlaces;
 
 /// What a one-way gain is made of at the tag's middle.
 struct Ray {
@@ -171,6 +171,34 @@ LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientation
     if (!worst || is_worse(link, *worst)) worst = link;
   }
   return worst ? *worst : judged(view.model, tag.model, there, back);
+}
+
+std::vector<double> fading_margins_db(const RadioView& view, const TagEnd& tag,
+                                      const std::vector<double>& carriers_hz, std::uint64_t draw,
+                                      std::vector<RadioPath>& paths) {
+  const bool has_receiver = view.model.X_AR.has_value();
+  RandomStream stream(view.seed, Purpose::kDiffuse, view.diffuse_key, tag.key, draw);
+  trace(view, *view.images, tag, paths);
+  const Powers there = powers_of(view, rays_of(view, false, tag, paths), carriers_hz, stream);
+  Powers back = there;
+  if (has_receiver) {
+    trace(view, *view.receiver_images, tag, paths);
+    back = powers_of(view, rays_of(view, true, tag, paths), carriers_hz, stream);
+  }
+  const double sent = sent_dbm(view.model, tag.model);
+  const double returned = returned_db(view.model, tag.model);
+  std::vector<double> margins(there.size());
+  for (std::size_t place = 0; place < kPlaces; ++place) {
+    for (std::size_t carrier = 0; carrier < carriers_hz.size(); ++carrier) {
+      const std::size_t from = carrier * kPlaces + place;
+      const double at_tag = sent + to_db(there[from]) - tag.model.sensitivity_dbm;
+      const double at_reader = 0.5 * (sent + returned + to_db(there[from]) + to_db(back[from]) -
+                                      view.model.hardware.sensitivity_dbm);
+      margins[place * carriers_hz.size() + carrier] =
+          std::max(kNothing_db, std::min(at_tag, at_reader));
+    }
+  }
+  return margins;
 }
 
 double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m) {

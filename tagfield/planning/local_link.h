@@ -39,6 +39,16 @@ LocalLink local_link(const RadioView& view, const TagEnd& tag, const Orientation
                      const std::vector<double>& carriers_hz, std::uint64_t draw,
                      std::vector<RadioPath>& paths);
 
+/// What a link has beyond what it takes in each of its fading states: by place (nine, its own the
+/// fifth), then by carrier [dB]. Less power at the chip by so many dB, for instance by detuning,
+/// leaves each margin so much less; a state is heard from 0 on. What limits the reader counts half,
+/// as it goes both ways. kNothing_db where nothing arrives.
+inline constexpr std::size_t kFadingPlaces = 9;
+inline constexpr std::size_t kOwnPlace = 4;
+std::vector<double> fading_margins_db(const RadioView& view, const TagEnd& tag,
+                                      const std::vector<double>& carriers_hz, std::uint64_t draw,
+                                      std::vector<RadioPath>& paths);
+
 /// Greatest margin [dB] that any tag at `distance_m` can have: at the greatest gains, and with
 /// fields of twice the direct one's where there are others.
 double most_margin_db(const RadioModel& model, const TagModel& tag, double distance_m);

@@ -27,10 +27,20 @@ std::string antenna_name(const Coverage& coverage, int index) {
   return index < 0 ? "" : csv_field(coverage.antennas[static_cast<std::size_t>(index)].name);
 }
 
-Json names_of(const Coverage& coverage, const std::vector<int>& indices) {
-  Json names = Json::array();
-  for (const int i : indices) names.push_back(coverage.antennas[static_cast<std::size_t>(i)].name);
-  return names;
+Json json_of_readers(const TagCoverage& tag) {
+  Json readers = Json::array();
+  for (const ReaderChance& chance : tag.readers) {
+    readers.push_back({{"reader", chance.reader},
+                       {"probability", chance.probability},
+                       {"meant", chance.is_meant}});
+  }
+  return readers;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
 }
 
 Json to_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -58,7 +68,9 @@ Json to_json(const Coverage& coverage, const TagCoverage& tag) {
   Json json = {{"id", tag.id},
                {"position_m", to_json(tag.p_WT)},
                {"verdict", word_of(tag.verdict)},
-               {"read_by", names_of(coverage, tag.read_by)},
+               {"meant_for", tag.meant_for},
+               {"readers", json_of_readers(tag)},
+               {"read_probability", tag.probability},
                {"probability", tag.best.probability},
                {"margin_db", power(tag.best.margin_db)},
                {"power_dbm", power(tag.best.power_dbm)},
@@ -71,7 +83,7 @@ Json to_json(const Coverage& coverage, const TagCoverage& tag) {
 }
 
 Json counts_of(const Coverage& coverage) {
-  Json counts = {{"never", 0}, {"intended", 0}, {"also_other", 0}, {"wrong", 0}};
+  Json counts = {{"never", 0}, {"intended", 0}, {"also_other", 0}, {"wrong", 0}, {"seldom", 0}};
   for (const TagCoverage& tag : coverage.tags) {
     Json& count = counts[word_of(tag.verdict)];
     count = count.get<int>() + 1;
@@ -105,7 +117,7 @@ bool is_by_paper(const Coverage& coverage) {
 }
 
 const char* word_of(TagVerdict verdict) {
-  constexpr const char* kWords[] = {"never", "intended", "also_other", "wrong"};
+  constexpr const char* kWords[] = {"never", "intended", "also_other", "wrong", "seldom"};
   return kWords[static_cast<int>(verdict)];
 }
 
@@ -127,17 +139,18 @@ std::string coverage_to_csv(const Coverage& coverage, const CoverageLayer& layer
 
 std::string coverage_tags_to_csv(const Coverage& coverage) {
   std::string text =
-      "tag,x_m,y_m,z_m,verdict,nearest,nearest_m,read_by,power_dbm,reply_dbm,margin_db,"
-      "probability\n";
+      "tag,x_m,y_m,z_m,verdict,nearest,nearest_m,meant_for,read_by,read_probability,power_dbm,"
+      "reply_dbm,margin_db,probability\n";
   for (const TagCoverage& tag : coverage.tags) {
-    std::string readers;
-    for (const int i : tag.read_by) {
-      readers += (readers.empty() ? "" : " ") + coverage.antennas[static_cast<std::size_t>(i)].name;
+    std::vector<std::string> readers;
+    for (const ReaderChance& chance : tag.readers) {
+      if (chance.probability >= kCrossProbability) readers.push_back(chance.reader);
     }
-    text += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{:.3f},{},{}\n", csv_field(tag.id),
+    text += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{:.3f},{},{},{:.3f},{}\n", csv_field(tag.id),
                         tag.p_WT.x(), tag.p_WT.y(), tag.p_WT.z(), word_of(tag.verdict),
-                        antenna_name(coverage, tag.nearest), tag.nearest_m, csv_field(readers),
-                        cell_fields(tag.best));
+                        antenna_name(coverage, tag.nearest), tag.nearest_m,
+                        csv_field(joined(tag.meant_for)), csv_field(joined(readers)),
+                        tag.probability, cell_fields(tag.best));
   }
   return text;
 }
@@ -160,6 +173,11 @@ std::string coverage_to_json(const Coverage& coverage) {
   json["heights"] = Json::array();
   for (const CoverageLayer& layer : coverage.layers) json["heights"].push_back(to_json(layer));
   json["tag_counts"] = counts_of(coverage);
+  json["run_s"] = coverage.run_s;
+  json["expected_read"] = {{"mean", coverage.expected_read.mean},
+                           {"low", coverage.expected_read.low},
+                           {"high", coverage.expected_read.high},
+                           {"confidence", 0.95}};
   json["tags"] = Json::array();
   for (const TagCoverage& tag : coverage.tags) json["tags"].push_back(to_json(coverage, tag));
   json["warnings"] = coverage.warnings;

@@ -53,21 +53,44 @@ struct CoverageAntenna {
   bool by_paper = false;                  ///< The paper's model, which has no margins in dB.
 };
 
+/// From this probability on, a reader that a tag is not meant for counts as one that reads it.
+inline constexpr double kCrossProbability = 0.05;
+/// A tag of which every link lacks more than that in every fading state is never read.
+inline constexpr double kNeverMargin_db = -6.0;
+
+/// What becomes of a tag over the whole run.
 enum class TagVerdict {
-  kNever,      ///< No antenna reads it.
-  kIntended,   ///< Its nearest antenna reads it, and no other does.
-  kAlsoOther,  ///< Its nearest antenna and others.
-  kWrong,      ///< Others, but not its nearest.
+  kNever,      ///< Every link is short of what it takes by more than any fading gives.
+  kIntended,   ///< A reader that it is meant for reads it, more likely than not, and no other.
+  kAlsoOther,  ///< One that it is meant for, and others.
+  kWrong,      ///< More likely than not others do, but not one that it is meant for.
+  kSeldom,     ///< It may be read, but less likely than not.
+};
+
+/// How likely a reader reads a tag at least once in the run.
+struct ReaderChance {
+  std::string reader;
+  double probability = 0.0;
+  bool is_meant = true;  ///< The tag is meant for it.
+};
+
+/// A count expected of the run, and the range that it is in with 95 % confidence.
+struct ExpectedCount {
+  double mean = 0.0;
+  double low = 0.0;
+  double high = 0.0;
 };
 
 /// One of the scenario's own tags.
 struct TagCoverage {
   std::string id;
   Eigen::Vector3d p_WT = Eigen::Vector3d::Zero();  ///< [m] Where it begins, if it moves.
-  int nearest = -1;          ///< The antenna that comes nearest: the one it is meant for.
-  double nearest_m = 0.0;    ///< How near.
-  CoverageCell best;         ///< By the antenna with the greatest margin.
-  std::vector<int> read_by;  ///< Antennas that read it, rising.
+  int nearest = -1;                                ///< The antenna that comes nearest.
+  double nearest_m = 0.0;                          ///< How near.
+  CoverageCell best;                   ///< By the antenna with the greatest margin, at one moment.
+  double probability = 0.0;            ///< To be read at least once in the run.
+  std::vector<ReaderChance> readers;   ///< Those that may read it, the likeliest first.
+  std::vector<std::string> meant_for;  ///< Readers: of its zone, or the nearest antenna's.
   TagVerdict verdict = TagVerdict::kNever;
 };
 
@@ -81,6 +104,8 @@ struct Coverage {
   CoverageGrid grid;
   std::vector<CoverageLayer> layers;
   std::vector<TagCoverage> tags;
+  double run_s = 0.0;           ///< That the tags' probabilities are for.
+  ExpectedCount expected_read;  ///< Of the tags, in that time.
   std::vector<std::string> warnings;
 };
 
@@ -94,7 +119,9 @@ bool is_by_paper(const Coverage& coverage);
 /// nothing arrives.
 std::string coverage_to_csv(const Coverage& coverage, const CoverageLayer& layer);
 
-/// `tag,x_m,y_m,z_m,verdict,nearest,nearest_m,read_by,power_dbm,reply_dbm,margin_db,probability`.
+/// `tag,x_m,y_m,z_m,verdict,nearest,nearest_m,meant_for,read_by,read_probability,power_dbm,
+/// reply_dbm,margin_db,probability`; `read_by` has the readers that read it with at least
+/// kCrossProbability.
 std::string coverage_tags_to_csv(const Coverage& coverage);
 
 /// "coverage_1.25m.csv".
@@ -103,7 +130,7 @@ std::string coverage_file(const CoverageLayer& layer);
 /// Summary of all as JSON text.
 std::string coverage_to_json(const Coverage& coverage);
 
-/// "never", "intended", "also_other", "wrong".
+/// "never", "intended", "also_other", "wrong", "seldom".
 const char* word_of(TagVerdict verdict);
 
 }  // namespace tagfield

@@ -109,8 +109,8 @@ Drawn words_of(const Coverage& coverage, const CoverageLayer& layer, CoverageQua
     case CoverageQuantity::kProbability:
       return {
           "probability", "Read probability",
-          fmt::format("How likely a tag there is read; {:.0f} % of the area is read, with {:.0f} "
-                      "% or more. Left blank below 1 %.",
+          fmt::format("How likely a tag there is heard at one moment, over the fading; in {:.0f} "
+                      "% of the area with {:.0f} % or more. Left blank below 1 %.",
                       100.0 * share_read(layer), 100.0 * kReadProbability)};
     case CoverageQuantity::kMargin:
       return {"margin", "Margin",
@@ -196,6 +196,8 @@ void draw_tag(Svg& svg, const Place& place, const TagCoverage& tag, const Covera
       return add_diamond(svg, place, 8.0, styled("cover-also"), said);
     case TagVerdict::kWrong:
       return add_rectangle(svg, place - Place(6, 6), {12, 12}, styled("cover-wrong"), said);
+    case TagVerdict::kSeldom:
+      return add_circle(svg, place, 5.0, styled("cover-never"), said);
   }
 }
 
@@ -216,19 +218,27 @@ void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
 }  // namespace
 
 std::string spoken(const Coverage& coverage, const TagCoverage& tag) {
-  const auto name = [&](int i) {
-    return clean_text(coverage.antennas[static_cast<std::size_t>(i)].name);
-  };
   if (tag.verdict == TagVerdict::kNever) return "never read";
+  std::string meant;
+  for (const std::string& name : tag.meant_for) meant += (meant.empty() ? "" : ", ") + name;
+  meant = clean_text(meant);
   std::string readers;
-  for (const int i : tag.read_by) readers += (readers.empty() ? "" : ", ") + name(i);
+  for (const ReaderChance& chance : tag.readers) {
+    if (chance.probability < kCrossProbability) continue;
+    readers += fmt::format("{}{} ({:.0f} %)", readers.empty() ? "" : ", ",
+                           clean_text(chance.reader), 100.0 * chance.probability);
+  }
+  if (tag.verdict == TagVerdict::kSeldom) {
+    return fmt::format("seldom read ({:.0f} % in the run){}", 100.0 * tag.probability,
+                       readers.empty() ? "" : ", by " + readers);
+  }
   if (tag.verdict == TagVerdict::kIntended) {
     return coverage.antennas.size() > 1 ? "read only by " + readers : "read";
   }
   if (tag.verdict == TagVerdict::kAlsoOther) {
-    return "read by " + readers + "; meant for " + name(tag.nearest) + " alone";
+    return "read by " + readers + "; meant for " + meant + " alone";
   }
-  return "read by " + readers + ", not by " + (tag.nearest < 0 ? "any near" : name(tag.nearest));
+  return "read by " + readers + ", not by " + (meant.empty() ? "any near" : meant);
 }
 
 Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,
@@ -250,11 +260,14 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
   Figure figure;
   figure.name = "tags";
   figure.title = "The scenario’s tags";
-  figure.caption = "By who reads them. A tag is meant for the antenna that comes nearest to it.";
+  figure.caption =
+      "By who reads them in the run. A tag is meant for its zone’s readers or, without zones, for "
+      "that of the antenna that comes nearest to it; all antennas of one robot are one reader.";
   const double top =
-      draw_legend(figure.svg, {{Symbol::kDiamond, "cover-own", "read by its own antenna only"},
+      draw_legend(figure.svg, {{Symbol::kDiamond, "cover-own", "read by its own reader only"},
                                {Symbol::kDiamond, "cover-also", "by others too"},
                                {Symbol::kSquare, "cover-wrong", "by others only"},
+                               {Symbol::kRing, "cover-never", "seldom read"},
                                {Symbol::kCross, "cover-never", "never read"}});
   MapView map = begin_map(figure, coverage, top);
   end_map(figure, map, top_view);

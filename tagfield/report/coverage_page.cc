@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/report/coverage_figure.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
 
@@ -31,14 +33,19 @@ std::size_t count(const Coverage& coverage, TagVerdict verdict) {
 
 std::string numbers(const Coverage& coverage) {
   std::string html = "<dl class=\"numbers\">\n";
+  html += big_number(
+      fmt::format("Tags read in {:.3g} s", coverage.run_s),
+      fmt::format("{:.0f} of {}", coverage.expected_read.mean, grouped(coverage.tags.size())),
+      true);
+  html += big_number("With 95 % confidence",
+                     fmt::format("{:.0f} to {:.0f}", std::ceil(coverage.expected_read.low),
+                                 std::floor(coverage.expected_read.high)));
+  html += big_number("Seldom read", grouped(count(coverage, TagVerdict::kSeldom)));
+  html += big_number("Never read", grouped(count(coverage, TagVerdict::kNever)));
   for (const CoverageLayer& layer : coverage.layers) {
     html += big_number(fmt::format("Area read at {:.2f} m", layer.height_m + 0.0),
-                       fmt::format("{:.0f} %", 100.0 * share_read(layer)), true);
+                       fmt::format("{:.0f} %", 100.0 * share_read(layer)));
   }
-  html += big_number(
-      "Tags read",
-      fmt::format("{} of {}", grouped(coverage.tags.size() - count(coverage, TagVerdict::kNever)),
-                  grouped(coverage.tags.size())));
   if (coverage.antennas.size() > 1) {
     html += big_number("By others too", grouped(count(coverage, TagVerdict::kAlsoOther)));
     html += big_number("By others only", grouped(count(coverage, TagVerdict::kWrong)));
@@ -77,13 +84,13 @@ std::string row(const Coverage& coverage, const TagCoverage& tag) {
              "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td class=\"words\">{}</td>",
              escaped(tag.id), escaped(shortened(tag.id, 28)), escaped(spoken(coverage, tag))) +
          number_cell(tag.best.margin_db) + number_cell(tag.best.power_dbm) +
-         fmt::format("<td>{:.0f}</td><td>{:.2f}</td></tr>\n", 100.0 * tag.best.probability,
+         fmt::format("<td>{:.0f}</td><td>{:.2f}</td></tr>\n", 100.0 * tag.probability,
                      tag.nearest_m);
 }
 
 /// What needs a person's eye comes first.
 std::vector<const TagCoverage*> sorted(const Coverage& coverage) {
-  constexpr int kOrder[] = {0, 3, 2, 1};  // By TagVerdict.
+  constexpr int kOrder[] = {0, 4, 3, 2, 1};  // By TagVerdict.
   std::vector<const TagCoverage*> tags;
   for (const TagCoverage& tag : coverage.tags) tags.push_back(&tag);
   std::stable_sort(tags.begin(), tags.end(), [&](const TagCoverage* a, const TagCoverage* b) {
@@ -102,7 +109,8 @@ std::string table(const Coverage& coverage) {
       "<th scope=\"col\">Margin<br>[dB]</th><th scope=\"col\">";
   html += paper ? "RSSI<br>[dBm]" : "Power at<br>chip [dBm]";
   html +=
-      "</th><th scope=\"col\">Read<br>[%]</th><th scope=\"col\">Nearest<br>antenna [m]</th>"
+      "</th><th scope=\"col\">Read in<br>the run [%]</th><th scope=\"col\">Nearest<br>antenna "
+      "[m]</th>"
       "</tr></thead>\n<tbody>\n";
   const std::vector<const TagCoverage*> tags = sorted(coverage);
   const std::size_t shown = std::min(tags.size(), kMostTags);
@@ -170,12 +178,13 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
     maps += figures_html(figures, next, next + quantities_of(coverage).size());
     next += quantities_of(coverage).size();
   }
-  return page_head(coverage.scenario + " – Tagfield coverage") + "<body>\n" + header(coverage) +
-         "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) + maps +
-         "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
+  return page_head(coverage.scenario + " – Tagfield coverage", {table_script().hash}) + "<body>\n" +
+         header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) +
+         maps + "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
          table(coverage) +
          "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
-         "maps in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
+         "maps in figures/ as SVG files.</p>\n</footer>\n" +
+         script_html(table_script()) + "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 
+#include "tagfield/report/internal/inventory_figures.h"
+#include "tagfield/report/internal/inventory_section.h"
+
 namespace tagfield {
 namespace {
 
@@ -27,6 +30,14 @@ void add_navigation(const RunFiles& run, std::vector<Figure>& figures) {
 
 std::vector<Figure> all_figures(const RunFiles& run) {
   std::vector<Figure> figures;
+  if (run.summary.inventory) {
+    figures.push_back(inventory_curve_figure(run));
+    figures.push_back(inventory_antennas_figure(run));
+  }
+  if (is_inventory_alone(run.summary)) {
+    figures.push_back(fixed_rssi_figure(run));
+    return figures;
+  }
   figures.push_back(map_figure(run));
   figures.push_back(error_figure(run));
   const auto errors = error_statistics(run.summary);

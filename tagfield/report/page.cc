@@ -5,7 +5,9 @@
 #include "tagfield/base/error.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/internal/tables.h"
+#include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/report/style_sheet.h"
@@ -13,11 +15,15 @@
 namespace tagfield {
 namespace {
 
-/// Only the page's own style counts, and the script with this hash, with the pictures that it
-/// makes.
-std::string policy(const std::string& script_hash) {
+/// Only the page's own style counts, and the scripts with these hashes, with the pictures that they
+/// make.
+std::string policy(const std::vector<std::string>& script_hashes) {
+  std::string sources;
+  for (const std::string& hash : script_hashes) {
+    if (!hash.empty()) sources += (sources.empty() ? "'" : " '") + hash + "'";
+  }
   const std::string script =
-      script_hash.empty() ? "" : "script-src '" + script_hash + "'; img-src data: blob:; ";
+      sources.empty() ? "" : "script-src " + sources + "; img-src data: blob:; ";
   return "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; " + script +
          "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n";
 }
@@ -33,12 +39,16 @@ std::string figures_html(const std::vector<Figure>& figures) {
 
 std::string page_of(const Summary& summary, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
-  return page_head(summary.scenario + " – Tagfield report", view ? view->script_hash : "") +
-         "<body>\n" + page_header(summary) + "<main>\n" + key_numbers(summary) +
-         run_facts(summary) + methods_table(summary) + navigation_table(summary) +
-         effects_table(summary) + (view ? "<h2>The run over time</h2>\n" + view->html : "") +
-         "<h2>Figures</h2>\n" + figures_html(figures) + "<h2>Tags</h2>\n" + tag_table(summary) +
-         "</main>\n" + page_footer() + "</body>\n</html>\n";
+  const bool is_inventory = is_inventory_alone(summary);
+  return page_head(summary.scenario + " – Tagfield report",
+                   {view ? view->script_hash : "", table_script().hash}) +
+         "<body>\n" + page_header(summary) + "<main>\n" +
+         (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
+         run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
+         navigation_table(summary) + effects_table(summary) +
+         (view ? "<h2>The run over time</h2>\n" + view->html : "") + "<h2>Figures</h2>\n" +
+         figures_html(figures) + (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) +
+         "</main>\n" + page_footer() + script_html(table_script()) + "</body>\n</html>\n";
 }
 
 /// Nothing is made where there is no run.
@@ -48,9 +58,9 @@ void require_run_folder(const std::string& folder) {
 
 }  // namespace
 
-std::string page_head(const std::string& title, const std::string& script_hash) {
+std::string page_head(const std::string& title, const std::vector<std::string>& script_hashes) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
-         policy(script_hash) +
+         policy(script_hashes) +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
          escaped(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n";

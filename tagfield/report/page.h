@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tagfield {
 
@@ -26,7 +27,7 @@ void stage_report(const std::string& run_folder, const std::optional<RunView>& v
                   StagedFolder& folder);
 
 /// A page from its first byte up to its body: nothing may be fetched, and nothing run but the
-/// script of this hash, if there is one. `title` is escaped here.
-std::string page_head(const std::string& title, const std::string& script_hash = "");
+/// scripts of these hashes; empty ones are none. `title` is escaped here.
+std::string page_head(const std::string& title, const std::vector<std::string>& script_hashes = {});
 
 }  // namespace tagfield

@@ -7,6 +7,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -66,6 +67,7 @@ std::string fact(const std::string& name, const std::string& value) {
 }
 
 std::string spoken_method(const std::string& method) {
+  if (method == "none") return "none: an inventory, no places";
   if (method == "hyperbola") return "hyperbolic intersections of the unwrapped phase (the paper's)";
   for (const Method& known : built_in_methods()) {
     if (known.name == method) return method + ": " + known.summary;
@@ -107,7 +109,9 @@ std::string page_header(const Summary& summary) {
     html += "<p class=\"muted\">" + escaped(summary.description) + "</p>\n";
   }
   html += incomplete_note(summary);
-  html += paragraph(outcome_sentence(summary));
+  html += paragraph(is_inventory_alone(summary)
+                        ? inventory_sentence(*summary.inventory, summary.seeds.size())
+                        : outcome_sentence(summary));
   return html + "</header>\n";
 }
 
@@ -170,7 +174,8 @@ std::string compared_pose_text(const Summary& summary) {
 std::string run_facts(const Summary& summary) {
   std::string html = "<dl class=\"facts\">\n";
   html += fact("Method", spoken_method(summary.method));
-  html += fact("Chosen by " + summary.method_asked, summary.method_why);
+  html += fact(is_inventory_alone(summary) ? "Why" : "Chosen by " + summary.method_asked,
+               summary.method_why);
   html += fact("Antenna poses", spoken_pose(summary.pose));
   if (summary.pose_error && summary.pose != "slam") {  // There nothing was stated.
     html += fact("Stated pose error",

@@ -38,6 +38,7 @@ std::string series_style() {
 }
 
 constexpr const char* kLayout = R"(*{box-sizing:border-box}
+[hidden]{display:none!important}
 html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
 body{margin:0;background:var(--paper);color:var(--ink);
 font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,Helvetica,Arial,sans-serif;
@@ -87,6 +88,16 @@ th.words,td.words{text-align:left}
 td.words:last-child{white-space:normal;min-width:15rem}
 .told td.words:last-child{min-width:9rem;width:99%}
 footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
+.filter{font:inherit;font-size:.92rem;width:100%;max-width:22rem;margin:.2rem 0 .6rem;padding:.35rem .6rem;
+color:var(--ink);background:var(--paper);border:1px solid var(--grid);border-radius:8px}
+th[aria-sort=ascending]::after{content:" ↑"}
+th[aria-sort=descending]::after{content:" ↓"}
+.controls{display:flex;flex-wrap:wrap;gap:.6rem 1.6rem;align-items:center;margin:1rem 0}
+.controls input[type=range]{width:min(26rem,70vw);vertical-align:middle}
+.controls select{font:inherit;color:var(--ink);background:var(--paper)}
+.swatches{display:flex;flex-wrap:wrap;gap:.2rem 1rem;font-size:.9rem;color:var(--muted);margin:.4rem 0 1rem}
+.swatches i{display:inline-block;width:.9rem;height:.9rem;border-radius:50%;vertical-align:-.1rem;
+margin-right:.35rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
 @media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}
 .told tbody th{white-space:normal}}

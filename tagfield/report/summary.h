@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tagfield/localization/tag_estimate.h"
+#include "tagfield/report/inventory.h"
 #include "tagfield/stream/tag_read.h"
 #include "tagfield/stream/truth.h"
 
@@ -151,6 +152,7 @@ struct Summary {
   /// The method of the run and others; empty where none were compared.
   std::vector<MethodSummary> compared_methods;
   std::optional<NavigationSummary> navigation;
+  std::optional<InventorySummary> inventory;
   std::vector<EffectCost> effects;  ///< Empty where they were not told apart.
   std::vector<TagOutcome> tags;     ///< By seed, then by ID.
   std::vector<std::string> warnings;
@@ -181,13 +183,13 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// summary.json: scenario, description, seeds, method, method_asked, method_why, pose, complete,
 /// path_length_m, reads, simulated_s, wall_s, real_time_factor, pose_error, compared_pose: {pose,
 /// position_rms_m, error_m, located} or null, compared_methods: [{method, located, ambiguous,
-/// not_located, error_m, aligned_error_m}], tags: [{id, seed, verdict, reason, truth_m, moved,
-/// estimate_m, error_m, rms_m, expected_error_m, candidates_m, candidates_rms_m,
-/// candidates_expected_error_m, reads, reads_used, reference}], error_m: {mean, median, p95, max,
-/// min, count}, over_0_3_m, located, ambiguous, not_located, warnings. What is unknown or not
-/// finite is null. `estimate_m` is null unless the tag is located; `rms_m` and `expected_error_m`
-/// are the best candidate's, and the three lists of candidates are equally long. Bytes that are not
-/// UTF-8 become U+FFFD.
+/// not_located, error_m, aligned_error_m}], inventory: as InventorySummary or null, tags: [{id,
+/// seed, verdict, reason, truth_m, moved, estimate_m, error_m, rms_m, expected_error_m,
+/// candidates_m, candidates_rms_m, candidates_expected_error_m, reads, reads_used, reference}],
+/// error_m: {mean, median, p95, max, min, count}, over_0_3_m, located, ambiguous, not_located,
+/// warnings. What is unknown or not finite is null. `estimate_m` is null unless the tag is located;
+/// `rms_m` and `expected_error_m` are the best candidate's, and the three lists of candidates are
+/// equally long. Bytes that are not UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
 /// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that

@@ -75,6 +75,59 @@ constexpr auto fields(const NavigationSummary* /*of*/) {
       std::pair("lost", &S::lost));
 }
 
+constexpr auto fields(const InventoryShare* /*of*/) {
+  using S = InventoryShare;
+  return std::tuple(std::pair("name", &S::name), std::pair("reader", &S::reader),
+                    std::pair("tags", &S::tags), std::pair("only", &S::only),
+                    std::pair("reads", &S::reads));
+}
+
+constexpr auto fields(const CrossRead* /*of*/) {
+  using S = CrossRead;
+  return std::tuple(std::pair("reader", &S::reader), std::pair("tags", &S::tags),
+                    std::pair("reads", &S::reads));
+}
+
+constexpr auto fields(const ZoneInventory* /*of*/) {
+  using S = ZoneInventory;
+  return std::tuple(std::pair("zone", &S::zone), std::pair("readers", &S::readers),
+                    std::pair("tags", &S::tags), std::pair("read", &S::read),
+                    std::pair("read_by_own", &S::read_by_own), std::pair("crossed", &S::crossed),
+                    std::pair("cross", &S::cross));
+}
+
+constexpr auto fields(const LevelInventory* /*of*/) {
+  using S = LevelInventory;
+  return std::tuple(std::pair("low_m", &S::low_m), std::pair("high_m", &S::high_m),
+                    std::pair("tags", &S::tags), std::pair("read", &S::read));
+}
+
+constexpr auto fields(const InventoryMoment* /*of*/) {
+  using S = InventoryMoment;
+  return std::tuple(std::pair("time_s", &S::time_s), std::pair("share", &S::share));
+}
+
+constexpr auto fields(const ReachedShare* /*of*/) {
+  using S = ReachedShare;
+  return std::tuple(std::pair("share", &S::share), std::pair("time_s", &S::time_s));
+}
+
+constexpr auto fields(const InventoryWithout* /*of*/) {
+  using S = InventoryWithout;
+  return std::tuple(std::pair("antenna", &S::antenna), std::pair("read", &S::read));
+}
+
+constexpr auto fields(const InventorySummary* /*of*/) {
+  using S = InventorySummary;
+  return std::tuple(std::pair("tags", &S::tags), std::pair("duration_s", &S::duration_s),
+                    std::pair("read", &S::read), std::pair("least_read", &S::least_read),
+                    std::pair("most_read", &S::most_read), std::pair("reads", &S::reads),
+                    std::pair("median_reads", &S::median_reads), std::pair("reached", &S::reached),
+                    std::pair("readers", &S::readers), std::pair("antennas", &S::antennas),
+                    std::pair("zones", &S::zones), std::pair("levels", &S::levels),
+                    std::pair("without", &S::without), std::pair("curve", &S::curve));
+}
+
 constexpr auto fields(const EffectCost* /*of*/) {
   using S = EffectCost;
   return std::tuple(std::pair("effect", &S::effect), std::pair("set", &S::set),
@@ -95,7 +148,7 @@ constexpr auto fields(const Summary* /*of*/) {
       std::pair("real_time_factor", &S::real_time_factor), std::pair("pose_error", &S::pose_error),
       std::pair("compared_pose", &S::compared_pose),
       std::pair("compared_methods", &S::compared_methods), std::pair("navigation", &S::navigation),
-      std::pair("effects", &S::effects));
+      std::pair("inventory", &S::inventory), std::pair("effects", &S::effects));
 }
 
 template <class Value>

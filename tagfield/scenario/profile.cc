@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "tagfield/base/spelling.h"
 #include "tagfield/scenario/internal/radio_yaml.h"
 #include "tagfield/scenario/yaml_map.h"
@@ -9,7 +12,23 @@
 #include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {
+namespace fs = std::filesystem;
 namespace {
+
+const char* folder_of(ProfileKind kind) {
+  constexpr const char* kFolders[] = {"readers", "antennas", "tags"};
+  return kFolders[static_cast<int>(kind)];
+}
+
+/// Beside the program, where it is installed, or as built.
+fs::path profiles_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path beside = program.parent_path().parent_path() / "share/tagfield/profiles";
+  if (fs::is_directory(beside, error)) return beside;
+  const fs::path source = TAGFIELD_PROFILES;
+  return fs::is_directory(source, error) ? source : fs::path(TAGFIELD_INSTALLED_PROFILES);
+}
 
 std::vector<std::string> keys_of(ProfileKind kind) {
   std::vector<std::string> keys;
@@ -52,6 +71,28 @@ Profile read_profile(const std::string& path) {
   read_figures(map.at("figures"), profile);
   map.finish();
   return profile;
+}
+
+std::vector<std::string> shipped_profiles(ProfileKind kind) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(profiles_folder() / folder_of(kind), error)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string shipped_profile(const std::string& name, const std::vector<ProfileKind>& kinds) {
+  const bool is_plain =
+      name.find_first_of("/\\") == std::string::npos && name != "." && name != "..";
+  if (!is_plain) return "";
+  std::error_code error;
+  for (const ProfileKind kind : kinds) {
+    const fs::path file = profiles_folder() / folder_of(kind) / (name + ".yaml");
+    if (fs::is_regular_file(file, error)) return file.string();
+  }
+  return "";
 }
 
 }  // namespace tagfield

@@ -22,4 +22,10 @@ struct Profile {
 /// figure without a source.
 Profile read_profile(const std::string& path);
 
+/// Names of the shipped profiles of this kind.
+std::vector<std::string> shipped_profiles(ProfileKind kind);
+
+/// The file of the shipped profile of that name, one of `kinds`; "" where there is none.
+std::string shipped_profile(const std::string& name, const std::vector<ProfileKind>& kinds);
+
 }  // namespace tagfield

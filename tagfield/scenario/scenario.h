@@ -19,6 +19,7 @@
 #include "tagfield/scenario/obstacle.h"
 #include "tagfield/scenario/pose_belief.h"
 #include "tagfield/scenario/robot_spec.h"
+#include "tagfield/scenario/zones.h"
 #include "tagfield/tracking/passing.h"
 #include "tagfield/tracking/tracking_options.h"
 
@@ -72,8 +73,11 @@ enum class KnownHeight {
   kBelow,    ///< Likewise below.
 };
 
+/// The method of a scenario that asks who is read, and for no places.
+inline constexpr const char* kNoLocalization = "none";
+
 struct LocalizationSpec {
-  std::string method = "hyperbola";
+  std::string method = "hyperbola";  ///< Or kNoLocalization.
   std::vector<std::string> compare;  ///< Methods that locate the same reads, for comparison.
   MethodSettings settings;           ///< Of `method` and of those that are compared.
   TagArea area;                      ///< Where tags can be.
@@ -110,6 +114,7 @@ struct Scenario {
   std::vector<ObstacleSpec> obstacles;
   std::vector<AntennaSpec> antennas;
   std::vector<TagSpec> tags;
+  std::vector<ZoneSpec> zones;  ///< Empty: each tag is meant for the reader that comes nearest.
   LocalizationSpec localization;
   TrackingSpec tracking;
 };

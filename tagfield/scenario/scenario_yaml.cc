@@ -17,8 +17,11 @@
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
 #include "tagfield/scenario/internal/neighbour_use.h"
+#include "tagfield/scenario/internal/plan_yaml.h"
 #include "tagfield/scenario/internal/tag_table.h"
+#include "tagfield/scenario/internal/zones_yaml.h"
 #include "tagfield/scenario/placements.h"
+#include "tagfield/scenario/plan_spec.h"
 #include "tagfield/scenario/recorded_motion.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
@@ -218,8 +221,31 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
   for (const Method& method : used) configured(method, spec.settings);
 }
 
-LocalizationSpec localization_of(YamlMap map, const std::vector<Method>& methods) {
+/// Nothing is located, so nothing that says how has an effect.
+void warn_of_settings_of_none(YamlMap& map, Diagnostics& diagnostics) {
+  for (const auto& entry : map.self().node()) {
+    const std::string key = entry.first.as<std::string>("");
+    if (key == "method") continue;
+    diagnostics.warn(map.at(key).location(),
+                     fmt::format("localization.{} has no effect with method: none", key));
+  }
+}
+
+/// `localization: none`, or a mapping.
+LocalizationSpec localization_of(const YamlValue& value, const std::vector<Method>& methods,
+                                 Diagnostics& diagnostics) {
   LocalizationSpec spec;
+  if (value.node().IsScalar()) {
+    static_cast<void>(choice(value, {kNoLocalization}));
+    spec.method = kNoLocalization;
+    return spec;
+  }
+  YamlMap map(value);
+  if (map.has("method") && map.at("method").text() == kNoLocalization) {
+    warn_of_settings_of_none(map, diagnostics);
+    spec.method = kNoLocalization;
+    return spec;
+  }
   read_methods(map, methods, spec);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
@@ -334,8 +360,8 @@ void read_bodies(YamlMap& map, Scenario& scenario, const RadioDefaults& radio,
     scenario.tags.push_back(tag_of(YamlMap(tag), radio, diagnostics));
   }
   if (map.has("tag_table")) {
-    std::vector<TagSpec> more = read_tag_table(resolve_path(map.at("tag_table")));
-    for (TagSpec& tag : more) tag.model = radio.tag;
+    const std::vector<TagSpec> more =
+        read_tag_table(resolve_path(map.at("tag_table")), radio.tag, diagnostics);
     scenario.tags.insert(scenario.tags.end(), more.begin(), more.end());
   }
   if (map.has("tag_recording")) {
@@ -378,9 +404,11 @@ Scenario scenario_of(YamlMap map, bool world_is_given, const std::vector<Method>
   for (const YamlValue& obstacle : map.list("obstacles")) {
     scenario.obstacles.push_back(obstacle_of(YamlMap(obstacle), scenario.materials));
   }
+  scenario.zones = zones_of(map);
+  static_cast<void>(map.has("plan"));  // load_scenario_to_plan() reads it.
   if (map.has("tracking")) scenario.tracking = tracking_of(YamlMap(map.at("tracking")));
   if (map.has("localization")) {
-    scenario.localization = localization_of(YamlMap(map.at("localization")), methods);
+    scenario.localization = localization_of(map.at("localization"), methods, diagnostics);
   }
   read_bodies(map, scenario, radio, diagnostics);
   if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
@@ -404,10 +432,16 @@ void require_end(const Scenario& scenario, const std::string& path) {
   }
 }
 
+double planned_duration_s(const Scenario& scenario) {
+  constexpr double kUsual_s = 10.0;
+  return scenario.duration_s.value_or(kUsual_s);
+}
+
 /// A scenario, and what is wrong with it if none of its antennas is a physical one.
 struct ReadScenario {
   Scenario scenario;
   std::optional<Error> without_physical_antenna;
+  std::optional<PlanSpec> plan;
 };
 
 void require_use_of_keys(const ReadScenario& read) {
@@ -416,18 +450,37 @@ void require_use_of_keys(const ReadScenario& read) {
   }
 }
 
-/// `scene`: the world, where it was given with the scenario; else null.
+PlanSpec read_plan(YamlMap& map, const Scenario& scenario, Diagnostics& diagnostics) {
+  Diagnostics heard;  // Of the scenario's own radio keys.
+  const RadioDefaults radio = radio_defaults_of(map, heard);
+  return plan_of(YamlMap(map.at("plan")), radio, planned_duration_s(scenario), diagnostics);
+}
+
+/// `scene`: the world, where it was given with the scenario; else null. With its section `plan`
+/// where `to_plan` is set; that is not looked at otherwise.
 ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
                            const std::vector<Override>& overrides, const Scene* scene,
-                           const std::vector<Method>& methods, Diagnostics& diagnostics) {
+                           const std::vector<Method>& methods, Diagnostics& diagnostics,
+                           bool to_plan = false) {
   for (const auto& [key, value] : overrides) set_in_yaml(root, key, value);
   try {
     YamlMap map(YamlValue(root, path, ""));
-    return {scenario_of(map, scene != nullptr, methods, diagnostics),
-            key_without_physical_antenna(map)};
+    ReadScenario read{scenario_of(map, scene != nullptr, methods, diagnostics),
+                      key_without_physical_antenna(map), std::nullopt};
+    if (!to_plan) return read;
+    if (!map.has("plan")) {
+      fail({path, 0}, "has no 'plan': where antennas and tags can be (docs/plan.md)");
+    }
+    read.plan = read_plan(map, read.scenario, diagnostics);
+    return read;
   } catch (const YAML::Exception& error) {
     fail({path, error.mark.line + 1}, error.msg);
   }
+}
+
+Scene scene_of(const WorldSpec& world, WorldOptions options, Diagnostics& diagnostics) {
+  options.skip_missing = options.skip_missing || world.skip_missing;
+  return load_world(world.path, world.search_paths, diagnostics, options);
 }
 
 ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const Scene* scene,
@@ -437,10 +490,7 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   scenario = read.scenario;
   if (scene != nullptr) loaded.scene = *scene;
   if (!scenario.world.path.empty()) {
-    WorldOptions options = world_options;
-    options.skip_missing = options.skip_missing || scenario.world.skip_missing;
-    loaded.scene =
-        load_world(scenario.world.path, scenario.world.search_paths, diagnostics, options);
+    loaded.scene = scene_of(scenario.world, world_options, diagnostics);
     add_placements(loaded.scene, scenario, diagnostics);
     require_epcs(scenario.tags);
   }
@@ -455,8 +505,37 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   }
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
   require_use_of_neighbours(scenario, diagnostics);
+  require_readers_of_zones(scenario);
   require_end(scenario, path);
   return loaded;
+}
+
+/// Tags of the scenario that rest, each where and as it is; those that move are not planned for.
+void add_own_tags(const Scenario& scenario, Diagnostics& diagnostics, PlanSpec& plan) {
+  std::size_t moving = 0;
+  for (const TagSpec& tag : scenario.tags) {
+    if (moves(tag)) {
+      ++moving;
+      continue;
+    }
+    const RigidTransform& X_WT = tag.motion.front().X_WB;
+    PlanTags alone;
+    alone.name = tag.id;
+    alone.model = tag.model ? tag.model : default_tag_model();
+    alone.places = {X_WT.translation};
+    alone.orientations = {X_WT.rotation};
+    alone.count = 1;
+    alone.location = tag.location;
+    const std::size_t zone = zone_at(scenario.zones, X_WT.translation);
+    if (zone < scenario.zones.size()) alone.zone = scenario.zones[zone].name;
+    plan.tags.push_back(std::move(alone));
+  }
+  if (moving > 0) {
+    diagnostics.warn(
+        fmt::format("{} of the scenario's tags move and are not planned for: give them "
+                    "as plan.tags with a path",
+                    moving));
+  }
 }
 
 }  // namespace
@@ -501,6 +580,30 @@ ScenarioWithWorld scenario_from_text(const std::string& text, const std::string&
   return with_world(
       read_scenario(yaml_in(text, name), name, overrides, scene, methods, diagnostics), name, scene,
       diagnostics);
+}
+
+ScenarioToPlan load_scenario_to_plan(const std::string& path,
+                                     const std::vector<Override>& overrides,
+                                     Diagnostics& diagnostics) {
+  ReadScenario read =
+      read_scenario(read_yaml(path), path, overrides, nullptr, built_in_methods(), diagnostics, true);
+  ScenarioToPlan to_plan;
+  Scenario& scenario = to_plan.loaded.scenario;
+  scenario = std::move(read.scenario);
+  to_plan.plan = std::move(*read.plan);
+  if (!scenario.world.path.empty()) {
+    to_plan.loaded.scene = scene_of(scenario.world, {}, diagnostics);
+    add_placements(to_plan.loaded.scene, scenario, diagnostics);
+  }
+  scenario.radio_world = std::make_shared<const RadioWorld>(
+      radio_world(to_plan.loaded.scene, scenario.materials, diagnostics));
+  add_own_tags(scenario, diagnostics, to_plan.plan);
+  if (to_plan.plan.tags.empty()) fail({path, 0}, "plan has no 'tags', and the scenario has none");
+  if (!scenario.antennas.empty()) {
+    diagnostics.warn(fmt::format("the scenario's own {} antennas are not part of the plan",
+                                 scenario.antennas.size()));
+  }
+  return to_plan;
 }
 
 }  // namespace tagfield

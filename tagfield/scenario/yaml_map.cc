@@ -8,6 +8,7 @@
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
+#include "tagfield/base/wildcard.h"
 #include "tagfield/files/files.h"
 
 namespace tagfield {
@@ -69,6 +70,24 @@ YAML::Node element_of(const YAML::Node& list, const std::string& which) {
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
+/// The elements of a list that a word means: one by its place, its `name` or its `id`, or all that
+/// match a pattern.
+std::vector<YAML::Node> elements_of(const YAML::Node& list, const std::string& which) {
+  if (!is_pattern(which)) {
+    const YAML::Node element = element_of(list, which);
+    return element.IsDefined() ? std::vector<YAML::Node>{element} : std::vector<YAML::Node>{};
+  }
+  std::vector<YAML::Node> all;
+  for (const YAML::Node& element : list) {
+    if (!element.IsMap()) continue;
+    const auto is_called = [&](const char* key) {
+      return element[key] && matches(which, element[key].as<std::string>(""));
+    };
+    if (is_called("name") || is_called("id")) all.push_back(element);
+  }
+  return all;
+}
+
 std::vector<std::string> split_at_dots(std::string_view path) {
   std::vector<std::string> words;
   std::size_t begin = 0;
@@ -108,6 +127,42 @@ YAML::Node parse_value(std::string_view key_path, const std::string& text) {
     leads_nowhere(key_path, fmt::format("'{}' is not a YAML value: {}", text, error.msg));
   } catch (const Error& error) {
     leads_nowhere(key_path, error.what());
+  }
+}
+
+/// The child under `key`, which is made where there is none.
+YAML::Node child_of(YAML::Node map, const std::string& key) {
+  if (!map[key].IsDefined() || map[key].IsNull()) map[key] = YAML::Node(YAML::NodeType::Map);
+  return map[key];
+}
+
+/// Sets what the words from `depth` on mean below `parent`.
+void set_below(YAML::Node parent, std::string_view key_path, const std::vector<std::string>& words,
+               std::size_t depth, const std::string& value) {
+  const std::string& word = words[depth];
+  const bool last = depth + 1 == words.size();
+  if (word.empty()) leads_nowhere(key_path, "expected words between the dots");
+  if (parent.IsMap()) {
+    if (last) {
+      parent[word] = parse_value(key_path, value);
+    } else {
+      set_below(child_of(parent, word), key_path, words, depth + 1, value);
+    }
+    return;
+  }
+  if (!parent.IsSequence()) {
+    leads_nowhere(key_path, fmt::format("'{}' is not inside a list or a mapping", word));
+  }
+  const std::vector<YAML::Node> elements = elements_of(parent, word);
+  if (elements.empty()) {
+    leads_nowhere(key_path, fmt::format("the list has no element '{}'", word));
+  }
+  for (YAML::Node element : elements) {
+    if (last) {
+      element = parse_value(key_path, value);
+    } else {
+      set_below(element, key_path, words, depth + 1, value);
+    }
   }
 }
 
@@ -273,35 +328,7 @@ YAML::Node yaml_in(const std::string& text, const std::string& path) {
 }
 
 void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value) {
-  const std::vector<std::string> words = split_at_dots(key_path);
-  YAML::Node parent = root;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].empty()) leads_nowhere(key_path, "expected words between the dots");
-    const bool last = i + 1 == words.size();
-    if (parent.IsSequence()) {
-      YAML::Node element = element_of(parent, words[i]);
-      if (!element.IsDefined()) {
-        leads_nowhere(key_path, fmt::format("the list has no element '{}'", words[i]));
-      }
-      if (last) {
-        element = parse_value(key_path, value);
-      } else {
-        parent.reset(element);
-      }
-    } else if (parent.IsMap()) {
-      if (last) {
-        parent[words[i]] = parse_value(key_path, value);
-      } else {
-        if (!parent[words[i]].IsDefined() || parent[words[i]].IsNull()) {
-          parent[words[i]] = YAML::Node(YAML::NodeType::Map);
-        }
-        YAML::Node child = parent[words[i]];
-        parent.reset(child);
-      }
-    } else {
-      leads_nowhere(key_path, fmt::format("'{}' is not inside a list or a mapping", words[i]));
-    }
-  }
+  set_below(root, key_path, split_at_dots(key_path), 0, value);
 }
 
 }  // namespace tagfield

@@ -90,8 +90,8 @@ YAML::Node read_yaml(const std::string& path);
 YAML::Node yaml_in(const std::string& text, const std::string& path);
 
 /// Puts `value` (YAML text) under `key_path` ("pose.sigma_m", "antennas.0.range_m", or with a
-/// list's element by its name or id: "antennas.mobile.range_m"). Throws Error where that leads
-/// nowhere.
+/// list's element by its name or id: "antennas.mobile.range_m"; with a pattern all whose name or id
+/// matches: "antennas.port_*.range_m", see base/wildcard.h). Throws Error where that leads nowhere.
 void set_in_yaml(const YAML::Node& root, std::string_view key_path, const std::string& value);
 
 }  // namespace tagfield

@@ -14,7 +14,7 @@ POSE_NOISE = ("--set", "pose.source=noisy", "--set", "pose.sigma_m=0.01",
               "--set", "pose.yaw_sigma_deg=0.5")
 SUMMARY_KEYS = {"scenario", "description", "seeds", "method", "method_asked", "method_why", "pose",
                 "complete", "path_length_m", "reads", "simulated_s", "wall_s", "real_time_factor",
-                "pose_error", "compared_pose", "compared_methods", "navigation", "effects", "tags",
+                "pose_error", "compared_pose", "compared_methods", "navigation", "inventory", "effects", "tags",
                 "error_m", "over_0_3_m", "located", "ambiguous", "not_located", "warnings"}
 TAG_KEYS = {"id", "seed", "verdict", "reason", "truth_m", "moved", "estimate_m", "error_m",
             "rms_m", "expected_error_m", "candidates_m", "candidates_rms_m",

@@ -16,7 +16,7 @@ import tempfile
 ROOMS = ["base", "poses", "stream", "epc", "files", "motion", "world", "sdf", "map", "laser",
          "link", "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
          "tracking", "calibration", "report", "navigation", "scenario", "events", "simulator",
-         "planning", "experiment", "live"]
+         "planning", "layout", "experiment", "live"]
 # What a room must not include although it stands above.
 FORBIDDEN = {"localization": {"world", "sdf", "field"}, "tracking": {"world", "sdf", "field"},
              "calibration": {"world", "sdf", "field", "tracking"}, "field": {"files"},
@@ -59,11 +59,11 @@ QUIET = {
 # field_worker.cc says what CPU time its thread took.
 QUIET_EXCEPT = {("tagfield/field/field_worker.cc", "looks at a clock")}
 # Who makes the truth known, or judges by it.
-TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "experiment"}
+TRUTH_ROOMS = {"stream", "files", "field", "report", "simulator", "planning", "layout", "experiment"}
 # The robot's filter draws from a generator that a RandomStream has seeded, one a scan.
 ALLOWED = {("navigation", "std::mt19937")}
-# In step with real time, or to say how long a method took.
-CLOCK_ROOMS = {"simulator", "experiment", "live"}
+# In step with real time, to say how long a method took, or to stop an exact search in time.
+CLOCK_ROOMS = {"simulator", "layout", "experiment", "live"}
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{$", re.MULTILINE)
 TYPE = re.compile(

@@ -40,6 +40,20 @@ TEST(Diagnostics, TellPlacesApart) {
   EXPECT_EQ(diagnostics.warnings(), (Lines{"w.sdf:1: odd", "w.sdf:2: odd"}));
 }
 
+TEST(AlikeAsOne, CountsThreeAndMore) {
+  const Lines all = {"a.yaml:3: antennas[0].gain is odd",
+                     "a.yaml:9: tags[1] is odd",
+                     "a.yaml:5: antennas[1].gain is odd",
+                     "no line at all",
+                     "no line at all",
+                     "a.yaml:7: antennas[12].gain is odd",
+                     "a.yaml:10: tags[2] is odd"};
+  EXPECT_EQ(alike_as_one(all),
+            (Lines{"a.yaml:3: antennas[0].gain is odd (and 2 more like it, to line 7)",
+                   "a.yaml:9: tags[1] is odd", "no line at all", "no line at all",
+                   "a.yaml:10: tags[2] is odd"}));
+}
+
 TEST(AsOneLine, EscapesWhatATerminalWouldObey) {
   EXPECT_EQ(as_one_line("tag 'a\nb\t\x1b[31m\x7f' ü"), "tag 'a\\nb\\t\\x1b[31m\\x7f' ü");
   EXPECT_STREQ(Error("one\ntwo").what(), "one\\ntwo");

@@ -46,6 +46,11 @@ CoverageCell AntennaPlace::look(const TagEnd& tag, const Orientations& orientati
   return {link.tag_dbm, link.reply_dbm, link.margin_db, link.probability, -1};
 }
 
+LinkStates AntennaPlace::states(const TagEnd& tag, std::vector<RadioPath>& paths) const {
+  if (!view_) return {};
+  return LinkStates(fading_margins_db(*view_, tag, carriers_hz_, 0, paths));
+}
+
 double AntennaPlace::most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const {
   if (!view_) return 40.0 * std::log10(paper(antenna_.parameters).range_m / distance(p_WT));
   return tagfield::most_margin_db(view_->model, tag, distance(p_WT));

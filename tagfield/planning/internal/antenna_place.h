@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tagfield/planning/forecast.h"
 #include "tagfield/planning/local_link.h"
 #include "tagfield/report/coverage.h"
 #include "tagfield/scenario/scenario.h"
@@ -22,6 +23,8 @@ class AntennaPlace {
   /// Powers, margin and probability of a tag, with its place and key, in these orientations.
   [[nodiscard]] CoverageCell look(const TagEnd& tag, const Orientations& orientations,
                                   std::vector<RadioPath>& paths) const;
+  /// The link's fading states; none of one of the paper's antennas.
+  [[nodiscard]] LinkStates states(const TagEnd& tag, std::vector<RadioPath>& paths) const;
   /// A margin that no tag at `p_WT` has more of [dB].
   [[nodiscard]] double most_margin_db(const TagModel& tag, const Eigen::Vector3d& p_WT) const;
 

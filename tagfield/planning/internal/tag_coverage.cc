@@ -3,17 +3,28 @@
 #include <algorithm>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/planning/forecast.h"
 #include "tagfield/planning/internal/antenna_place.h"
 #include "tagfield/planning/moment.h"
+#include "tagfield/scenario/zones.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace {
 
+/// A link that holds from one sample on.
+struct TimedLink {
+  Time begin;
+  LinkStates states;
+  double update_probability = 0.0;
+};
+
 /// Of one tag at one antenna.
 struct Seen {
   CoverageCell cell;
   double nearest_m = -1.0;
+  std::vector<TimedLink> links;  ///< In order of time.
 };
 
 class TagRun {
@@ -72,7 +83,9 @@ class TagRun {
     const double distance_m = (X_WT.translation - X_WA.translation).norm();
     if (seen.nearest_m < 0.0 || distance_m < seen.nearest_m) seen.nearest_m = distance_m;
     const TagEnd end{*kind, X_WT, stream_key(scenario_.tags[tag].id)};
-    merge(place.look(end, {{X_WT.rotation}, false}, paths), number, seen.cell);
+    const CoverageCell cell = place.look(end, {{X_WT.rotation}, false}, paths);
+    merge(cell, number, seen.cell);
+    seen.links.push_back({samples_[sample].stamp, place.states(end, paths), cell.probability});
   }
 
   const Scenario& scenario_;
@@ -87,17 +100,119 @@ void add(const Seen& seen, int antenna, TagCoverage& tag) {
     tag.nearest = antenna;
     tag.nearest_m = seen.nearest_m;
   }
-  if (seen.cell.probability >= kReadProbability) tag.read_by.push_back(antenna);
   merge(seen.cell, antenna, tag.best);
 }
 
+/// All links of the tags, and who may read them, as the forecast asks for them.
+class RunForecast {
+ public:
+  RunForecast(const Scenario& scenario, const std::vector<DriveSample>& samples,
+              const CoverageRequest& request)
+      : scenario_(scenario),
+        groups_(reader_groups(scenario)),
+        best_db_(scenario.tags.size(), kNothing_db) {
+    for (const std::size_t antenna : request.antennas) {
+      request_.ports.push_back({scenario.antennas[antenna].parameters, groups_[antenna]});
+      groups_of_ports_.push_back(groups_[antenna]);
+    }
+    const double last_s = to_seconds(samples.back().stamp);
+    request_.duration_s = std::max(scenario.duration_s.value_or(last_s), 1e-3);
+    request_.seed = request.seed;
+    request_.threads = request.threads;
+    request_.tags.resize(scenario.tags.size());
+  }
+
+  /// `seen` must stay where it is until run().
+  void add(std::size_t port, const std::vector<Seen>& seen) {
+    for (std::size_t tag = 0; tag < seen.size(); ++tag) {
+      const std::vector<TimedLink>& links = seen[tag].links;
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        best_db_[tag] = std::max(best_db_[tag], links[i].states.best_db());
+        add_link(port, links, i, scenario_.tags[tag], request_.tags[tag]);
+      }
+    }
+  }
+
+  void run(Coverage& coverage) const {
+    const Forecast made = forecast(request_);
+    coverage.run_s = request_.duration_s;
+    coverage.expected_read = {made.tags_read.mean, made.tags_read.low, made.tags_read.high};
+    for (std::size_t tag = 0; tag < coverage.tags.size(); ++tag) {
+      TagCoverage& of_tag = coverage.tags[tag];
+      of_tag.probability = made.probability[tag];
+      of_tag.meant_for = meant_for(of_tag);
+      add_readers(made, tag, of_tag);
+      of_tag.verdict = verdict_of(of_tag, best_db_[tag]);
+    }
+  }
+
+ private:
+  void add_link(std::size_t port, const std::vector<TimedLink>& links, std::size_t i,
+                const TagSpec& spec, ForecastTag& tag) const {
+    const TimedLink& link = links[i];
+    const bool is_paper = physical(request_.ports[port].antenna) == nullptr;
+    ForecastLink told;
+    told.port = port;
+    // Before the first sample and after the last all is where it is then.
+    told.begin_s = i == 0 ? 0.0 : to_seconds(link.begin);
+    if (i + 1 < links.size()) told.end_s = to_seconds(links[i + 1].begin);
+    told.begin_s = std::max(told.begin_s, to_seconds(spec.appears));
+    if (spec.disappears) told.end_s = std::min(told.end_s, to_seconds(*spec.disappears));
+    if (is_paper) {
+      told.update_probability = link.update_probability;
+      if (link.update_probability > 0.0) tag.links.push_back(told);
+    } else if (!link.states.is_empty()) {
+      told.states = &link.states;
+      tag.links.push_back(told);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> meant_for(const TagCoverage& tag) const {
+    const std::size_t zone = zone_at(scenario_.zones, tag.p_WT);
+    if (zone < scenario_.zones.size()) return scenario_.zones[zone].readers;
+    if (!scenario_.zones.empty() || tag.nearest < 0) return {};
+    return {groups_of_ports_[static_cast<std::size_t>(tag.nearest)]};
+  }
+
+  static void add_readers(const Forecast& made, std::size_t tag, TagCoverage& of_tag) {
+    for (std::size_t group = 0; group < made.groups.size(); ++group) {
+      double read = 0.0;
+      for (const auto& sample : made.read_by_group) read += sample[group][tag] != 0 ? 1.0 : 0.0;
+      if (read == 0.0) continue;
+      const std::string& name = made.groups[group];
+      const auto& meant = of_tag.meant_for;
+      const bool is_meant =
+          meant.empty() || std::find(meant.begin(), meant.end(), name) != meant.end();
+      of_tag.readers.push_back(
+          {name, read / static_cast<double>(made.read_by_group.size()), is_meant});
+    }
+    std::stable_sort(
+        of_tag.readers.begin(), of_tag.readers.end(),
+        [](const ReaderChance& a, const ReaderChance& b) { return a.probability > b.probability; });
+  }
+
+  const Scenario& scenario_;
+  std::vector<std::string> groups_;
+  std::vector<std::string> groups_of_ports_;
+  std::vector<double> best_db_;
+  ForecastRequest request_;
+};
+
 }  // namespace
 
-TagVerdict verdict_of(const std::vector<int>& read_by, int nearest) {
-  if (read_by.empty()) return TagVerdict::kNever;
-  const bool is_own = std::find(read_by.begin(), read_by.end(), nearest) != read_by.end();
-  if (!is_own) return TagVerdict::kWrong;
-  return read_by.size() == 1 ? TagVerdict::kIntended : TagVerdict::kAlsoOther;
+TagVerdict verdict_of(const TagCoverage& tag, double best_db) {
+  if (tag.probability == 0.0 && tag.best.probability == 0.0 && best_db < kNeverMargin_db) {
+    return TagVerdict::kNever;
+  }
+  if (tag.probability < kReadProbability) return TagVerdict::kSeldom;
+  double own = 0.0;
+  bool is_crossed = false;
+  for (const ReaderChance& chance : tag.readers) {
+    if (chance.is_meant) own = std::max(own, chance.probability);
+    is_crossed = is_crossed || (!chance.is_meant && chance.probability >= kCrossProbability);
+  }
+  if (own < kReadProbability) return TagVerdict::kWrong;
+  return is_crossed ? TagVerdict::kAlsoOther : TagVerdict::kIntended;
 }
 
 void cover_tags(const Scenario& scenario, const std::vector<DriveSample>& samples,
@@ -109,14 +224,18 @@ void cover_tags(const Scenario& scenario, const std::vector<DriveSample>& sample
     coverage.tags[i].id = scenario.tags[i].id;
     coverage.tags[i].p_WT = samples.front().X_WT[i].translation;
   }
+  RunForecast of_run(scenario, samples, request);
+  std::vector<std::vector<Seen>> all;
+  all.reserve(request.antennas.size());
   for (std::size_t number = 0; number < request.antennas.size(); ++number) {
-    const std::vector<Seen> seen = run.look(number);
+    const std::vector<Seen>& seen = all.emplace_back(run.look(number));
+    of_run.add(number, seen);
     for (std::size_t i = 0; i < seen.size(); ++i) {
       add(seen[i], static_cast<int>(number), coverage.tags[i]);
     }
     on_progress(static_cast<double>(number + 1) / static_cast<double>(request.antennas.size()));
   }
-  for (TagCoverage& tag : coverage.tags) tag.verdict = verdict_of(tag.read_by, tag.nearest);
+  of_run.run(coverage);
 }
 
 }  // namespace tagfield

@@ -116,7 +116,9 @@ TEST(Coverage, TellsWhoReadsTheTags) {
   EXPECT_EQ(coverage.tags[0].verdict, TagVerdict::kIntended);
   EXPECT_EQ(coverage.tags[1].verdict, TagVerdict::kAlsoOther);
   EXPECT_EQ(coverage.tags[1].nearest, 1);
-  EXPECT_EQ(coverage.tags[1].read_by, (std::vector<int>{0, 1}));
+  ASSERT_EQ(coverage.tags[1].readers.size(), 2U);
+  EXPECT_EQ(coverage.tags[1].meant_for, (std::vector<std::string>{"east"}));
+  EXPECT_NEAR(coverage.expected_read.mean, 3.0, 1e-12);
   EXPECT_EQ(coverage.tags[2].verdict, TagVerdict::kWrong);
   EXPECT_EQ(coverage.tags[2].nearest, 1);
   EXPECT_NEAR(coverage.tags[2].nearest_m, 2.0, 1e-9);

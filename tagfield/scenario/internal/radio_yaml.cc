@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tagfield/base/spelling.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/profile.h"
 #include "tagfield/scenario/yaml_values.h"
@@ -13,10 +14,23 @@
 namespace tagfield {
 namespace {
 
+/// A file, or the name of a shipped profile. A file of that name comes first.
+std::string profile_file(const YamlValue& value, const std::vector<ProfileKind>& kinds) {
+  const std::string path = resolve_path(value);
+  if (std::filesystem::is_regular_file(path)) return path;
+  const std::string shipped = shipped_profile(value.text(), kinds);
+  if (!shipped.empty()) return shipped;
+  std::vector<std::string> known;
+  for (const ProfileKind kind : kinds) {
+    for (const std::string& name : shipped_profiles(kind)) known.push_back(name);
+  }
+  value.fail(fmt::format("there is no file '{}', and no such profile is shipped{}", path,
+                         suggestion(value.text(), known)));
+}
+
 void append_profile(const YamlValue& file, std::vector<ProfileKind> kinds,
                     std::vector<RawParameter>& parameters) {
-  const std::string path = resolve_path(file);
-  if (!std::filesystem::exists(path)) file.fail(fmt::format("there is no file '{}'", path));
+  const std::string path = profile_file(file, kinds);
   const Profile profile = read_profile(path);
   if (std::find(kinds.begin(), kinds.end(), profile.kind) == kinds.end()) {
     file.fail(
@@ -124,6 +138,14 @@ std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& 
   append_settings(tag, tag_settings(), parameters);
   if (parameters.empty()) return defaults.tag;
   return tag_model_from(name, parameters, tag.self().location(), diagnostics);
+}
+
+std::string profile_file_of_tag(const YamlValue& value) {
+  return profile_file(value, {ProfileKind::kTag});
+}
+
+std::string profile_file_of_antenna(const YamlValue& value) {
+  return profile_file(value, {ProfileKind::kReader, ProfileKind::kAntenna});
 }
 
 Material material_in(const RadioWorldOptions& options, const YamlValue& name) {

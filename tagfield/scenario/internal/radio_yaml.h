@@ -38,6 +38,10 @@ std::shared_ptr<const RadioModel> radio_model_of(YamlMap& antenna, PropagationMo
 std::shared_ptr<const TagModel> tag_model_of(YamlMap& tag, const RadioDefaults& defaults,
                                              Diagnostics& diagnostics);
 
+/// The file of a profile that was given by its file or its name.
+std::string profile_file_of_tag(const YamlValue& value);
+std::string profile_file_of_antenna(const YamlValue& value);
+
 /// The material that `name` names among those of the scenario.
 Material material_in(const RadioWorldOptions& options, const YamlValue& name);
 

@@ -68,6 +68,18 @@ TEST(SetInYaml, ReplacesAndAdds) {
   EXPECT_EQ(root["list"][1]["v"].as<int>(), 8);
 }
 
+TEST(SetInYaml, ReplacesInAllThatMatch) {
+  YAML::Node root = YAML::Load("list: [{name: x1, v: 1}, {id: x2, v: 2}, {name: y, v: 3}]\n");
+  set_in_yaml(root, "list.x?.v", "7");
+  set_in_yaml(root, "list.*.w", "8");
+  EXPECT_EQ(root["list"][0]["v"].as<int>(), 7);
+  EXPECT_EQ(root["list"][1]["v"].as<int>(), 7);
+  EXPECT_EQ(root["list"][2]["v"].as<int>(), 3);
+  EXPECT_EQ(root["list"][2]["w"].as<int>(), 8);
+  EXPECT_EQ(map_complaint([&] { set_in_yaml(root, "list.z*.v", "1"); }),
+            "--set list.z*.v: the list has no element 'z*'");
+}
+
 TEST(SetInYaml, RefusesPathsThatLeadNowhere) {
   YAML::Node root = YAML::Load("a: 1\nlist: [{name: x}]\n");
   EXPECT_EQ(map_complaint([&] { set_in_yaml(root, "list.z.v", "1"); }),

@@ -1,0 +1,110 @@
+#include "tagfield/experiment/inventory.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/experiment/experiment.h"
+
+namespace tagfield {
+namespace {
+
+AntennaSpec antenna(const std::string& name, const std::string& reader, const Eigen::Vector3d& p) {
+  AntennaSpec spec;
+  spec.parameters.name = name;
+  spec.parameters.reader = reader;
+  spec.X_PA = from_translation(p);
+  return spec;
+}
+
+TagSpec tag(const std::string& id, const Eigen::Vector3d& p) {
+  TagSpec spec;
+  spec.id = id;
+  spec.motion = {{Time{}, from_translation(p)}};
+  return spec;
+}
+
+TagRead read(double time_s, const std::string& antenna, const std::string& tag) {
+  TagRead one;
+  one.stamp = time_from_seconds(time_s);
+  one.antenna = antenna;
+  one.tag = tag;
+  return one;
+}
+
+/// Two doors 10 m apart, two antennas at the first.
+Scenario two_doors() {
+  Scenario scenario;
+  scenario.duration_s = 2.0;
+  scenario.antennas = {antenna("w1", "west", {0, 0, 2}), antenna("w2", "west", {1, 0, 2}),
+                       antenna("e1", "east", {10, 0, 2})};
+  scenario.tags = {tag("a", {0, 1, 0.5}), tag("b", {9, 1, 0.5}), tag("c", {9, 2, 1.5}),
+                   tag("d", {0, 2, 1.5})};
+  return scenario;
+}
+
+TEST(Inventory, TellsWhoWasReadByWhomAndWhen) {
+  const std::vector<TagRead> reads = {read(0.1, "w1", "a"), read(0.2, "w2", "a"),
+                                      read(0.4, "w1", "b"), read(0.6, "e1", "b"),
+                                      read(0.8, "w2", "b"), read(1.0, "e1", "c")};
+  const InventorySummary inventory = inventory_of(two_doors(), reads, 2.0);
+  EXPECT_EQ(inventory.tags, 4U);
+  EXPECT_DOUBLE_EQ(inventory.read, 3.0);
+  EXPECT_DOUBLE_EQ(inventory.reads, 6.0);
+  EXPECT_DOUBLE_EQ(*inventory.median_reads, 2.0);
+  ASSERT_EQ(inventory.reached.size(), 3U);
+  EXPECT_NEAR(*inventory.reached[0].time_s, 0.4, 1e-9);  // Two of four.
+  EXPECT_FALSE(inventory.reached[1].time_s);
+  ASSERT_EQ(inventory.readers.size(), 2U);
+  EXPECT_DOUBLE_EQ(inventory.readers[0].tags, 2.0);
+  EXPECT_DOUBLE_EQ(inventory.readers[0].only, 1.0);
+  EXPECT_DOUBLE_EQ(inventory.antennas[1].reads, 2.0);
+  // b belongs to the east door, and both antennas of the west one are one reader.
+  ASSERT_EQ(inventory.zones.size(), 2U);
+  EXPECT_EQ(inventory.zones[1].zone, "near east");
+  EXPECT_DOUBLE_EQ(inventory.zones[1].crossed, 1.0);
+  EXPECT_DOUBLE_EQ(inventory.zones[1].cross[0].reads, 2.0);
+  EXPECT_DOUBLE_EQ(inventory.zones[1].read_by_own, 2.0);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].crossed, 0.0);
+  ASSERT_EQ(inventory.levels.size(), 2U);
+  EXPECT_EQ(inventory.levels[1].tags, 2U);
+  EXPECT_DOUBLE_EQ(inventory.levels[1].read, 1.0);
+}
+
+TEST(Inventory, GoesByTheScenariosZones) {
+  Scenario scenario = two_doors();
+  scenario.zones = {{"all",
+                     Eigen::AlignedBox3d(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(11, 3, 1)),
+                     {"west", "east"},
+                     {}}};
+  const InventorySummary inventory = inventory_of(scenario, {read(0.1, "w1", "b")}, 2.0);
+  ASSERT_EQ(inventory.zones.size(), 2U);
+  EXPECT_EQ(inventory.zones[0].tags, 2U);
+  EXPECT_DOUBLE_EQ(inventory.zones[0].crossed, 0.0);
+  EXPECT_EQ(inventory.zones[1].zone, "elsewhere");
+}
+
+TEST(Inventory, IsChosenWhereNothingCanBeLocated) {
+  Scenario scenario = two_doors();
+  EXPECT_NE(why_inventory_alone(scenario).find("all antennas stand still"), std::string::npos);
+  scenario.localization.method = "fixed";
+  EXPECT_EQ(why_inventory_alone(scenario), "");
+  scenario.localization.method = kNoLocalization;
+  EXPECT_NE(why_inventory_alone(scenario), "");
+  scenario.localization.method = "hyperbola";
+  scenario.antennas[0].lift.travel_m = 1.0;
+  EXPECT_EQ(why_inventory_alone(scenario), "");
+}
+
+TEST(Inventory, OfARunHasNoPlaces) {
+  const Scenario scenario = two_doors();
+  Diagnostics diagnostics;
+  const std::vector<SeedRun> runs = run_seeds(scenario, 1, 2, {}, diagnostics);
+  const Summary summary = summarize(scenario, runs, 1.0, diagnostics);
+  EXPECT_EQ(summary.method, "none");
+  ASSERT_TRUE(summary.inventory);
+  // By the paper's model all within 7 m are read.
+  EXPECT_DOUBLE_EQ(summary.inventory->read, 4.0);
+  EXPECT_EQ(count(summary, Verdict::kLocated), 0U);
+}
+
+}  // namespace
+}  // namespace tagfield

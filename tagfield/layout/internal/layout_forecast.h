@@ -1,0 +1,44 @@
+/// @file
+/// What a layout's inventory will read, over samples of tags.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "tagfield/layout/plan.h"
+#include "tagfield/planning/forecast.h"
+
+namespace tagfield {
+
+/// Keeps references to all that it is made of.
+class LayoutForecast {
+ public:
+  LayoutForecast(const PlanSpec& plan, const LinkMatrix& matrix, const PlanProblem& problem,
+                 const PlanRequest& request);
+
+  /// Tags read, and zone for zone.
+  void fill(const OptionSet& choice, PlannedLayout& layout) const;
+  /// Tags read where all links have `less_db` less.
+  [[nodiscard]] ExpectedCount read(const OptionSet& choice, double less_db) const;
+
+ private:
+  struct Sample {
+    std::vector<char> read;
+    std::vector<char> crossed;
+  };
+  [[nodiscard]] std::vector<Sample> samples(const OptionSet& choice, double less_db) const;
+  [[nodiscard]] std::vector<ForecastPort> ports_of(const OptionSet& choice) const;
+
+  const PlanSpec& plan_;
+  const LinkMatrix& matrix_;
+  const PlanProblem& problem_;
+  const PlanRequest& request_;
+  std::vector<std::vector<PlanTag>> tags_;  ///< By sample.
+  std::vector<std::vector<std::size_t>>
+      first_rows_;                            ///< By group: place · orientations + orientation.
+  std::vector<std::vector<PlanStop>> stops_;  ///< By group.
+  std::map<const RadioModel*, std::shared_ptr<const InventoryPace>> paces_;
+  double duration_s_ = 0.0;
+};
+
+}  // namespace tagfield

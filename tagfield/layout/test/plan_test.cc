@@ -1,0 +1,148 @@
+#include "tagfield/layout/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/layout/layout_scenario.h"
+#include "tagfield/layout/plan_check.h"
+#include "tagfield/layout/test/small_store.h"
+
+namespace tagfield {
+namespace {
+
+struct Planned {
+  std::string path;
+  ScenarioToPlan to_plan;
+  LinkMatrix matrix;
+  AntennaPlan plan;
+};
+
+Planned planned(const std::string& text, int threads = 1) {
+  Planned all;
+  Diagnostics unheard;
+  all.path = folder_of_test().with("store.yaml", text);
+  all.to_plan = load_scenario_to_plan(all.path, {}, unheard);
+  LinkMatrixCounts counts;
+  LinkMatrixRequest links;
+  all.matrix = evaluate_links(all.to_plan, links, counts);
+  PlanRequest request;
+  request.samples = 24;
+  request.threads = threads;
+  all.plan = make_plan(all.to_plan, all.matrix, request);
+  return all;
+}
+
+std::string complaint_of(const std::string& text) {
+  try {
+    planned(text);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(AntennaPlan, ReadsMoreWithMoreAntennas) {
+  const AntennaPlan plan = planned(small_store()).plan;
+  ASSERT_EQ(plan.layouts.size(), 4U);
+  EXPECT_EQ(plan.tags, 60U);
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+    const PlannedLayout& layout = plan.layouts[i];
+    EXPECT_EQ(layout.antennas.size(), i + 1);
+    EXPECT_DOUBLE_EQ(layout.cost, 100.0 * static_cast<double>(i + 1));
+    EXPECT_LE(layout.score, layout.bound + 1e-12);
+    EXPECT_LE(layout.read.low, layout.read.mean);
+    EXPECT_LE(layout.read.mean, layout.read.high);
+    if (i > 0) {
+      EXPECT_GE(layout.score, plan.layouts[i - 1].score - 1e-12);
+    }
+  }
+  EXPECT_EQ(plan.chosen, 3U);
+  EXPECT_EQ(plan.stopped_by, "limits.antennas");
+  ASSERT_EQ(plan.sensitivity.size(), 7U);
+  EXPECT_LE(plan.sensitivity[2].read.mean, plan.sensitivity[0].read.mean);
+}
+
+TEST(AntennaPlan, IsTheSameForAnyNumberOfThreads) {
+  EXPECT_EQ(plan_to_json(planned(small_store(), 1).plan),
+            plan_to_json(planned(small_store(), 4).plan));
+}
+
+TEST(AntennaPlan, StopsWhereTheAimIsReached) {
+  const AntennaPlan plan = planned(small_store("  aim: {share: 0.3}\n")).plan;
+  EXPECT_GE(plan.layouts[plan.chosen].score, 0.3);
+  EXPECT_TRUE(plan.chosen == 0 || plan.layouts[plan.chosen - 1].score < 0.3);
+  EXPECT_TRUE(plan.reaches_aim);
+  EXPECT_FALSE(planned(small_store("  aim: {share: 1}\n")).plan.reaches_aim);
+}
+
+TEST(AntennaPlan, SaysWhichLimitIsAtFault) {
+  const auto with_limits = [](const std::string& limits) {
+    std::string text = small_store();
+    const std::string before = "{antennas: 4, readers: 1, ports: 4}";
+    return text.replace(text.find(before), before.size(), limits);
+  };
+  EXPECT_NE(complaint_of(with_limits("{cost: 50}")).find("plan.limits.cost lets no antenna in"),
+            std::string::npos);
+  // A tag that no power reaches.
+  std::string far = small_store();
+  const std::string box = "[0, 0, 0.5, 5, 3, 1.5]";
+  far.replace(far.find(box), box.size(), "[900, 0, 0.5, 901, 3, 1.5]");
+  EXPECT_NE(complaint_of(far).find("no mount reaches any tag"), std::string::npos);
+}
+
+TEST(AntennaPlan, GivesEachZoneReadersOfItsOwn) {
+  std::string text = small_store();
+  text.replace(text.find("ports: 4"), 8, "ports: 2");
+  text.replace(text.find("readers: 1"), 10, "readers: 2");
+  const Planned all = planned(text);
+  const PlannedLayout& layout = all.plan.layouts.back();
+  ASSERT_EQ(layout.antennas.size(), 4U);
+  EXPECT_EQ(layout.readers, 2U);
+  EXPECT_EQ(layout.antennas[0].reader, "reader_1");
+  EXPECT_EQ(layout.antennas[3].reader, "reader_2");
+}
+
+TEST(AntennaPlan, IsWithinItsRangeOfFullSimulations) {
+  const Planned all = planned(small_store());
+  RunControl control;
+  const PlanCheck check = check_plan(all.to_plan, all.plan.layouts.back(), 1, 20, control);
+  ASSERT_EQ(check.read.size(), 20U);
+  // 95 % of runs are within the range: of 20, fewer than 16 are with probability 0.003.
+  EXPECT_GE(check.inside, 16U);
+}
+
+TEST(AntennaPlan, IsWrittenAsAScenarioThatRuns) {
+  const Planned all = planned(small_store());
+  TemporaryFolder folder;
+  const PlannedLayout& layout = all.plan.layouts.back();
+  const std::string text =
+      layout_to_yaml(all.path, {}, all.to_plan, layout, 1, folder.path().string());
+  Diagnostics diagnostics;
+  const Scenario written =
+      load_scenario_with_world(folder.with("layout.yaml", text), {}, diagnostics).scenario;
+  const Scenario meant = scenario_of_layout(all.to_plan, layout, 1, 0);
+  ASSERT_EQ(written.antennas.size(), meant.antennas.size());
+  ASSERT_EQ(written.tags.size(), meant.tags.size());
+  for (std::size_t i = 0; i < written.antennas.size(); ++i) {
+    const AntennaSpec& one = written.antennas[i];
+    const AntennaSpec& other = meant.antennas[i];
+    EXPECT_EQ(one.parameters.reader, other.parameters.reader);
+    EXPECT_TRUE(one.X_PA.translation.isApprox(other.X_PA.translation, 1e-9));
+    EXPECT_LT((one.X_PA.rotation * Eigen::Vector3d::UnitX() -
+               other.X_PA.rotation * Eigen::Vector3d::UnitX())
+                  .norm(),
+              1e-9);
+  }
+  for (std::size_t i = 0; i < written.tags.size(); ++i) {
+    EXPECT_EQ(written.tags[i].id, meant.tags[i].id);
+    EXPECT_LT(written.tags[i].motion.front().X_WB.rotation.angularDistance(
+                  meant.tags[i].motion.front().X_WB.rotation),
+              1e-6);
+  }
+  EXPECT_EQ(written.localization.method, kNoLocalization);
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,52 @@
+/// @file
+/// Small problems of selection, drawn at random.
+#pragma once
+
+#include <cstdint>
+
+#include "tagfield/base/random.h"
+#include "tagfield/layout/selection.h"
+
+namespace tagfield {
+
+/// `options` on two thirds as many sites, in two zones, over `elements`; every third problem has no
+/// limit but the number of antennas, the others have readers, a cost, a cap, and cross reads.
+inline SelectionProblem random_problem(std::uint64_t number, std::size_t options,
+                                       std::size_t elements) {
+  RandomStream stream(number, Purpose::kPlaces);
+  SelectionProblem problem;
+  const bool has_limits = number % 3 != 0;
+  problem.zones = has_limits ? 2 : 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < elements; ++i) {
+    problem.elements.push_back({0.1 + uniform(stream), has_limits ? i % 2 : kNoZone});
+    sum += problem.elements.back().weight;
+  }
+  for (SelectionElement& element : problem.elements) element.weight /= sum;
+  const std::size_t sites = has_limits ? 2 * options / 3 : options;
+  for (std::size_t i = 0; i < options; ++i) {
+    SelectionOption option;
+    option.site = i % sites;
+    option.zone = has_limits ? option.site % 2 : kNoZone;
+    option.cost = 1.0 + 3.0 * uniform(stream);
+    for (std::size_t element = 0; element < elements; ++element) {
+      const bool is_own = !has_limits || problem.elements[element].zone == option.zone;
+      if (uniform(stream) > (is_own ? 0.45 : 0.1)) continue;
+      // Now and then an element is never missed.
+      const double miss = uniform(stream) < 0.1 ? 0.0 : uniform(stream);
+      option.misses.push_back({static_cast<std::uint32_t>(element), static_cast<float>(miss)});
+    }
+    problem.options.push_back(std::move(option));
+  }
+  problem.limits.antennas = 3 + number % 3;
+  if (!has_limits) return problem;
+  problem.limits.readers = 3;
+  problem.limits.ports = 2;
+  problem.limits.reader_cost = 2.0;
+  problem.limits.cost = 14.0;
+  problem.limits.cross = 0.25;
+  problem.cap = number % 2 == 0 ? 1.0 : 0.8;
+  return problem;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,434 @@
+#include "tagfield/planning/forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "tagfield/base/error.h"
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
+#include "tagfield/field/port_turns.h"
+#include "tagfield/planning/local_link.h"
+#include "tagfield/reader/radio_model.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kStep_db = 0.25;
+constexpr int kMostSteps = 126;
+constexpr std::int8_t kNoLink = -128;
+/// An inventory without a change of port is followed in pieces of this or more.
+constexpr double kPiece_s = 0.25;
+constexpr double kS1_s = 2.0;    ///< Persistence of flags, as TagMemories has it.
+constexpr double kS23_s = 10.0;  ///< Likewise.
+
+std::int8_t step_of(double margin_db) {
+  if (margin_db < -0.5 * kMostSteps) return kNoLink;
+  return static_cast<std::int8_t>(
+      std::clamp<long>(std::lround(std::floor(margin_db / kStep_db)), -kMostSteps, kMostSteps));
+}
+
+/// A stretch of time in which one antenna sends, and who has power does not change.
+struct Turn {
+  std::size_t port = 0;
+  double begin_s = 0.0;
+  double end_s = 0.0;
+  double since_s = 0.0;    ///< When the inventory that goes on here had begun.
+  double carrier_s = 0.0;  ///< The carrier is that of this moment.
+};
+
+std::size_t port_named(const ForecastRequest& request, const std::string& name) {
+  std::size_t port = 0;
+  while (request.ports[port].antenna.name != name) ++port;
+  return port;
+}
+
+/// How long an inventory is followed before it is taken to begin anew.
+double followed_s(const RadioModel& model) {
+  return std::clamp(model.gen2->port_dwell_s, kPiece_s, 8.0 * kPiece_s);
+}
+
+/// Hops that were made at the antenna's last update by `time_s`, and when that was. Who has power
+/// is looked at with each update, on the carrier that is then.
+struct LastUpdate {
+  double stamp_s = 0.0;
+  double hop = 0.0;
+};
+LastUpdate last_update(const AntennaParameters& antenna, double time_s) {
+  const double stamp_s = std::floor(time_s * antenna.rate_hz + 1e-9) / antenna.rate_hz;
+  return {stamp_s, std::floor(stamp_s / physical(antenna)->plan.dwell_s + 1e-9)};
+}
+
+/// A port's turn in pieces on one carrier each.
+void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, double end_s,
+              std::vector<Turn>& turns) {
+  const AntennaParameters& antenna = request.ports[port].antenna;
+  const double most_s = followed_s(*physical(antenna));
+  double since_s = begin_s;
+  double at = begin_s;
+  while (at < end_s - 1e-9) {
+    const LastUpdate now = last_update(antenna, at);
+    double until = now.stamp_s;
+    do {
+      until += 1.0 / antenna.rate_hz;
+    } while (until < end_s && last_update(antenna, until).hop == now.hop);
+    if (at - since_s >= most_s - 1e-9) since_s = at;
+    const double end = std::min({until, end_s, since_s + most_s});
+    turns.push_back({port, at, end, since_s, now.stamp_s});
+    at = end;
+  }
+}
+
+/// Turns of all readers' ports in order of time.
+std::vector<Turn> turns_of(const ForecastRequest& request) {
+  std::vector<AntennaParameters> antennas;
+  for (const ForecastPort& port : request.ports) antennas.push_back(port.antenna);
+  std::vector<Turn> turns;
+  for (const PortCycle& cycle : port_cycles(antennas)) {
+    const double period_s = to_seconds(cycle.back().end);
+    if (cycle.size() == 1) {
+      add_turn(request, port_named(request, cycle.front().antenna), 0.0, request.duration_s, turns);
+      continue;
+    }
+    for (double at = 0.0; at < request.duration_s; at += period_s) {
+      for (const PortTurn& turn : cycle) {
+        add_turn(request, port_named(request, turn.antenna), at + to_seconds(turn.begin),
+                 std::min(at + to_seconds(turn.end), request.duration_s), turns);
+      }
+    }
+  }
+  std::stable_sort(turns.begin(), turns.end(),
+                   [](const Turn& a, const Turn& b) { return a.begin_s < b.begin_s; });
+  return turns;
+}
+
+bool takes_turns(const ForecastPort& port) {
+  const RadioModel* const model = physical(port.antenna);
+  return model != nullptr && model->gen2 && model->effects.inventory;
+}
+
+/// How a flag that says "read" wears off.
+struct Memory {
+  Session session = Session::kS0;
+  bool is_lost_between = false;  ///< S0, and the tag has no power until its port's next turn.
+  bool asks_all = false;         ///< Tags are asked again at once.
+};
+
+struct Link {
+  std::size_t tag = 0;
+  const ForecastLink* link = nullptr;
+};
+
+/// The links of a port that hold at a time that only grows.
+class HoldingLinks {
+ public:
+  /// `links` by rising begin.
+  explicit HoldingLinks(const std::vector<Link>& links) : links_(links) {}
+
+  const std::vector<Link>& at(double time_s) {
+    holding_.erase(std::remove_if(holding_.begin(), holding_.end(),
+                                  [&](const Link& link) { return link.link->end_s <= time_s; }),
+                   holding_.end());
+    for (; next_ < links_.size() && links_[next_].link->begin_s <= time_s; ++next_) {
+      if (links_[next_].link->end_s > time_s) holding_.push_back(links_[next_]);
+    }
+    return holding_;
+  }
+
+ private:
+  const std::vector<Link>& links_;
+  std::size_t next_ = 0;
+  std::vector<Link> holding_;
+};
+
+class Sampler {
+ public:
+  explicit Sampler(const ForecastRequest& request);
+  /// What one sample reads: by group and tag, and reads by tag and port.
+  void sample(std::size_t first, std::size_t place, Forecast& forecast,
+              std::vector<std::vector<float>>& by_port, double& reads) const;
+  [[nodiscard]] const std::vector<std::size_t>& group_of() const { return group_of_; }
+
+ private:
+  [[nodiscard]] std::size_t carrier_at(std::size_t number, std::size_t port, double time_s,
+                                       std::size_t carriers) const;
+  void read_updates(std::size_t number, const std::vector<std::size_t>& places,
+                    const std::function<void(std::size_t, std::size_t)>& on_read) const;
+
+  const ForecastRequest& request_;
+  std::vector<Turn> turns_;
+  std::vector<std::vector<Link>> links_;  ///< By port.
+  std::vector<Memory> memory_;            ///< By port.
+  std::vector<std::shared_ptr<const InventoryPace>> pace_;
+  std::vector<std::size_t> group_of_;
+};
+
+Sampler::Sampler(const ForecastRequest& request)
+    : request_(request), turns_(turns_of(request)), links_(request.ports.size()) {
+  for (std::size_t tag = 0; tag < request.tags.size(); ++tag) {
+    for (const ForecastLink& link : request.tags[tag].links) {
+      const bool is_there =
+          link.states != nullptr ? !link.states->is_empty() : link.update_probability > 0.0;
+      if (is_there) links_[link.port].push_back({tag, &link});
+    }
+  }
+  for (std::vector<Link>& links : links_) {
+    std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+      return a.link->begin_s < b.link->begin_s;
+    });
+  }
+  std::map<std::string, std::size_t> ports_of;
+  for (const ForecastPort& port : request.ports) ++ports_of[port.antenna.reader];
+  std::vector<std::string> groups;
+  for (std::size_t i = 0; i < request.ports.size(); ++i) {
+    const ForecastPort& port = request.ports[i];
+    const auto known = std::find(groups.begin(), groups.end(), port.group);
+    group_of_.push_back(static_cast<std::size_t>(known - groups.begin()));
+    if (known == groups.end()) groups.push_back(port.group);
+    Memory& memory = memory_.emplace_back();
+    auto& pace = pace_.emplace_back();
+    if (!takes_turns(port)) continue;
+    const Gen2Reader& gen2 = *physical(port.antenna)->gen2;
+    memory.session = gen2.inventory.session;
+    memory.is_lost_between = memory.session == Session::kS0 && ports_of[port.antenna.reader] > 1;
+    memory.asks_all = gen2.inventory.target == Target::kAlternate;
+    // Antennas of one reader have one pace.
+    for (std::size_t other = 0; other < i; ++other) {
+      const RadioModel* const model = physical(request.ports[other].antenna);
+      if (request.ports[other].antenna.reader == port.antenna.reader && model != nullptr &&
+          model->gen2) {
+        pace = pace_[other];
+      }
+    }
+    if (port.pace) pace = port.pace;
+    if (!pace) pace = pace_of(*physical(port.antenna), request.tags.size(), request.seed);
+  }
+}
+
+/// The reader's carriers in a random order, over and over; drawn for each sample.
+std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double time_s,
+                                std::size_t carriers) const {
+  const RadioModel& model = *physical(request_.ports[port].antenna);
+  if (carriers < 2) return 0;
+  const auto hop = static_cast<std::uint64_t>(std::max(0.0, time_s) / model.plan.dwell_s + 1e-9);
+  RandomStream stream(request_.seed, Purpose::kForecast, number,
+                      stream_key(request_.ports[port].antenna.reader), 1 + hop / carriers);
+  std::vector<std::size_t> order(carriers);
+  for (std::size_t i = 0; i < carriers; ++i) order[i] = i;
+  for (std::size_t i = carriers - 1; i > 0; --i) {
+    std::swap(order[i],
+              order[static_cast<std::size_t>(uniform(stream) * static_cast<double>(i + 1))]);
+  }
+  return order[hop % carriers];
+}
+
+/// Antennas without an inventory: each update reads all that is heard on its carrier.
+void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& places,
+                           const std::function<void(std::size_t, std::size_t)>& on_read) const {
+  for (std::size_t port = 0; port < request_.ports.size(); ++port) {
+    if (takes_turns(request_.ports[port]) || links_[port].empty()) continue;
+    const AntennaParameters& antenna = request_.ports[port].antenna;
+    const auto updates =
+        static_cast<std::size_t>(std::floor(request_.duration_s * antenna.rate_hz + 1e-9)) + 1;
+    RandomStream stream(request_.seed, Purpose::kForecast, number, stream_key(antenna.name), 0);
+    const bool is_paper = physical(antenna) == nullptr;
+    const std::size_t carriers = is_paper ? 1 : links_[port].front().link->states->carriers();
+    HoldingLinks holding(links_[port]);
+    for (std::size_t update = 0; update < updates; ++update) {
+      const double time_s = static_cast<double>(update) / antenna.rate_hz;
+      const std::size_t carrier = is_paper ? 0 : carrier_at(number, port, time_s, carriers);
+      // The paper's range is drawn once an update for all tags.
+      const double draw = uniform(stream);
+      for (const Link& link : holding.at(time_s)) {
+        const bool is_heard =
+            is_paper ? draw < link.link->update_probability
+                     : link.link->states->margin_db(places[link.tag], carrier) >= request_.less_db;
+        if (is_heard) on_read(link.tag, port);
+      }
+    }
+  }
+}
+
+void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
+                     std::vector<std::vector<float>>& by_port, double& reads) const {
+  const std::size_t number = first + place;
+  const std::size_t count = request_.tags.size();
+  RandomStream stream(request_.seed, Purpose::kForecast, number);
+  std::vector<std::size_t> places(count);
+  for (std::size_t tag = 0; tag < count; ++tag) {
+    const auto drawn =
+        static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
+    places[tag] = request_.tags[tag].place.value_or(drawn);
+  }
+  std::vector<char>& read = forecast.read[place];
+  const auto on_read = [&](std::size_t tag, std::size_t port) {
+    read[tag] = 1;
+    forecast.read_by_group[place][group_of_[port]][tag] = 1;
+    if (!by_port[tag].empty()) by_port[tag][port] = 1.0F;
+    reads += 1.0;
+  };
+  // Until when each session's flag says that the tag was read, by tag.
+  std::array<std::vector<double>, 4> silent_until;
+  for (auto& of_session : silent_until) of_session.assign(count, -1.0);
+  std::vector<HoldingLinks> holding;
+  for (const std::vector<Link>& links : links_) holding.emplace_back(links);
+  std::vector<std::size_t> heard;
+  for (const Turn& turn : turns_) {
+    const auto& links = links_[turn.port];
+    if (links.empty()) continue;
+    const Memory& memory = memory_[turn.port];
+    auto& silent = silent_until[static_cast<std::size_t>(memory.session)];
+    const double middle_s = 0.5 * (turn.begin_s + turn.end_s);
+    const std::size_t carrier =
+        carrier_at(number, turn.port, turn.carrier_s, links.front().link->states->carriers());
+    heard.clear();
+    for (const Link& link : holding[turn.port].at(middle_s)) {
+      const bool is_silent = memory.is_lost_between ? silent[link.tag] >= turn.since_s
+                                                    : silent[link.tag] > turn.begin_s;
+      if (is_silent && !memory.asks_all) continue;
+      if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;
+      heard.push_back(link.tag);
+    }
+    if (heard.empty()) continue;
+    const auto all = static_cast<double>(heard.size());
+    // Of those that are not read yet as many as the inventory, begun with them, reads in this time.
+    const InventoryPace& pace = *pace_[turn.port];
+    const double before = pace.read(all, turn.begin_s - turn.since_s);
+    const double share =
+        before >= all - 1e-9
+            ? 1.0
+            : (pace.read(all, turn.end_s - turn.since_s) - before) / (all - before);
+    for (const std::size_t tag : heard) {
+      if (uniform(stream) >= share) continue;
+      on_read(tag, turn.port);
+      if (memory.session == Session::kS0) {
+        silent[tag] = memory.is_lost_between ? turn.since_s : request_.duration_s;
+      } else {
+        silent[tag] = turn.end_s + (memory.session == Session::kS1 ? kS1_s : kS23_s);
+      }
+    }
+  }
+  read_updates(number, places, on_read);
+}
+
+/// 97.5 % quantile of Student's t, by Cornish and Fisher's expansion; good to 1 % from 3 degrees of
+/// freedom on.
+double student_975(double degrees) {
+  constexpr double z = 1.959964;
+  const double g1 = (z * z * z + z) / 4.0;
+  const double g2 = (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / 96.0;
+  const double g3 =
+      (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * z * z * z - 15.0 * z) / 384.0;
+  return z + g1 / degrees + g2 / (degrees * degrees) + g3 / (degrees * degrees * degrees);
+}
+
+}  // namespace
+
+LinkStates::LinkStates(const std::vector<double>& margins_db) {
+  bool any = false;
+  steps_.reserve(margins_db.size());
+  for (const double margin_db : margins_db) {
+    steps_.push_back(step_of(margin_db));
+    any = any || steps_.back() != kNoLink;
+  }
+  if (!any) steps_.clear();
+}
+
+std::size_t LinkStates::carriers() const { return steps_.size() / kFadingPlaces; }
+
+double LinkStates::margin_db(std::size_t place, std::size_t carrier) const {
+  const std::int8_t step = steps_[place * carriers() + carrier];
+  return step == kNoLink ? kNothing_db : kStep_db * step;
+}
+
+double LinkStates::share_heard(std::size_t place, double less_db) const {
+  if (is_empty()) return 0.0;
+  std::size_t heard = 0;
+  for (std::size_t carrier = 0; carrier < carriers(); ++carrier) {
+    if (margin_db(place, carrier) >= less_db) ++heard;
+  }
+  return static_cast<double>(heard) / static_cast<double>(carriers());
+}
+
+double LinkStates::share_heard(double less_db) const {
+  double sum = 0.0;
+  for (std::size_t place = 0; place < kFadingPlaces; ++place) sum += share_heard(place, less_db);
+  return sum / static_cast<double>(kFadingPlaces);
+}
+
+double LinkStates::best_db() const {
+  const auto best = std::max_element(steps_.begin(), steps_.end());
+  return best == steps_.end() || *best == kNoLink ? kNothing_db : kStep_db * *best;
+}
+
+std::shared_ptr<const InventoryPace> pace_of(const RadioModel& model, std::size_t tags,
+                                             std::uint64_t seed) {
+  return std::make_shared<const InventoryPace>(*model.gen2, followed_s(model),
+                                               std::max<std::size_t>(1, tags), seed);
+}
+
+Forecasted range_of(const std::vector<double>& samples, double most) {
+  const auto count = static_cast<double>(samples.size());
+  Forecasted range;
+  for (const double sample : samples) range.mean += sample / count;
+  range.low = range.high = range.mean;
+  if (samples.size() < 2) return range;
+  double variance = 0.0;
+  for (const double sample : samples) {
+    variance += (sample - range.mean) * (sample - range.mean) / (count - 1.0);
+  }
+  const double half = student_975(count - 1.0) * std::sqrt(variance * (1.0 + 1.0 / count)) + 0.5;
+  range.low = std::max(0.0, range.mean - half);
+  range.high = std::min(most, range.mean + half);
+  return range;
+}
+
+Forecast forecast(const ForecastRequest& request) {
+  if (request.ports.empty()) throw Error("a forecast needs an antenna");
+  if (request.samples < 1) throw Error("a forecast needs a sample");
+  const std::size_t tags = request.tags.size();
+  const Sampler sampler(request);
+  Forecast result;
+  for (const ForecastPort& port : request.ports) {
+    if (std::find(result.groups.begin(), result.groups.end(), port.group) == result.groups.end()) {
+      result.groups.push_back(port.group);
+    }
+  }
+  result.read.assign(request.samples, std::vector<char>(tags, 0));
+  result.read_by_group.assign(
+      request.samples,
+      std::vector<std::vector<char>>(result.groups.size(), std::vector<char>(tags, 0)));
+  // Sums in the order of the samples, so that they don't depend on the threads.
+  std::vector<std::vector<std::vector<float>>> by_port(request.samples);
+  std::vector<double> reads(request.samples, 0.0);
+  parallel_for(request.samples, request.threads, [&](std::size_t sample) {
+    by_port[sample].resize(tags);
+    for (std::size_t tag = 0; tag < tags; ++tag) {
+      if (!request.tags[tag].links.empty()) by_port[sample][tag].assign(request.ports.size(), 0.0F);
+    }
+    sampler.sample(request.first_sample, sample, result, by_port[sample], reads[sample]);
+  });
+  result.probability.assign(tags, 0.0);
+  result.by_port.assign(tags, {});
+  std::vector<double> counts(request.samples, 0.0);
+  const double weight = 1.0 / static_cast<double>(request.samples);
+  for (std::size_t sample = 0; sample < request.samples; ++sample) {
+    result.reads += weight * reads[sample];
+    for (std::size_t tag = 0; tag < tags; ++tag) {
+      const double read = result.read[sample][tag] != 0 ? 1.0 : 0.0;
+      counts[sample] += read;
+      result.probability[tag] += weight * read;
+      const std::vector<float>& ports = by_port[sample][tag];
+      if (!ports.empty()) result.by_port[tag].resize(request.ports.size(), 0.0);
+      for (std::size_t port = 0; port < ports.size(); ++port) {
+        result.by_port[tag][port] += weight * static_cast<double>(ports[port]);
+      }
+    }
+  }
+  result.tags_read = range_of(counts, static_cast<double>(tags));
+  return result;
+}
+
+}  // namespace tagfield

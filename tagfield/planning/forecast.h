@@ -1,0 +1,107 @@
+/// @file
+/// What an inventory will read, from the links alone: turns of ports, hops, fading and contention
+/// for slots, without the run. See docs/coverage.md.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/planning/inventory_pace.h"
+#include "tagfield/reader/antenna.h"
+
+namespace tagfield {
+
+/// Margins [dB] of one link in each fading state, as fading_margins_db() has them, coarsely: in
+/// steps of ¼ dB within ±32 dB.
+class LinkStates {
+ public:
+  LinkStates() = default;
+  explicit LinkStates(const std::vector<double>& margins_db);
+  explicit LinkStates(std::vector<std::int8_t> steps) : steps_(std::move(steps)) {}
+
+  /// Whether nothing arrives in any state, or nothing was told.
+  [[nodiscard]] bool is_empty() const { return steps_.empty(); }
+  [[nodiscard]] std::size_t carriers() const;
+  /// Margin in a state [dB].
+  [[nodiscard]] double margin_db(std::size_t place, std::size_t carrier) const;
+  /// Share of the carriers on which the tag is heard in that place with `less_db` less power.
+  [[nodiscard]] double share_heard(std::size_t place, double less_db = 0.0) const;
+  /// Mean of that over the places.
+  [[nodiscard]] double share_heard(double less_db = 0.0) const;
+  [[nodiscard]] double best_db() const;
+  [[nodiscard]] const std::vector<std::int8_t>& steps() const { return steps_; }
+
+ private:
+  std::vector<std::int8_t> steps_;  ///< By place, then carrier.
+};
+
+/// One antenna at its port.
+struct ForecastPort {
+  AntennaParameters antenna;  ///< Names, and the inventory's settings.
+  std::string group;          ///< The reader, as reader_groups() has it.
+  /// Of its inventory; made where it is null, and then the same for all ports of a reader.
+  std::shared_ptr<const InventoryPace> pace{};
+};
+
+/// The pace that forecast() makes for a port of so many tags.
+std::shared_ptr<const InventoryPace> pace_of(const RadioModel& model, std::size_t tags,
+                                             std::uint64_t seed);
+
+/// A link of a tag that moves counts while it is there.
+struct ForecastLink {
+  std::size_t port = 0;
+  double begin_s = 0.0;
+  double end_s = std::numeric_limits<double>::infinity();
+  const LinkStates* states = nullptr;  ///< Null for one of the paper's antennas,
+  double update_probability = 0.0;     ///< which reads it in this share of its updates.
+};
+
+struct ForecastTag {
+  std::vector<ForecastLink> links;
+  /// The place within the neighbourhood; drawn anew for each sample where it is not known.
+  std::optional<std::size_t> place;
+};
+
+struct ForecastRequest {
+  std::vector<ForecastPort> ports;  ///< In the order in which they take turns.
+  std::vector<ForecastTag> tags;
+  double duration_s = 1.0;
+  double less_db = 0.0;          ///< Power that all links lack.
+  std::size_t samples = 32;      ///< At least 1; the range that is told needs 2.
+  std::size_t first_sample = 0;  ///< Samples of other numbers are other draws.
+  std::uint64_t seed = 1;
+  int threads = 1;  ///< The result does not depend on it.
+};
+
+/// A number with the range that it lies in with 95 % confidence, in a run yet to be made.
+struct Forecasted {
+  double mean = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+struct Forecast {
+  std::vector<double> probability;           ///< Of each tag to be read at least once.
+  std::vector<std::vector<double>> by_port;  ///< The same, by tag and port; empty of no links.
+  std::vector<std::vector<char>> read;       ///< By sample, then tag.
+  std::vector<std::vector<std::vector<char>>> read_by_group;  ///< By sample, group, tag.
+  std::vector<std::string> groups;                            ///< Distinct, in the ports' order.
+  Forecasted tags_read;
+  double reads = 0.0;  ///< Mean number of all reads.
+};
+
+/// Simulates who is asked when: in each of a port's turns the tags that are heard on the turn's
+/// carriers, and whose flags in the session say so, share what InventoryPace says; which of them
+/// are read is drawn. Antennas without an inventory read all that they hear at each update. Throws
+/// Error on a request without ports or samples.
+Forecast forecast(const ForecastRequest& request);
+
+/// Mean and 95 % prediction range of a count of `most` at most, from samples of it: Student's t,
+/// and half a count, as counts are whole. Of one sample the range is that one.
+Forecasted range_of(const std::vector<double>& samples, double most);
+
+}  // namespace tagfield

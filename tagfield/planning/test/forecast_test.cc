@@ -1,0 +1,128 @@
+#include "tagfield/planning/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tagfield/planning/local_link.h"
+#include "tagfield/planning/test/radio_hall.h"
+
+namespace tagfield {
+namespace {
+
+/// States that are heard on the first `heard` of eight carriers, in all places.
+LinkStates heard_on(std::size_t heard) {
+  std::vector<double> margins;
+  for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+    for (std::size_t carrier = 0; carrier < 8; ++carrier) {
+      margins.push_back(carrier < heard ? 5.0 : -5.0);
+    }
+  }
+  return LinkStates(margins);
+}
+
+ForecastPort port_with(const std::string& name, Session session) {
+  RadioModel model = isotropic_model();
+  model.plan = known_plan("fcc");
+  model.gen2.emplace();
+  model.gen2->inventory.session = session;
+  ForecastPort port;
+  port.antenna.name = name;
+  port.antenna.reader = "reader";
+  port.antenna.model = std::make_shared<const RadioModel>(model);
+  port.group = "reader";
+  return port;
+}
+
+ForecastRequest one_port(const LinkStates& states, std::size_t tags, double duration_s) {
+  ForecastRequest request;
+  request.ports = {port_with("a", Session::kS1)};
+  request.duration_s = duration_s;
+  for (std::size_t i = 0; i < tags; ++i) {
+    ForecastTag tag;
+    tag.links.push_back({0, 0.0, 1e9, &states});
+    request.tags.push_back(tag);
+  }
+  return request;
+}
+
+TEST(LinkStates, AreKeptToAQuarterOfADecibel) {
+  const LinkStates states = heard_on(2);
+  EXPECT_EQ(states.carriers(), 8U);
+  EXPECT_DOUBLE_EQ(states.share_heard(), 0.25);
+  EXPECT_DOUBLE_EQ(states.share_heard(5.0), 0.25);
+  EXPECT_DOUBLE_EQ(states.share_heard(5.25), 0.0);
+  EXPECT_DOUBLE_EQ(states.best_db(), 5.0);
+  EXPECT_TRUE(LinkStates(std::vector<double>(72, kNothing_db)).is_empty());
+  // Never more than there is.
+  EXPECT_DOUBLE_EQ(LinkStates(std::vector<double>(9, 0.2)).best_db(), 0.0);
+  EXPECT_DOUBLE_EQ(LinkStates(std::vector<double>(9, -0.01)).best_db(), -0.25);
+}
+
+TEST(Forecast, ReadsWhatIsHeardAndNothingElse) {
+  const LinkStates all = heard_on(8);
+  const LinkStates none = heard_on(0);
+  ForecastRequest request = one_port(all, 20, 2.0);
+  request.tags[7].links[0].states = &none;
+  const Forecast made = forecast(request);
+  for (std::size_t tag = 0; tag < 20; ++tag) {
+    EXPECT_EQ(made.probability[tag], tag == 7 ? 0.0 : 1.0) << tag;
+  }
+  EXPECT_DOUBLE_EQ(made.tags_read.mean, 19.0);
+}
+
+TEST(Forecast, OfOneCarrierOfEightIsItsChanceToBeOn) {
+  const LinkStates one = heard_on(1);
+  // Two channels of the eight, none of them twice.
+  ForecastRequest request = one_port(one, 1, 2.0 * known_plan("fcc").dwell_s);
+  request.samples = 4000;
+  const Forecast made = forecast(request);
+  // 4 standard deviations of a mean of 4000 with p = 0.25.
+  EXPECT_NEAR(made.probability[0], 0.25, 4.0 * std::sqrt(0.25 * 0.75 / 4000.0));
+}
+
+TEST(Forecast, SharesSlotsAmongMany) {
+  const LinkStates all = heard_on(8);
+  const ForecastRequest request = one_port(all, 2000, 0.25);
+  const Forecast made = forecast(request);
+  const InventoryPace pace(*physical(request.ports[0].antenna)->gen2, 0.25, 2000, 1);
+  const double expected = pace.read(2000.0, 0.25);
+  EXPECT_GT(expected, 10.0);
+  EXPECT_LT(expected, 200.0);
+  EXPECT_NEAR(made.tags_read.mean, expected, 0.15 * expected);
+}
+
+TEST(InventoryPace, IsTheInventorys) {
+  Gen2Reader gen2;
+  const InventoryPace pace(gen2, 1.0, 64, 1);
+  EXPECT_NEAR(pace.read(1.0, 1.0), 1.0, 1e-12);
+  EXPECT_NEAR(pace.read(64.0, 1.0), 64.0, 1e-9);
+  EXPECT_EQ(pace.read(0.0, 1.0), 0.0);
+  EXPECT_LT(pace.read(64.0, 0.05), 64.0);
+  // It only grows, with time and with tags.
+  EXPECT_LE(pace.read(30.0, 0.1), pace.read(30.0, 0.2));
+  EXPECT_LE(pace.read(10.0, 0.2), pace.read(20.0, 0.2) + 0.5);
+}
+
+TEST(Forecast, IsTheSameForAnyNumberOfThreads) {
+  const LinkStates some = heard_on(3);
+  ForecastRequest request = one_port(some, 300, 1.0);
+  const Forecast alone = forecast(request);
+  request.threads = 4;
+  const Forecast together = forecast(request);
+  EXPECT_EQ(alone.probability, together.probability);
+  EXPECT_EQ(alone.reads, together.reads);
+}
+
+TEST(RangeOf, IsStudentsPredictionRange) {
+  // Of 10 samples 0 … 9: mean 4.5, s = 3.0277, t(0.975; 9) = 2.262; half a count besides.
+  std::vector<double> samples;
+  for (int i = 0; i < 10; ++i) samples.push_back(i);
+  const Forecasted range = range_of(samples, 100.0);
+  EXPECT_NEAR(range.mean, 4.5, 1e-12);
+  EXPECT_NEAR(range.high, 4.5 + 2.262 * 3.02765 * std::sqrt(1.1) + 0.5, 0.03);
+  EXPECT_EQ(range.low, 0.0);
+}
+
+}  // namespace
+}  // namespace tagfield

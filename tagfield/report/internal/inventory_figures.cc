@@ -1,0 +1,102 @@
+#include "tagfield/report/internal/inventory_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tagfield/report/axes.h"
+#include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kNamesWidth = 150.0;
+
+/// By reader, in the order of the readers, each with its antennas in theirs.
+std::vector<const InventoryShare*> by_reader(const InventorySummary& inventory) {
+  std::vector<const InventoryShare*> rows;
+  for (const InventoryShare& reader : inventory.readers) {
+    for (const InventoryShare& antenna : inventory.antennas) {
+      if (antenna.reader == reader.name) rows.push_back(&antenna);
+    }
+  }
+  return rows;
+}
+
+std::size_t number_of_reader(const InventorySummary& inventory, const std::string& name) {
+  std::size_t number = 0;
+  while (number < inventory.readers.size() && inventory.readers[number].name != name) ++number;
+  return number;
+}
+
+void draw_antenna(Svg& svg, const Axes& axes, const InventoryShare& antenna, double y,
+                  const std::string& color) {
+  const double zero = place_on(axes.x, 0.0);
+  const double all = place_on(axes.x, antenna.tags);
+  const double own = place_on(axes.x, antenna.only);
+  add_text(svg, {kNamesWidth - 8.0, y + 5.0}, shortened(antenna.name, 18), Anchor::kEnd);
+  const std::string said = fmt::format("{} ({}): {:.0f} tags, {:.0f} by no other", antenna.name,
+                                       antenna.reader, antenna.tags, antenna.only);
+  add_rectangle(svg, {zero, y - 7.0}, {std::max(all - zero, 1.0), 14.0}, filled(color, 0.4),
+                clean_text(said));
+  add_rectangle(svg, {zero, y - 7.0}, {own - zero, 14.0}, filled(color, 1.0), clean_text(said));
+}
+
+}  // namespace
+
+Figure inventory_curve_figure(const RunFiles& run) {
+  Figure figure{"inventory_time", "", "Tags read over time", "", {}, ""};
+  const InventorySummary& inventory = *run.summary.inventory;
+  if (inventory.curve.empty()) {
+    figure.missing = "no tag was read.";
+    return figure;
+  }
+  Axes axes{tight_scale(0.0, std::max(inventory.duration_s, 1e-3), 6), tight_scale(0.0, 100.0, 5)};
+  axes.x.from = 52.0;
+  axes.x.to = kDrawingWidth - 24.0;
+  axes.y.from = 300.0;
+  axes.y.to = 34.0;
+  figure.svg.height = 348.0;
+  draw_axes(figure.svg, axes, "time [s]", "tags read at least once [%]");
+  std::vector<Place> places = {place_in(axes, 0.0, 0.0)};
+  for (const InventoryMoment& moment : inventory.curve) {
+    places.emplace_back(place_on(axes.x, moment.time_s), places.back().y());
+    places.push_back(place_in(axes, moment.time_s, 100.0 * moment.share));
+  }
+  places.emplace_back(place_on(axes.x, inventory.duration_s), places.back().y());
+  add_polyline(figure.svg, places, styled("curve"));
+  figure.caption = "The share of all tags that had been read at least once by then";
+  figure.caption += run.summary.seeds.size() > 1 ? ", in the first run." : ".";
+  return figure;
+}
+
+Figure inventory_antennas_figure(const RunFiles& run) {
+  Figure figure{"inventory_antennas", "", "Tags by antenna", "", {}, ""};
+  const InventorySummary& inventory = *run.summary.inventory;
+  const std::vector<const InventoryShare*> rows = by_reader(inventory);
+  double most = 1.0;
+  for (const InventoryShare* const antenna : rows) most = std::max(most, antenna->tags);
+  const std::size_t shown = std::min(rows.size(), kMostRows);
+  const double height = row_height(shown);
+  Axes axes{round_scale(0.0, most, 5), {}};
+  axes.x.from = kNamesWidth;
+  axes.x.to = kDrawingWidth - 24.0;
+  axes.y.to = 8.0;
+  axes.y.from = axes.y.to + height * static_cast<double>(shown);
+  figure.svg.height = axes.y.from + 48.0;
+  draw_x_axis(figure.svg, axes, "tags");
+  for (std::size_t i = 0; i < shown; ++i) {
+    draw_antenna(figure.svg, axes, *rows[i], axes.y.to + height * (static_cast<double>(i) + 0.5),
+                 color_of_kind(number_of_reader(inventory, rows[i]->reader)));
+  }
+  figure.caption =
+      "Tags that each antenna read at least once, a colour a reader; the full part is of tags that "
+      "no other antenna read.";
+  if (shown < rows.size()) {
+    figure.caption += fmt::format(" The first {} of {}.", shown, rows.size());
+  }
+  return figure;
+}
+
+}  // namespace tagfield

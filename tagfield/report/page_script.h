@@ -1,0 +1,23 @@
+/// @file
+/// Scripts that pages carry, and the hashes by which alone a page lets them run.
+#pragma once
+
+#include <string>
+
+namespace tagfield {
+
+struct PageScript {
+  const char* text;
+  const char* hash;  ///< "sha256-…" of `text`; tests/command/plan_test.py computes it again.
+};
+
+/// Tables sort by a click on a column's head; long ones get a field to filter their rows.
+const PageScript& table_script();
+
+/// The slider and the comparison of a plan's page.
+const PageScript& plan_script();
+
+/// In an element that page_head() lets run by its hash.
+std::string script_html(const PageScript& script);
+
+}  // namespace tagfield

@@ -1,0 +1,111 @@
+/// @file
+/// Where antennas go: ranked layouts, what each costs and reads, and how sure that is.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/report/coverage.h"
+
+namespace tagfield {
+
+/// One antenna of a layout.
+struct PlannedAntenna {
+  std::string name;
+  std::string mount;
+  std::string reader;
+  std::string zone;                                        ///< "" for none.
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();           ///< [m]
+  Eigen::Vector3d boresight_W = Eigen::Vector3d::UnitX();  ///< Unit vector.
+  double power_dbm = 0.0;                                  ///< At the reader's port.
+  double cost = 0.0;
+};
+
+/// How much of a zone's tags are read, and by others.
+struct PlannedZone {
+  std::string zone;
+  std::size_t tags = 0;
+  ExpectedCount read;   ///< Tags, by anyone.
+  ExpectedCount cross;  ///< Tags that a reader of another zone reads.
+};
+
+/// The best layout found of so many antennas.
+struct PlannedLayout {
+  std::vector<PlannedAntenna> antennas;
+  std::size_t readers = 0;
+  double cost = 0.0;
+  double score = 0.0;     ///< Mean of min(P, aim)/aim over all tags, without contention for slots.
+  double bound = 1.0;     ///< No layout of as many antennas within the limits has more.
+  bool is_exact = false;  ///< The bound is of an integer program.
+  ExpectedCount read;     ///< Tags that the inventory reads in the time, slots and hops included.
+  std::vector<PlannedZone> zones;
+  std::vector<double> places;  ///< For AntennaPlan::places, the probability to be read.
+};
+
+/// A place where tags can be.
+struct PlannedPlace {
+  std::string group;
+  std::string zone;
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+};
+
+/// A place that stays hard to read, and why.
+struct HardPlace {
+  std::size_t place = 0;  ///< Index into AntennaPlan::places.
+  double probability = 0.0;
+  std::string best_antenna;
+  double distance_m = 0.0;
+  double median_db = 0.0;  ///< Margin of the best link, the median over fading and orientations.
+  std::string why;
+};
+
+/// What becomes of the chosen layout where something is otherwise.
+struct PlanVariant {
+  std::string what;
+  ExpectedCount read;
+};
+
+/// The chosen layout in full simulations.
+struct PlanCheck {
+  std::vector<std::uint64_t> seeds;
+  std::vector<double> read;  ///< Tags, by seed.
+  std::size_t inside = 0;    ///< Of the runs, those within the stated range.
+  double wall_s = 0.0;
+};
+
+struct AntennaPlan {
+  std::string scenario;
+  std::string description;
+  double dwell_s = 0.0;
+  std::size_t tags = 0;     ///< That are there in the time.
+  std::size_t options = 0;  ///< Ways to mount an antenna, powers included.
+  double aim = 1.0;         ///< Probability beyond which more is worth nothing.
+  std::optional<double> aim_share;
+  std::optional<double> cross_limit;
+  std::string limits;                  ///< For people.
+  std::string stopped_by;              ///< What keeps more antennas out; "" for nothing.
+  std::optional<double> guaranteed;    ///< Share of the best that greed has for sure.
+  std::vector<PlannedLayout> layouts;  ///< From one antenna up.
+  std::size_t chosen = 0;              ///< Index into `layouts`.
+  bool reaches_aim = true;
+  std::vector<PlannedPlace> places;
+  std::vector<HardPlace> hard;  ///< Of the chosen layout, the hardest first.
+  std::vector<PlanVariant> sensitivity;
+  std::optional<PlanCheck> check;
+  std::vector<std::string> warnings;
+};
+
+/// `antennas,readers,cost,score,bound,read_mean,read_low,read_high,cross_worst`, a row a layout.
+std::string plan_layouts_to_csv(const AntennaPlan& plan);
+/// `antennas,antenna,mount,reader,zone,x_m,y_m,z_m,boresight_x,…,power_dbm,cost`, a row an antenna
+/// of each layout.
+std::string plan_antennas_to_csv(const AntennaPlan& plan);
+/// `group,zone,x_m,y_m,z_m,p_1,p_2,…`: read probability by number of antennas, a row a place.
+std::string plan_places_to_csv(const AntennaPlan& plan);
+/// All but the places as JSON text.
+std::string plan_to_json(const AntennaPlan& plan);
+
+}  // namespace tagfield

@@ -1,0 +1,531 @@
+#include "tagfield/report/plan_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tagfield/report/axes.h"
+#include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/internal/map_view.h"
+#include "tagfield/report/page.h"
+#include "tagfield/report/page_script.h"
+#include "tagfield/report/page_text.h"
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+constexpr std::size_t kMostMaps = 4;
+constexpr std::size_t kMostCircles = 6000;
+constexpr const char* kGainColors[] = {"#c2410c", "#f2a65a", "#c9cfd6", "#7fb2e8", "#1659d6"};
+constexpr double kGainEdges[] = {-0.2, -0.02, 0.02, 0.2};
+
+/// Places between two heights.
+struct Level {
+  double low_m = 0.0;
+  double high_m = 0.0;
+  std::vector<std::size_t> places;
+};
+
+std::vector<Level> levels_of(const AntennaPlan& plan) {
+  std::vector<double> heights;
+  for (const PlannedPlace& place : plan.places) heights.push_back(place.p_W.z());
+  std::sort(heights.begin(), heights.end());
+  std::vector<Level> levels;
+  for (const double z : heights) {
+    if (levels.empty() || z > levels.back().high_m + 0.05) levels.push_back({z, z, {}});
+    levels.back().high_m = z;
+  }
+  if (levels.size() > kMostMaps) {
+    const double low = heights.front();
+    const double step = (heights.back() - low) / static_cast<double>(kMostMaps);
+    levels.clear();
+    for (std::size_t i = 0; i < kMostMaps; ++i) {
+      const auto number = static_cast<double>(i);
+      levels.push_back({low + number * step, low + (number + 1.0) * step, {}});
+    }
+  }
+  for (std::size_t i = 0; i < plan.places.size(); ++i) {
+    const double z = plan.places[i].p_W.z();
+    auto level = std::find_if(levels.begin(), levels.end(),
+                              [&](const Level& one) { return z <= one.high_m + 1e-9; });
+    (level == levels.end() ? levels.back() : *level).places.push_back(i);
+  }
+  return levels;
+}
+
+Extent extent_of_plan(const AntennaPlan& plan) {
+  Extent extent;
+  for (const PlannedPlace& place : plan.places) extent.extend(place.p_W.head<2>());
+  for (const PlannedLayout& layout : plan.layouts) {
+    for (const PlannedAntenna& antenna : layout.antennas) extent.extend(antenna.p_W.head<2>());
+  }
+  const Eigen::Vector2d rim = Eigen::Vector2d::Constant(0.5);
+  return {extent.min() - rim, extent.max() + rim};
+}
+
+void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size_t place,
+                double radius) {
+  const ColorBands bands = probability_bands();
+  const double p = plan.layouts[plan.chosen].places[place];
+  const std::string& color = bands.colors[band_of(bands, p)];
+  Look look = filled(color.empty() ? "#8a949e" : color, 1.0);
+  look.attributes += fmt::format(" class=\"place\" data-place=\"{}\"", place);
+  add_circle(svg, on_map(map, plan.places[place].p_W), radius, look,
+             fmt::format("{}: {:.0f} %", clean_text(plan.places[place].group), 100.0 * p));
+}
+
+/// A wedge that opens to where the antenna looks, or a ring where that is up or down.
+void draw_planned_antenna(Svg& svg, const MapView& map, const PlannedAntenna& antenna,
+                          const std::string& color) {
+  const Place at = on_map(map, antenna.p_W);
+  const Eigen::Vector2d level = antenna.boresight_W.head<2>();
+  const std::string said = fmt::format("{} ({}), {:g} dBm", clean_text(antenna.name),
+                                       clean_text(antenna.reader), antenna.power_dbm);
+  if (level.norm() > 0.3) {
+    const Place along(level.x() / level.norm(), -level.y() / level.norm());
+    const Place across(-along.y(), along.x());
+    const Place tip = at + 17.0 * along;
+    add_path(svg,
+             fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", at.x(), at.y(),
+                         tip.x() + 8.0 * across.x(), tip.y() + 8.0 * across.y(),
+                         tip.x() - 8.0 * across.x(), tip.y() - 8.0 * across.y()),
+             filled(color, 0.45), said);
+  } else {
+    add_circle(svg, at, 11.0, filled(color, 0.35), said);
+  }
+  Look body = filled(color, 1.0);
+  body.attributes += " stroke=\"#ffffff\" stroke-width=\"1.5\"";
+  add_rectangle(svg, at - Place(5, 5), {10, 10}, body, said);
+}
+
+std::vector<std::string> readers_of_all(const AntennaPlan& plan) {
+  std::vector<std::string> readers;
+  for (const PlannedLayout& layout : plan.layouts) {
+    for (const PlannedAntenna& antenna : layout.antennas) {
+      if (std::find(readers.begin(), readers.end(), antenna.reader) == readers.end()) {
+        readers.push_back(antenna.reader);
+      }
+    }
+  }
+  return readers;
+}
+
+Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t number,
+                    const std::vector<Silhouette>& top_view) {
+  Figure figure;
+  figure.name = fmt::format("plan_level_{}", number + 1);
+  figure.title =
+      level.high_m - level.low_m < 0.005
+          ? fmt::format("Tags at {:.2f} m", level.low_m + 0.0)
+          : fmt::format("Tags from {:.2f} to {:.2f} m", level.low_m + 0.0, level.high_m + 0.0);
+  MapView map = make_map(figure.name, extent_of_plan(plan), {}, 6.0);
+  figure.svg.height = map_bottom(map);
+  draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
+  begin_clip(figure.svg, map.id + "-map", {map.axes.x.from, map.axes.y.to},
+             {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to});
+  const std::size_t step = thinning(level.places.size(), kMostCircles / kMostMaps);
+  const double area = (map.axes.x.to - map.axes.x.from) * (map.axes.y.from - map.axes.y.to);
+  const double crowd = static_cast<double>(std::max<std::size_t>(level.places.size() / step, 1));
+  const double radius = std::clamp(0.32 * std::sqrt(area / crowd), 2.0, 7.0);
+  for (std::size_t i = 0; i < level.places.size(); i += step) {
+    draw_place(figure.svg, map, plan, level.places[i], radius);
+  }
+  draw_outlines(figure.svg, map, top_view);
+  const std::vector<std::string> readers = readers_of_all(plan);
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+    begin_group(figure.svg, fmt::format("class=\"layout\" data-layout=\"{}\"{}", i,
+                                        i == plan.chosen ? "" : " style=\"display:none\""));
+    for (const PlannedAntenna& antenna : plan.layouts[i].antennas) {
+      const auto reader = std::find(readers.begin(), readers.end(), antenna.reader);
+      draw_planned_antenna(figure.svg, map, antenna,
+                           color_of_kind(static_cast<std::size_t>(reader - readers.begin())));
+    }
+    end_group(figure.svg);
+  }
+  end_clip(figure.svg);
+  add_rectangle(figure.svg, {map.axes.x.from, map.axes.y.to},
+                {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to},
+                styled("frame"));
+  figure.caption = fmt::format(
+      "{} from above; antennas as squares, a colour a reader, with where they look (a disc: down "
+      "or "
+      "up).",
+      counted(level.places.size(), "place"));
+  if (step > 1) figure.caption += fmt::format(" One in {} is drawn.", step);
+  return figure;
+}
+
+Figure curve_figure(const AntennaPlan& plan) {
+  Figure figure{"plan_curve", "", "What each antenna adds", "", {}, ""};
+  const auto most = static_cast<double>(plan.layouts.size());
+  const auto tags = static_cast<double>(std::max<std::size_t>(plan.tags, 1));
+  Axes axes{tight_scale(0.0, std::max(most, 1.0) + 0.5, 8), tight_scale(0.0, 100.0, 5)};
+  axes.x.from = 52.0;
+  axes.x.to = kDrawingWidth - 24.0;
+  axes.y.from = 300.0;
+  axes.y.to = 34.0;
+  figure.svg.height = 348.0;
+  draw_axes(figure.svg, axes, "antennas", "tags read [%]");
+  std::vector<Place> means;
+  std::vector<Place> bounds;
+  for (const PlannedLayout& layout : plan.layouts) {
+    const auto count = static_cast<double>(layout.antennas.size());
+    const double x = place_on(axes.x, count);
+    add_line(figure.svg, {x, place_on(axes.y, 100.0 * layout.read.low / tags)},
+             {x, place_on(axes.y, 100.0 * layout.read.high / tags)}, styled("whisker"));
+    means.push_back(place_in(axes, count, 100.0 * layout.read.mean / tags));
+    bounds.push_back(place_in(axes, count, 100.0 * layout.bound * plan.aim));
+  }
+  Look dashed = styled("rule");
+  dashed.attributes += " fill=\"none\"";
+  add_polyline(figure.svg, bounds, dashed);
+  add_polyline(figure.svg, means, styled("curve"));
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const PlannedLayout& layout = plan.layouts[i];
+    add_circle(figure.svg, means[i], i == plan.chosen ? 6.5 : 3.5, styled("ink"),
+               fmt::format("{} antennas: {:.1f} of {} tags, cost {:g}", layout.antennas.size(),
+                           layout.read.mean, plan.tags, layout.cost));
+  }
+  figure.caption =
+      "Tags read in the time, with the range of 95 % of runs. Dashed: no layout of as many "
+      "antennas "
+      "within the limits has more, before contention for slots. The large dot is the chosen one.";
+  return figure;
+}
+
+std::string planned_number(const std::string& name, const std::string& value, const char* field,
+                           bool lead = false) {
+  return fmt::format("<div{}><dt>{}</dt><dd data-field=\"{}\">{}</dd></div>\n",
+                     lead ? " class=\"lead\"" : "", escaped(name), field, escaped(value));
+}
+
+std::string read_text(const PlannedLayout& layout) {
+  return fmt::format("{:.0f}", layout.read.mean);
+}
+
+std::string range_text(const PlannedLayout& layout) {
+  return fmt::format("{:.0f} to {:.0f}", std::ceil(layout.read.low), std::floor(layout.read.high));
+}
+
+std::string cross_text(const PlannedLayout& layout) {
+  double worst = 0.0;
+  for (const PlannedZone& zone : layout.zones) {
+    if (zone.tags > 0) worst = std::max(worst, zone.cross.mean / static_cast<double>(zone.tags));
+  }
+  return fmt::format("{:.1f} %", 100.0 * worst);
+}
+
+std::string plan_numbers(const AntennaPlan& plan) {
+  const PlannedLayout& layout = plan.layouts[plan.chosen];
+  std::string html = "<dl class=\"numbers\">\n";
+  html += planned_number("Antennas", fmt::format("{}", layout.antennas.size()), "antennas");
+  html += planned_number("Readers", fmt::format("{}", layout.readers), "readers");
+  html += planned_number(fmt::format("Of {} tags read in {:g} s", grouped(plan.tags), plan.dwell_s),
+                         read_text(layout), "read", true);
+  html += planned_number("With 95 % confidence", range_text(layout), "range");
+  if (layout.zones.size() > 1) {
+    html += planned_number("Cross-read in the worst zone", cross_text(layout), "cross");
+  }
+  html += planned_number("Cost", fmt::format("{:g}", layout.cost), "cost");
+  html += planned_number(
+      "Short of the best by at most",
+      fmt::format("{:.2f} %", 100.0 * std::max(0.0, layout.bound - layout.score)), "gap");
+  return html + "</dl>\n";
+}
+
+/// What the script needs.
+std::string plan_data(const AntennaPlan& plan) {
+  const ColorBands bands = probability_bands();
+  nlohmann::json data;
+  data["edges"] = bands.edges;
+  data["colors"] = bands.colors;
+  data["gain_edges"] = kGainEdges;
+  data["gain_colors"] = kGainColors;
+  data["names"] = nlohmann::json::array();
+  for (const PlannedPlace& place : plan.places) {
+    data["names"].push_back(fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) m", clean_text(place.group),
+                                        place.p_W.x() + 0.0, place.p_W.y() + 0.0,
+                                        place.p_W.z() + 0.0));
+  }
+  data["layouts"] = nlohmann::json::array();
+  for (const PlannedLayout& layout : plan.layouts) {
+    nlohmann::json one;
+    one["antennas"] = layout.antennas.size();
+    one["readers"] = layout.readers;
+    one["read"] = read_text(layout);
+    one["range"] = range_text(layout);
+    one["cross"] = cross_text(layout);
+    one["cost"] = fmt::format("{:g}", layout.cost);
+    one["gap"] = fmt::format("{:.2f} %", 100.0 * std::max(0.0, layout.bound - layout.score));
+    std::vector<int> percent;
+    for (const double p : layout.places)
+      percent.push_back(static_cast<int>(std::lround(100.0 * p)));
+    one["places"] = percent;
+    data["layouts"].push_back(std::move(one));
+  }
+  std::string text = data.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  // Nothing in it may end the element that holds it.
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return "<script type=\"application/json\" id=\"plan-data\">" + text + "</script>\n";
+}
+
+std::string swatches(const char* id, const std::vector<std::pair<std::string, std::string>>& colors,
+                     bool hidden) {
+  std::string html = fmt::format("<p class=\"swatches\" id=\"{}\"{}>", id, hidden ? " hidden" : "");
+  for (const auto& [color, words] : colors) {
+    html += fmt::format("<span><i style=\"background:{}\"></i>{}</span>", color, escaped(words));
+  }
+  return html + "</p>\n";
+}
+
+std::string controls(const AntennaPlan& plan) {
+  std::string html = fmt::format(
+      "<div class=\"controls\" id=\"plan-controls\" hidden><label>Antennas <input type=\"range\" "
+      "id=\"plan-count\" min=\"0\" max=\"{}\" value=\"{}\"></label>\n"
+      "<label>compare with <select id=\"plan-other\"><option value=\"\">no other</option>",
+      plan.layouts.size() - 1, plan.chosen);
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+    html += fmt::format("<option value=\"{}\">{}</option>", i,
+                        counted(plan.layouts[i].antennas.size(), "antenna"));
+  }
+  html += "</select></label></div>\n";
+  const ColorBands bands = probability_bands();
+  std::vector<std::pair<std::string, std::string>> colors;
+  for (std::size_t i = 0; i < bands.colors.size(); ++i) {
+    const double from = i == 0 ? 0.0 : bands.edges[i - 1];
+    const double to = i < bands.edges.size() ? bands.edges[i] : 1.0;
+    colors.emplace_back(
+        bands.colors[i].empty() ? "#8a949e" : bands.colors[i],
+        i == 0 ? fmt::format("read by under {:.0f} %", 100.0 * to)
+        : i + 1 == bands.colors.size()
+            ? (from >= 1.0 ? std::string("surely") : fmt::format("{:.0f} % and more", 100.0 * from))
+            : fmt::format("{:.0f} to {:.0f} %", 100.0 * from, 100.0 * to));
+  }
+  html += swatches("plan-legend", colors, false);
+  return html + swatches("plan-gain-legend",
+                         {{kGainColors[0], "worse by over 20 points"},
+                          {kGainColors[1], "worse"},
+                          {kGainColors[2], "the same to 2 points"},
+                          {kGainColors[3], "better"},
+                          {kGainColors[4], "better by over 20 points"}},
+                         true);
+}
+
+std::string table_begin(const std::string& id, const std::vector<std::string>& columns) {
+  std::string html =
+      fmt::format("<div class=\"table told\" role=\"region\" tabindex=\"0\"{}><table>\n<thead><tr>",
+                  id.empty() ? "" : " id=\"" + id + "\"");
+  for (const std::string& column : columns) html += "<th scope=\"col\">" + column + "</th>";
+  return html + "</tr></thead>\n<tbody>\n";
+}
+
+constexpr const char* kTableEnd = "</tbody></table></div>\n";
+
+std::string plan_row(const std::string& name, const std::vector<std::string>& cells,
+                     const std::string& words = "", const std::string& attributes = "") {
+  std::string html =
+      "<tr" + attributes + "><th scope=\"row\"><bdi>" + escaped(name) + "</bdi></th>";
+  for (const std::string& cell : cells) html += "<td>" + escaped(cell) + "</td>";
+  if (!words.empty()) html += "<td class=\"words\">" + escaped(words) + "</td>";
+  return html + "</tr>\n";
+}
+
+std::string count_range(const ExpectedCount& count) {
+  return fmt::format("{:.0f} to {:.0f}", std::ceil(count.low), std::floor(count.high));
+}
+
+std::string layouts_table(const AntennaPlan& plan) {
+  std::string html = "<h2>By number of antennas</h2>\n" +
+                     table_begin("", {"Antennas", "Readers", "Cost", "Tags read", "95 % of runs",
+                                      "Score", "Bound", "Cross reads,<br>worst zone"});
+  for (const PlannedLayout& layout : plan.layouts) {
+    html += plan_row(fmt::format("{}", layout.antennas.size()),
+                     {fmt::format("{}", layout.readers), fmt::format("{:g}", layout.cost),
+                      fmt::format("{:.1f}", layout.read.mean), count_range(layout.read),
+                      fmt::format("{:.4f}", layout.score),
+                      fmt::format("{:.4f}{}", layout.bound, layout.is_exact ? " (exact)" : ""),
+                      layout.zones.size() > 1 ? cross_text(layout) : "–"});
+  }
+  return html + kTableEnd;
+}
+
+std::string zones_of_plan(const AntennaPlan& plan) {
+  const PlannedLayout& layout = plan.layouts[plan.chosen];
+  if (layout.zones.size() < 2) return "";
+  std::string html =
+      "<h2>By zone, as chosen</h2>\n" +
+      table_begin("", {"Zone", "Tags", "Read", "95 % of runs", "Cross-read", "95 % of runs"});
+  for (const PlannedZone& zone : layout.zones) {
+    html += plan_row(zone.zone, {grouped(zone.tags), fmt::format("{:.1f}", zone.read.mean),
+                                 count_range(zone.read), fmt::format("{:.1f}", zone.cross.mean),
+                                 count_range(zone.cross)});
+  }
+  return html + kTableEnd;
+}
+
+std::string antennas_table(const AntennaPlan& plan) {
+  std::string html = "<h2>The antennas</h2>\n" +
+                     table_begin("plan-antennas", {"Antenna", "Reader", "x [m]", "y [m]", "z [m]",
+                                                   "Looks along", "Power [dBm]", "Cost"});
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+    for (const PlannedAntenna& antenna : plan.layouts[i].antennas) {
+      const Eigen::Vector3d& b = antenna.boresight_W;
+      html +=
+          plan_row(antenna.name,
+                   {clean_text(antenna.reader), fmt::format("{:.2f}", antenna.p_W.x() + 0.0),
+                    fmt::format("{:.2f}", antenna.p_W.y() + 0.0),
+                    fmt::format("{:.2f}", antenna.p_W.z() + 0.0),
+                    fmt::format("{:.2f}, {:.2f}, {:.2f}", b.x() + 0.0, b.y() + 0.0, b.z() + 0.0),
+                    fmt::format("{:g}", antenna.power_dbm), fmt::format("{:g}", antenna.cost)},
+                   "", fmt::format(" data-layout=\"{}\"{}", i, i == plan.chosen ? "" : " hidden"));
+    }
+  }
+  return html + kTableEnd;
+}
+
+std::string hard_table(const AntennaPlan& plan) {
+  if (plan.hard.empty()) return "<h2>Hard tags</h2>\n<p>Every place is read by 90 % or more.</p>\n";
+  std::string html = "<h2>Hard tags, as chosen</h2>\n" +
+                     table_begin("", {"Place", "Read [%]", "Best antenna", "Distance [m]", "Why"});
+  for (const HardPlace& hard : plan.hard) {
+    const PlannedPlace& place = plan.places[hard.place];
+    html += plan_row(fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) m", clean_text(place.group),
+                                 place.p_W.x() + 0.0, place.p_W.y() + 0.0, place.p_W.z() + 0.0),
+                     {fmt::format("{:.0f}", 100.0 * hard.probability),
+                      hard.best_antenna.empty() ? "–" : clean_text(hard.best_antenna),
+                      fmt::format("{:.1f}", hard.distance_m)},
+                     hard.why);
+  }
+  return html + kTableEnd;
+}
+
+std::string sensitivity_table(const AntennaPlan& plan) {
+  std::string html = "<h2>Where something is otherwise</h2>\n" +
+                     table_begin("", {"The chosen layout", "Tags read", "95 % of runs", "Lost"});
+  for (const PlanVariant& variant : plan.sensitivity) {
+    html += plan_row(
+        variant.what,
+        {fmt::format("{:.1f}", variant.read.mean), count_range(variant.read),
+         fmt::format("{:.1f}", plan.sensitivity.front().read.mean - variant.read.mean + 0.0)});
+  }
+  return html + kTableEnd;
+}
+
+std::string check_text(const AntennaPlan& plan) {
+  if (!plan.check || plan.check->read.empty()) return "";
+  double mean = 0.0;
+  for (const double read : plan.check->read) {
+    mean += read / static_cast<double>(plan.check->read.size());
+  }
+  const PlannedLayout& layout = plan.layouts[plan.chosen];
+  return fmt::format(
+      "<div class=\"note\"><p><strong>Checked.</strong> {} with other tags and seeds read {:.1f} "
+      "tags "
+      "in the mean; {:.1f} were forecast, and {} of {} lie within the range of {:.0f} to {:.0f} "
+      "that "
+      "was stated.</p></div>\n",
+      counted(plan.check->read.size(), "full simulation"), mean, layout.read.mean,
+      plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
+      std::floor(layout.read.high));
+}
+
+std::string percent_encoded(const std::string& text) {
+  std::string encoded;
+  for (const char c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       c == ',' || c == '.' || c == '_' || c == '-';
+    if (plain) {
+      encoded += c;
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    }
+  }
+  return encoded;
+}
+
+std::string download(const std::string& name, const std::string& words, const std::string& text) {
+  return fmt::format("<a download=\"{}\" href=\"data:text/csv;charset=utf-8,{}\">{}</a>", name,
+                     percent_encoded(text), words);
+}
+
+std::string plan_warnings(const AntennaPlan& plan) {
+  if (plan.warnings.empty()) return "";
+  std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
+  for (const std::string& warning : plan.warnings) html += "<li>" + escaped(warning) + "</li>\n";
+  return html + "</ul></div>\n";
+}
+
+std::string plan_fact(const std::string& name, const std::string& value) {
+  return value.empty() ? "" : "<dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd>\n";
+}
+
+std::string aim_text(const AntennaPlan& plan) {
+  std::string text = plan.aim < 1.0 ? fmt::format("each tag read with {:g} % in {:g} s",
+                                                  100.0 * plan.aim, plan.dwell_s)
+                                    : fmt::format("most tags read in {:g} s", plan.dwell_s);
+  if (plan.aim_share) {
+    text += fmt::format(", to {:g} %: {}", 100.0 * *plan.aim_share,
+                        plan.reaches_aim ? "reached" : "not reached");
+  }
+  return text;
+}
+
+std::string plan_facts(const AntennaPlan& plan) {
+  const std::string guaranteed =
+      plan.guaranteed ? fmt::format(
+                            "at least {:.0f} % of the best, whatever the case; the table "
+                            "has what holds for this one",
+                            std::floor(100.0 * *plan.guaranteed))
+                      : "none beforehand with these limits; the table has what holds for this case";
+  return "<dl class=\"facts\">\n" + plan_fact("Aim", aim_text(plan)) +
+         plan_fact("Limits", plan.limits) + plan_fact("More is kept out by", plan.stopped_by) +
+         plan_fact("Choice",
+                   fmt::format("of {} ways to mount an antenna, for {}", grouped(plan.options),
+                               counted(plan.places.size(), "place"))) +
+         plan_fact("Greed guarantees", guaranteed) + "</dl>\n";
+}
+
+}  // namespace
+
+std::vector<Figure> plan_figures(const AntennaPlan& plan, const std::vector<Silhouette>& top_view) {
+  std::vector<Figure> figures;
+  const std::vector<Level> levels = levels_of(plan);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (!levels[i].places.empty()) figures.push_back(level_figure(plan, levels[i], i, top_view));
+  }
+  figures.push_back(curve_figure(plan));
+  return figures;
+}
+
+std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figures) {
+  std::string maps = "<div class=\"figures\">\n";
+  for (const Figure& figure : figures) maps += figure_html(figure);
+  maps += "</div>\n";
+  std::string html =
+      page_head(plan.scenario + " – Tagfield plan", {table_script().hash, plan_script().hash}) +
+      "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" + escaped(plan.scenario) +
+      "</bdi></h1>\n";
+  if (!plan.description.empty())
+    html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
+  html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
+          plan_warnings(plan) + "<h2>The hall from above</h2>\n" +
+          "<p>Each dot is a place where tags can be, with the probability that one there is read, "
+          "over orientations and fading, before contention for slots.</p>\n" +
+          controls(plan) + maps + layouts_table(plan) + zones_of_plan(plan) + antennas_table(plan) +
+          hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
+          download("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
+          download("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
+          download("plan_places.csv", "places", plan_places_to_csv(plan)) + " (CSV)</p>\n";
+  return html +
+         "</main>\n<footer>\n<p>Made by Tagfield; the same tables lie beside this page, and "
+         "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +
+         plan_data(plan) + script_html(table_script()) + script_html(plan_script()) +
+         "</body>\n</html>\n";
+}
+
+}  // namespace tagfield

@@ -1,0 +1,65 @@
+#include "tagfield/report/inventory.h"
+
+#include <gtest/gtest.h>
+
+#include "tagfield/report/internal/inventory_section.h"
+
+namespace tagfield {
+namespace {
+
+InventorySummary run_of(double read, std::optional<double> time_s) {
+  InventorySummary run;
+  run.tags = 10;
+  run.duration_s = 2.0;
+  run.read = run.least_read = run.most_read = read;
+  run.reads = 4.0 * read;
+  run.median_reads = 4.0;
+  run.reached = {{0.5, time_s}};
+  run.readers = {{"door", "door", read, read, 4.0 * read}};
+  run.antennas = {{"a", "door", read, read, 4.0 * read}};
+  run.zones = {{"near <door>", {"door"}, 10, read, read, 1.0, {{"yard", 1.0, 3.0}}}};
+  run.levels = {{0.5, 0.5, 4, 2.0}, {1.5, 1.5, 6, read - 2.0}};
+  return run;
+}
+
+TEST(Inventory, OfSeveralRunsIsTheirMean) {
+  const InventorySummary mean = mean_of({run_of(6.0, 0.4), run_of(9.0, 0.8)});
+  EXPECT_DOUBLE_EQ(mean.read, 7.5);
+  EXPECT_DOUBLE_EQ(mean.least_read, 6.0);
+  EXPECT_DOUBLE_EQ(mean.most_read, 9.0);
+  EXPECT_DOUBLE_EQ(mean.antennas[0].reads, 30.0);
+  EXPECT_DOUBLE_EQ(mean.zones[0].read, 7.5);
+  EXPECT_DOUBLE_EQ(mean.zones[0].cross[0].reads, 3.0);
+  EXPECT_DOUBLE_EQ(mean.levels[1].read, 5.5);
+  EXPECT_NEAR(*mean.reached[0].time_s, 0.6, 1e-12);
+  // What one run did not reach has no mean time.
+  EXPECT_FALSE(mean_of({run_of(6.0, 0.4), run_of(4.0, std::nullopt)}).reached[0].time_s);
+}
+
+TEST(Inventory, IsOnThePage) {
+  Summary summary;
+  summary.method = "none";
+  summary.inventory = run_of(9.0, std::nullopt);
+  EXPECT_TRUE(is_inventory_alone(summary));
+  EXPECT_EQ(inventory_sentence(*summary.inventory, 1),
+            "9 of 10 tags read in 2.0 s (90.0 %), 1 missed.");
+  const std::string numbers = inventory_numbers(*summary.inventory);
+  EXPECT_NE(numbers.find("90.0 %"), std::string::npos);
+  EXPECT_NE(numbers.find("not reached"), std::string::npos);
+  const std::string tables = inventory_tables(summary);
+  EXPECT_NE(tables.find("near &lt;door&gt;"), std::string::npos);
+  EXPECT_NE(tables.find("yard: 1 tag (3 reads)"), std::string::npos);
+  EXPECT_NE(tables.find("1.50 m"), std::string::npos);
+}
+
+TEST(Inventory, ComesBackFromItsJson) {
+  Summary summary;
+  summary.method = "none";
+  summary.inventory = run_of(9.0, 0.5);
+  summary.inventory->without = {{"a", 3.0}};
+  const std::string text = to_json(summary);
+  EXPECT_EQ(to_json(summary_from_json(text, "summary.json")), text);
+}
+
+}  // namespace
+}  // namespace tagfield

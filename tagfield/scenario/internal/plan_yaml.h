@@ -1,0 +1,15 @@
+/// @file
+/// The section `plan` of a scenario.
+#pragma once
+
+#include "tagfield/scenario/internal/radio_yaml.h"
+#include "tagfield/scenario/plan_spec.h"
+#include "tagfield/scenario/yaml_map.h"
+
+namespace tagfield {
+
+/// All of the section. `duration_s` is how long tags are there where the section does not say.
+PlanSpec plan_of(YamlMap map, const RadioDefaults& radio, double duration_s,
+                 Diagnostics& diagnostics);
+
+}  // namespace tagfield

@@ -1,0 +1,18 @@
+/// @file
+/// The key `zones` of a scenario.
+#pragma once
+
+#include <vector>
+
+#include "tagfield/scenario/yaml_map.h"
+#include "tagfield/scenario/zones.h"
+
+namespace tagfield {
+
+/// A list of {name, box, readers}; no two of one name.
+std::vector<ZoneSpec> zones_of(YamlMap& scenario);
+
+/// [x0, y0, x1, y1], or [x0, y0, z0, x1, y1, z1], with corners in any order.
+Eigen::AlignedBox3d box_of(const YamlValue& value);
+
+}  // namespace tagfield

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/base/units.h"
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/scenario/plan_spec.h"
+
+namespace tagfield {
+namespace {
+
+const std::string kTags = "  tags: [{name: t, box: [0, 0, 0, 1, 0, 0], spacing_m: 0.5}]\n";
+const std::string kMount =
+    "    - {name: m, points: [[0, 0, 3]], rpy_deg: [[0, 90, 0]], profiles: [panel_6dbi]";
+
+std::string scenario(const std::string& plan) {
+  return "model: link_budget\nduration_s: 3\nplan:\n" + plan;
+}
+
+PlanSpec read(const std::string& text) {
+  Diagnostics unheard;
+  return load_scenario_to_plan(folder_of_test().with("plan.yaml", text), {}, unheard).plan;
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    read(text);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(PlanYaml, SpreadsPlacesAndMounts) {
+  const PlanSpec plan =
+      read(scenario(kTags + "  mounts:\n" + kMount + ", powers_dbm: [30, 27]}\n" +
+                    "    - {name: rail, line: [[0, 0, 2], [2, 0, 2]], spacing_m: 1, "
+                    "rpy_deg: [[0, 45, 0], [0, 45, 180]], zone: z}\n"));
+  ASSERT_EQ(plan.tags.size(), 1U);
+  EXPECT_EQ(plan.tags[0].places.size(), 3U);
+  EXPECT_EQ(plan.tags[0].count, 3U);
+  ASSERT_EQ(plan.mounts.size(), 4U);
+  EXPECT_EQ(plan.mounts[0].name, "m");
+  EXPECT_EQ(plan.mounts[0].power_dbm, (std::vector<double>{30.0, 27.0}));
+  EXPECT_EQ(plan.mounts[3].name, "rail_3");
+  EXPECT_EQ(plan.mounts[3].X_WA.size(), 2U);
+  EXPECT_TRUE((plan.mounts[0].X_WA[0].rotation * Eigen::Vector3d::UnitX())
+                  .isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_DOUBLE_EQ(plan.dwell_s, 3.0);
+}
+
+TEST(PlanYaml, SaysWhatIsWrongWhere) {
+  const auto says = [](const std::string& text, const char* words) {
+    const std::string said = complaint(text);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("plan.yaml"), std::string::npos) << said;
+  };
+  says("model: link_budget\nduration_s: 1\n", "has no 'plan'");
+  says(scenario(kTags), "has no 'mounts'");
+  says(scenario("  mounts:\n" + kMount + "}\n"), "has no 'tags'");
+  says(scenario(kTags + "  mounts: [{name: m, rpy_deg: [[0, 90, 0]]}]\n"), "one of 'points'");
+  says(scenario(kTags + "  mounts: [{name: m, points: [[0, 0, 3]]}]\n"), "rpy_deg");
+  says(scenario(kTags + "  mounts:\n" + kMount + "}\n" + kMount + "}\n"), "already");
+  says(scenario(kTags + "  mounts:\n" + kMount + "}\n  forbidden: [[-1, -1, 1, 1]]\n"),
+       "leaves no mount");
+  says(scenario(kTags + "  mounts:\n" + kMount +
+                ", channel_plan: etsi_low, "
+                "powers_dbm: [36]}\n"),
+       "more than the");
+  says(scenario(kTags + "  mounts:\n" + kMount + "}\n  limits: {antennas: 0}\n"), "1 to 256");
+  says(scenario(kTags + "  mounts:\n" + kMount + "}\n  limits: {cross_reads: 2}\n"), "0 to 1");
+  says(scenario(kTags + "  mounts:\n" + kMount + "}\n  lmits: {}\n"), "did you mean 'limits'");
+  says(scenario("  tags: [{name: t, box: [0, 0, 0, 1e4, 1e4, 1e4]}]\n  mounts:\n" + kMount + "}\n"),
+       "greater spacing_m");
+  says("duration_s: 1\nplan:\n" + kTags + "  mounts:\n" + kMount + "}\n", "model: multipath");
+}
+
+TEST(PlanYaml, TakesTheScenariosOwnTags) {
+  const PlanSpec plan =
+      read(scenario("  mounts:\n" + kMount + "}\n") + "tags: [{id: own, position: [1, 2, 3]}]\n");
+  ASSERT_EQ(plan.tags.size(), 1U);
+  EXPECT_EQ(plan.tags[0].name, "own");
+  EXPECT_EQ(plan.tags[0].places[0], Eigen::Vector3d(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace tagfield

@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""`tagfield plan`, inventories, and what leaves antennas out: outputs, resuming, bad input."""
+
+import base64
+import hashlib
+import re
+
+from common import case, check, check_equal, check_in, files_in, main, read_csv, read_json
+
+STORE = """name: store
+model: link_budget
+duration_s: 2
+plan:
+  tags:
+    - {name: shelf, zone: sales, box: [0, 0, 0.5, 4, 2, 1.5], spacing_m: [1, 1, 1],
+       orientations: any, count: 40}
+  mounts:
+    - {name: ceiling, surface: [[0, 0, 3], [4, 0, 3], [0, 2, 3]], spacing_m: 2, rpy_deg: [[0, 90, 0]],
+       cost: 100, profiles: [speedway_r420, panel_6dbi]}
+  limits: {antennas: 3, readers: 1, ports: 4}
+"""
+
+ROOM = """name: room
+model: link_budget
+duration_s: 2
+antennas:
+  - {name: west_1, reader: west, pose: [0, 0, 2, 0, 1.2, 0], profiles: [speedway_r420, panel_6dbi]}
+  - {name: west_2, reader: west, pose: [0, 2, 2, 0, 1.2, 0], profiles: [speedway_r420, panel_6dbi]}
+  - {name: east_1, reader: east, pose: [4, 1, 2, 0, 1.2, 3.1416], profiles: [speedway_r420, panel_6dbi]}
+tag_table: tags.csv
+"""
+TABLE = "tag,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,profile\n" + "".join(
+    f"t{i},{0.5 + i % 4},{i // 4 % 3},0.8,0,0,{0.3 * i:.2f},monza_r6\n" for i in range(24))
+
+
+def room(context):
+    context.write("tags.csv", TABLE)
+    return context.write("room.yaml", ROOM)
+
+
+@case
+def a_plan_is_a_folder_and_its_layout_runs(context):
+    path = context.write("store.yaml", STORE)
+    out = context.folder / "plan"
+    arguments = ("plan", path, "--samples", "8", "--check", "3", "--out", out)
+    said = context.run_well(*arguments).out
+    check_in("<- chosen", said, "what is said")
+    check_in("checked: ", said, "what is said")
+    plan = read_json(out / "plan.json")
+    check_equal(len(plan["layouts"]), 3, "layouts")
+    check_equal(plan["chosen_antennas"], 3, "chosen")
+    for layout in plan["layouts"]:
+        check(layout["score"] <= layout["bound"] + 1e-9, "bound")
+    check_equal(len(read_csv(out / "plan_layouts.csv")), 3, "rows of layouts")
+    check_equal(len(read_csv(out / "plan_antennas.csv")), 6, "rows of antennas")
+    check_equal(len(read_csv(out / "plan_places.csv")), 30, "rows of places")
+    before = files_in(out)
+    # What is computed is taken from there, and gives the same, with any number of threads.
+    context.run_well(*arguments, "--threads", "1")
+    check(files_in(out) == before, "files differ when planned again")
+    run = context.folder / "run"
+    context.run_well("run", out / "layout.yaml", "--out", run)
+    inventory = read_json(run / "summary.json")["inventory"]
+    check_equal(inventory["tags"], 40, "tags of the layout")
+    check_equal(inventory["zones"][0]["zone"], "sales", "zone")
+
+
+@case
+def scripts_run_by_their_hash(context):
+    path = context.write("store.yaml", STORE)
+    out = context.folder / "plan"
+    context.run_well("plan", path, "--samples", "8", "--out", out)
+    page = (out / "plan.html").read_text(encoding="utf-8")
+    allowed = re.findall(r"'(sha256-[^']+)'", page.split("script-src", 1)[1].split(";", 1)[0])
+    scripts = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    check_equal(len(scripts), 2, "scripts")
+    for script in scripts:
+        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+        check_in("sha256-" + digest, allowed, "hashes that the page lets run")
+    for word in ("http://", "https://", "nan", "inf<"):
+        check(word not in page, f"{word} in the page")
+
+
+@case
+def an_inventory_is_a_result(context):
+    path = room(context)
+    out = context.folder / "out"
+    said = context.run_well("run", path, "--leave-one-out", "--out", out).out
+    check_in("inventory: ", said, "what is said")
+    check_in("no places: all antennas stand still", said, "what is said")
+    summary = read_json(out / "summary.json")
+    inventory = summary["inventory"]
+    check_equal(summary["method"], "none", "method")
+    check_equal([row["name"] for row in inventory["readers"]], ["west", "east"], "readers")
+    check_equal([row["antenna"] for row in inventory["without"]], ["west_1", "west_2", "east_1"],
+                "antennas left out")
+    tags = {row["tag"] for row in read_csv(out / "reads.csv")}
+    check_equal(inventory["read"], len(tags), "tags read")
+    page = (out / "report.html").read_text(encoding="utf-8")
+    check(page.index("Tags read") < page.index("By antenna"), "the numbers come first")
+    check("located" not in page.split("<main>", 1)[0], "no word of places in the header")
+
+
+@case
+def antennas_by_pattern(context):
+    path = room(context)
+    out = context.folder / "out"
+    context.run_well("run", path, "--without", "west_*", "--out", out, "--no-page")
+    names = [row["name"] for row in read_json(out / "summary.json")["inventory"]["antennas"]]
+    check_equal(names, ["east_1"], "antennas that are left")
+    context.run_well("run", path, "--set", "antennas.west_*.transmit_power_dbm=1", "--set",
+                     "antennas.east_1.transmit_power_dbm=1", "--out", out, "--no-page")
+    check(read_json(out / "summary.json")["inventory"]["read"] < 3, "hardly any power is left")
+    context.run_well("coverage", path, "--antenna", "west_*", "--step", "1", "--out",
+                     context.folder / "coverage")
+    told = read_json(context.folder / "coverage/coverage.json")
+    check_equal([row["name"] for row in told["antennas"]], ["west_1", "west_2"], "antennas")
+
+
+@case
+def coverage_says_what_the_run_reads(context):
+    path = room(context)
+    context.run_well("coverage", path, "--step", "1", "--out", context.folder / "coverage")
+    expected = read_json(context.folder / "coverage/coverage.json")["expected_read"]
+    read = []
+    for seed in range(1, 6):
+        out = context.folder / f"out{seed}"
+        context.run_well("run", path, "--seed", str(seed), "--out", out, "--no-page")
+        read.append(read_json(out / "summary.json")["inventory"]["read"])
+    inside = [one for one in read if expected["low"] <= one <= expected["high"]]
+    check(len(inside) >= 4, f"{read} are not within {expected}")
+
+
+@case
+def another_scenarios_results_stay(context):
+    path = context.write("store.yaml", STORE)
+    out = context.folder / "out"
+    context.run_well("plan", path, "--samples", "8", "--out", out)
+    before = files_in(out)
+    result = context.run("run", room(context), "--out", out)
+    check_equal(result.code, 2, "exit code")
+    check_in("holds results of the scenario 'store', not of 'room'", result.err, "stderr")
+    check(files_in(out) == before, "files changed")
+    context.run_well("run", room(context), "--out", out, "--force", "--no-page")
+
+
+@case
+def bad_plans(context):
+    out = context.folder / "out"
+    for change, says in (
+            (("antennas: 3", "cost: 10"), "plan.limits.cost lets no antenna in"),
+            (("0.5, 4, 2, 1.5]", "0.5, 4, 2]"), "6 numbers"),
+            (("rpy_deg: [[0, 90, 0]]", "rpy_deg: [[0, 90]]"), "rpy_deg"),
+            (("ports: 4", "ports: 0"), "must be from 1 to 256"),
+            (("model: link_budget", "model: paper"), "needs model: link_budget"),
+            (("panel_6dbi", "panel_7dbi"), "did you mean 'panel_6dbi'"),
+            (("plan:", "plann:"), "unknown key 'plann'")):
+        path = context.write("bad.yaml", STORE.replace(*change))
+        result = context.run("plan", path, "--out", out)
+        check_equal((result.code, result.err.count("\n")), (2, 1), f"code and lines of {change}")
+        check_in(says, result.err, f"stderr of {change}")
+    path = context.write("store.yaml", STORE)
+    for arguments, says in ((["--samples", "1"], "samples"), (["--exact", "0"], "exact"),
+                            (["--set", "plan.mounts.roof.cost=1"], "no element 'roof'")):
+        result = context.run("plan", path, *arguments, "--out", out)
+        check_equal(result.code, 2, f"exit code of {arguments}")
+        check_in(says, result.err, f"stderr of {arguments}")
+
+
+if __name__ == "__main__":
+    main()
