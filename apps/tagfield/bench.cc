@@ -4,11 +4,10 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
-#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/method_text.h"
-#include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/suite_recording.h"
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/bench_page.h"
@@ -46,15 +45,6 @@ Suite suite_of(const BenchArguments& arguments) {
   suite.count = *arguments.seeds;
   for (Condition& condition : suite.conditions) condition.count.reset();
   return suite;
-}
-
-RecordedReads read_recording(const SuiteRecording& recording, Diagnostics& diagnostics) {
-  ReadsAndPoses tables =
-      read_tables("recording", recording.reads, recording.poses, recording.format);
-  warn_of_odd_reads(recording.reads, tables.reads, diagnostics);
-  warn_of_odd_poses(recording.poses.empty() ? recording.reads : recording.poses, tables.poses,
-                    diagnostics);
-  return {std::move(tables.reads), std::move(tables.poses)};
 }
 
 Bench run_with_progress(const PreparedSuite& prepared, int threads) {

@@ -34,6 +34,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_explain_command(app, chosen);
   tagfield::add_coverage_command(app, chosen);
   tagfield::add_bench_command(app, chosen);
+  tagfield::add_sweep_command(app, chosen);
   tagfield::add_events_command(app, chosen);
   tagfield::add_stream_command(app, chosen);
   tagfield::add_serve_command(app, chosen);
@@ -51,7 +52,7 @@ int parse_and_run(int argc, char** argv) {
     fmt::print(
         stderr,
         "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, bench, events, stream, serve, view or gazebo (see tagfield --help)\n");
+        " coverage, bench, sweep, events, stream, serve, view or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

@@ -29,6 +29,7 @@ enum class Purpose : std::uint64_t {
   kTracking = 16,      ///< Particles of a filter that tracks a tag.
   kTagSearch = 17,     ///< Particles that stand for the places where a tag may be.
   kFault = 18,         ///< What faulty reads say instead, in a comparison of methods.
+  kSweep = 19,         ///< Values of a scenario's keys that are tried.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.
