@@ -61,13 +61,17 @@ void Session::abort(int code) {
 }
 
 struct SharedWork::Parts {
+  Parts(const Session& of, std::function<std::optional<Piece>()> deal_next, std::uint64_t count)
+      : session(of), deal(std::move(deal_next)), left(count), ranks_at_work(of.ranks() - 1) {}
+
   const Session& session;
   std::function<std::optional<Piece>()> deal;
-  std::uint64_t left = 0;
+  std::uint64_t left;
   std::mutex mutex;  ///< Of the two above.
   std::deque<Piece> in_hand;
   bool nothing_left = false;
-  std::jthread dealer;
+  int ranks_at_work;    ///< Others, of which the dealer alone keeps count.
+  std::jthread dealer;  ///< Ends before all that it uses.
 
   /// Up to a share of what is left for each rank, flat.
   std::vector<std::uint64_t> handful() {
@@ -120,13 +124,11 @@ struct SharedWork::Parts {
     }
     nothing_left = in_hand.empty();
   }
-
-  int ranks_at_work = session.ranks() - 1;
 };
 
 SharedWork::SharedWork(const Session& session, std::function<std::optional<Piece>()> deal,
                        std::uint64_t count)
-    : parts_(new Parts{session, std::move(deal), count}) {
+    : parts_(std::make_unique<Parts>(session, std::move(deal), count)) {
   if (session.rank() == 0) {
     parts_->dealer = std::jthread([parts = parts_.get()] { parts->deal_to_others(); });
   }

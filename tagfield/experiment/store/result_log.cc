@@ -142,11 +142,12 @@ void read_result_log(const std::string& path, const LogHead& head, Diagnostics& 
   });
 }
 
-ResultLog::ResultLog(const std::string& path, const LogHead& head, double save_every_s)
+ResultLog::ResultLog(const std::string& path, const LogHead& head, double save_every_s,
+                     LogStart start)
     : path_(path), save_every_s_(save_every_s) {
   open_and_lock();
   try {
-    go_on(head);
+    begin(head, start);
   } catch (const Error&) {
     ::close(file_);
     throw;
@@ -176,8 +177,14 @@ void ResultLog::open_and_lock() {
   fail({path_, 0}, "is being written by another process, which does the same runs; let it finish");
 }
 
-void ResultLog::go_on(const LogHead& head) {
-  size_ = whole_size(path_, head);
+void ResultLog::begin(const LogHead& head, LogStart start) {
+  if (start == LogStart::kGoOn) {
+    size_ = whole_size(path_, head);
+  } else {
+    read_lines(path_, [&](std::string_view line, std::uint64_t offset) {
+      if (offset > 0) dropped_ += line.size();
+    });
+  }
   if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
     fail({path_, 0}, fmt::format("can't be written: {}", std::strerror(errno)));
   }

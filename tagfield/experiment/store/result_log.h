@@ -50,6 +50,9 @@ struct LogPlace {
   std::uint64_t length = 0;  ///< Without the line's end.
 };
 
+/// What becomes of the results that a log holds already.
+enum class LogStart { kGoOn, kAnew };
+
 /// Writes a log. Safe to be used by several threads.
 class ResultLog {
  public:
@@ -58,10 +61,14 @@ class ResultLog {
   /// or when the next result comes if that is later: on file systems that many machines share, few
   /// large writes are what costs least. Throws Error where the file can't be written to, is of
   /// other work (LogHead), or another process is at it.
-  ResultLog(const std::string& path, const LogHead& head, double save_every_s = 0.0);
+  ResultLog(const std::string& path, const LogHead& head, double save_every_s = 0.0,
+            LogStart start = LogStart::kGoOn);
   ~ResultLog();
   ResultLog(const ResultLog&) = delete;
   ResultLog& operator=(const ResultLog&) = delete;
+
+  /// Bytes of results that were there and went, with LogStart::kAnew.
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
   /// Throws Error where the disk is full; what was written before remains whole.
   void add(const LoggedRun& run);
@@ -71,13 +78,14 @@ class ResultLog {
  private:
   using Clock = std::chrono::steady_clock;
   void open_and_lock();
-  void go_on(const LogHead& head);
+  void begin(const LogHead& head, LogStart start);
   void save();
 
   std::string path_;
   double save_every_s_;
   int file_ = -1;
   std::uint64_t size_ = 0;  ///< Of what is whole in the file.
+  std::uint64_t dropped_ = 0;
   std::string waiting_;
   Clock::time_point saved_ = Clock::now();
   std::mutex mutex_;
