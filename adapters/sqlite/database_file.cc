@@ -36,21 +36,22 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Puts a cell into its place in a statement.
-struct BindCell {
-  sqlite3_stmt* statement;
-  int place;
-  int operator()(std::monostate) const { return sqlite3_bind_null(statement, place); }
-  int operator()(std::int64_t number) const { return sqlite3_bind_int64(statement, place, number); }
-  int operator()(double number) const {
-    return std::isfinite(number) ? sqlite3_bind_double(statement, place, number)
-                                 : sqlite3_bind_null(statement, place);
+/// Puts a cell into its place in a statement. Gives SQLite's result.
+int bind_cell(sqlite3_stmt* statement, int place, const Cell& cell) {
+  switch (cell.kind) {
+    case Cell::Kind::kWhole:
+      return sqlite3_bind_int64(statement, place, cell.whole);
+    case Cell::Kind::kNumber:
+      if (!std::isfinite(cell.number)) break;
+      return sqlite3_bind_double(statement, place, cell.number);
+    case Cell::Kind::kText:
+      return sqlite3_bind_text64(statement, place, cell.text.data(), cell.text.size(), nullptr,
+                                 SQLITE_UTF8);
+    case Cell::Kind::kUnknown:
+      break;
   }
-  int operator()(const std::string& text) const {
-    return sqlite3_bind_text64(statement, place, text.data(), text.size(), SQLITE_STATIC,
-                               SQLITE_UTF8);
-  }
-};
+  return sqlite3_bind_null(statement, place);
+}
 
 }  // namespace
 
@@ -108,8 +109,9 @@ void DatabaseFile::add_table(const TableForm& form, const std::vector<std::strin
 void DatabaseFile::add_row(const std::string& table, const std::vector<Cell>& cells) {
   sqlite3_stmt* const statement = parts_->insertions.at(table).get();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int bound = std::visit(BindCell{statement, static_cast<int>(i) + 1}, cells[i]);
-    if (bound != SQLITE_OK) parts_->fail_to_write();
+    if (bind_cell(statement, static_cast<int>(i) + 1, cells[i]) != SQLITE_OK) {
+      parts_->fail_to_write();
+    }
   }
   if (sqlite3_step(statement) != SQLITE_DONE) parts_->fail_to_write();
   sqlite3_reset(statement);

@@ -81,15 +81,14 @@ class GrowingTables {
     give_tags(results, [&](const std::vector<Cell>& cells) { database_->add_row("tags", cells); });
   }
 
-  void finish(const SweepResults& results, const std::string& suite, const std::string& folder) {
+  void finish(const SweepResults& results) {
     if (!database_) return;
     for (std::uint64_t point = 0; point < results.plan.points.size(); ++point) {
       database_->add_row("points", point_cells(results, point));
     }
     for (const SweepRow& row : results.rows) database_->add_row("results", result_cells(row));
     for (const FailedRun& run : results.failed) {
-      database_->add_row("failures",
-                         failure_cells(run, command_again(suite, folder, to_string(run.key))));
+      database_->add_row("failures", failure_cells(run));
     }
     database_->finish();
   }
@@ -209,7 +208,7 @@ Merged merge_sweep(const std::string& folder, bool with_page) {
   StagedFolder staged(folder);
   GrowingTables tables(found.plan, staged, folder);
   collect_points(found, index, tables, results);
-  tables.finish(results, found.source.suite, folder);
+  tables.finish(results);
   staged.add("points.csv", sweep_points_to_csv(results));
   staged.add("results.json", sweep_to_json(results));
   if (with_page) stage_pages(results, staged);

@@ -9,33 +9,42 @@
 namespace tagfield {
 namespace {
 
-/// A cell as a field of CSV.
-struct CellText {
-  std::string operator()(std::monostate) const { return ""; }
-  std::string operator()(std::int64_t number) const { return fmt::format("{}", number); }
-  std::string operator()(double number) const {
-    return std::isfinite(number) ? fmt::format("{}", number) : "";
+std::string field_of(const Cell& cell) {
+  switch (cell.kind) {
+    case Cell::Kind::kUnknown:
+      return "";
+    case Cell::Kind::kWhole:
+      return fmt::format("{}", cell.whole);
+    case Cell::Kind::kNumber:
+      return std::isfinite(cell.number) ? fmt::format("{}", cell.number) : "";
+    case Cell::Kind::kText:
+      return csv_field(cell.text);
   }
-  std::string operator()(const std::string& text) const { return csv_field(text); }
-};
+  return "";
+}
 
 }  // namespace
 
 std::string csv_header(const TableForm& form) {
   std::string line;
   for (const std::string& column : form.columns) {
-    line += (line.empty() ? "" : ",") + csv_field(column);
+    if (!line.empty()) line += ',';
+    line += csv_field(column);
   }
-  return line + "\n";
+  line += '\n';
+  return line;
 }
 
 std::string csv_row(const std::vector<Cell>& cells) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) line += ",";
-    line += std::visit(CellText{}, cells[i]);
+  bool is_first = true;
+  for (const Cell& cell : cells) {
+    if (!is_first) line += ',';
+    is_first = false;
+    line += field_of(cell);
   }
-  return line + "\n";
+  line += '\n';
+  return line;
 }
 
 }  // namespace tagfield

@@ -3,14 +3,29 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
 namespace tagfield {
 
-/// Nothing known, a whole number, a number (not finite: nothing known), or text.
-using Cell = std::variant<std::monostate, std::int64_t, double, std::string>;
+/// What stands in a row and column: nothing known, a whole number, a number, or text.
+struct Cell {
+  enum class Kind { kUnknown, kWhole, kNumber, kText };
+
+  Cell() = default;
+  explicit Cell(std::int64_t value) : kind(Kind::kWhole), whole(value) {}
+  explicit Cell(double value) : kind(Kind::kNumber), number(value) {}
+  explicit Cell(std::string value) : kind(Kind::kText), text(std::move(value)) {}
+  explicit Cell(const std::optional<double>& value)
+      : kind(value ? Kind::kNumber : Kind::kUnknown), number(value.value_or(0.0)) {}
+
+  Kind kind = Kind::kUnknown;
+  std::int64_t whole = 0;
+  double number = 0.0;  ///< Where it is not finite, it is written as what is not known.
+  std::string text;
+};
 
 /// What a table looks like.
 struct TableForm {

@@ -207,10 +207,10 @@ void ResultLog::finish() {
 }
 
 void ResultLog::save() {
+  static_cast<void>(::lseek(file_, static_cast<off_t>(size_), SEEK_SET));
   std::size_t done = 0;
   while (done < waiting_.size()) {
-    const ssize_t count = ::pwrite(file_, waiting_.data() + done, waiting_.size() - done,
-                                   static_cast<off_t>(size_ + done));
+    const ssize_t count = ::write(file_, waiting_.data() + done, waiting_.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       const int why = count < 0 ? errno : ENOSPC;

@@ -12,21 +12,16 @@ namespace {
 /// Seeds can be more than a database's whole numbers hold.
 Cell whole_cell(std::uint64_t number) {
   if (number > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
-    return std::to_string(number);
+    return Cell(std::to_string(number));
   }
-  return static_cast<std::int64_t>(number);
-}
-
-Cell number_cell(const std::optional<double>& number) {
-  if (!number) return std::monostate{};
-  return *number;
+  return Cell(static_cast<std::int64_t>(number));
 }
 
 /// A number where it is one.
 Cell setting_cell(const std::string& value) {
-  if (value.empty()) return std::monostate{};
-  if (const auto number = parse_number(value)) return *number;
-  return value;
+  if (value.empty()) return Cell();
+  if (const auto number = parse_number(value)) return Cell(*number);
+  return Cell(value);
 }
 
 void append_cells(const std::vector<Cell>& more, std::vector<Cell>& cells) {
@@ -60,21 +55,25 @@ std::vector<Cell> without_first(const std::vector<Cell>& cells) {
   return {cells.begin() + 1, cells.end()};
 }
 
-/// A cell as JSON.
-struct CellJson {
-  using Json = nlohmann::ordered_json;
-  Json operator()(std::monostate) const { return nullptr; }
-  Json operator()(std::int64_t number) const { return number; }
-  Json operator()(double number) const {
-    return std::isfinite(number) ? Json(number) : Json(nullptr);
+nlohmann::ordered_json json_of_cell(const Cell& cell) {
+  switch (cell.kind) {
+    case Cell::Kind::kWhole:
+      return cell.whole;
+    case Cell::Kind::kNumber:
+      if (!std::isfinite(cell.number)) break;
+      return cell.number;
+    case Cell::Kind::kText:
+      return cell.text;
+    case Cell::Kind::kUnknown:
+      break;
   }
-  Json operator()(const std::string& text) const { return text; }
-};
+  return nullptr;
+}
 
 nlohmann::ordered_json object_of(const TableForm& form, const std::vector<Cell>& cells) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    json[form.columns[i]] = std::visit(CellJson{}, cells[i]);
+    json[form.columns[i]] = json_of_cell(cells[i]);
   }
   return json;
 }
@@ -103,7 +102,7 @@ TableForm points_form(const SweepPlan& plan) {
 std::vector<Cell> point_cells(const SweepResults& results, std::uint64_t point) {
   const SweepPoint& of = results.plan.points[point];
   std::vector<Cell> cells = {whole_cell(point), whole_cell(rung_of(results, point) + 1),
-                             results.plan.suite.conditions[of.condition].name};
+                             Cell(results.plan.suite.conditions[of.condition].name)};
   for (const std::string& key : results.plan.keys) cells.push_back(setting_cell(value_at(of, key)));
   return cells;
 }
@@ -116,25 +115,21 @@ TableForm results_form() {
 }
 
 std::vector<Cell> result_cells(const SweepRow& row) {
-  std::vector<Cell> cells = {whole_cell(row.point),
-                             row.name,
-                             row.method,
-                             whole_cell(row.runs),
-                             whole_cell(row.failed),
-                             whole_cell(row.tags),
-                             whole_cell(row.located),
-                             whole_cell(row.ambiguous),
-                             whole_cell(row.not_located),
-                             whole_cell(row.wrong),
-                             whole_cell(row.false_claims)};
-  const auto error = [&](double ErrorStatistics::*of) {
-    return row.error_m ? Cell((*row.error_m).*of) : Cell();
+  std::vector<Cell> cells = {whole_cell(row.point), Cell(row.name), Cell(row.method)};
+  for (const std::size_t count : {row.runs, row.failed, row.tags, row.located, row.ambiguous,
+                                  row.not_located, row.wrong, row.false_claims}) {
+    cells.push_back(whole_cell(count));
+  }
+  const auto error = [&](double ErrorStatistics::*of) -> std::optional<double> {
+    if (!row.error_m) return std::nullopt;
+    return (*row.error_m).*of;
   };
-  append_cells({error(&ErrorStatistics::mean), number_cell(row.mean_standard_error_m),
-                error(&ErrorStatistics::median), error(&ErrorStatistics::p95),
-                error(&ErrorStatistics::max), number_cell(row.error_over_expected),
-                number_cell(row.ratio_to_bound), number_cell(row.nees_per_dof)},
-               cells);
+  for (const std::optional<double>& number :
+       {error(&ErrorStatistics::mean), row.mean_standard_error_m, error(&ErrorStatistics::median),
+        error(&ErrorStatistics::p95), error(&ErrorStatistics::max), row.error_over_expected,
+        row.ratio_to_bound, row.nees_per_dof}) {
+    cells.emplace_back(number);
+  }
   return cells;
 }
 
@@ -147,10 +142,10 @@ TableForm runs_form() {
 void give_runs(const PointResults& results, const TakeRow& take) {
   for (const BenchEntry& entry : results.entries) {
     for (const MethodRun& run : entry.runs) {
-      take({whole_cell(results.point), entry.name, whole_cell(run.seed), run.method,
+      take({whole_cell(results.point), Cell(entry.name), whole_cell(run.seed), Cell(run.method),
             whole_cell(run.tags.size()), whole_cell(count_of(run, Verdict::kLocated)),
             whole_cell(count_of(run, Verdict::kAmbiguous)),
-            whole_cell(count_of(run, Verdict::kNotLocated)), number_cell(mean_error_of(run))});
+            whole_cell(count_of(run, Verdict::kNotLocated)), Cell(mean_error_of(run))});
     }
   }
 }
@@ -168,13 +163,13 @@ void give_tags(const PointResults& results, const TakeRow& take) {
       for (const TagRecord& tag : run.tags) {
         const bool placed = tag.verdict != Verdict::kNotLocated;
         std::vector<Cell> cells = {whole_cell(results.point),
-                                   entry.name,
+                                   Cell(entry.name),
                                    whole_cell(run.seed),
-                                   tag.tag,
-                                   to_string(tag.verdict),
-                                   tag.reason,
+                                   Cell(tag.tag),
+                                   Cell(to_string(tag.verdict)),
+                                   Cell(tag.reason),
                                    whole_cell(tag.reads),
-                                   number_cell(tag.error),
+                                   Cell(tag.error),
                                    placed ? Cell(tag.expected_error) : Cell(),
                                    whole_cell(tag.false_claim ? 1 : 0)};
         append_place(tag.truth, cells);
@@ -185,10 +180,11 @@ void give_tags(const PointResults& results, const TakeRow& take) {
   }
 }
 
-TableForm failures_form() { return {"failures", {"point", "seed", "reason", "run_again_by"}}; }
+TableForm failures_form() { return {"failures", {"point", "seed", "reason", "again"}}; }
 
-std::vector<Cell> failure_cells(const FailedRun& run, const std::string& command) {
-  return {whole_cell(run.key.point), whole_cell(run.key.seed), run.reason, command};
+std::vector<Cell> failure_cells(const FailedRun& run) {
+  return {whole_cell(run.key.point), whole_cell(run.key.seed), Cell(run.reason),
+          Cell("--again " + to_string(run.key))};
 }
 
 std::string sweep_points_to_csv(const SweepResults& results) {

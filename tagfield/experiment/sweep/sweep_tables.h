@@ -31,9 +31,9 @@ void give_runs(const PointResults& results, const TakeRow& take);
 TableForm tags_form();
 void give_tags(const PointResults& results, const TakeRow& take);
 
-/// `failures`: runs that gave no result, why, and the command that runs them again.
+/// `failures`: runs that gave no result, why, and the option that runs them again.
 TableForm failures_form();
-std::vector<Cell> failure_cells(const FailedRun& run, const std::string& command);
+std::vector<Cell> failure_cells(const FailedRun& run);
 
 /// points.csv: `points` and `results` side by side.
 std::string sweep_points_to_csv(const SweepResults& results);
