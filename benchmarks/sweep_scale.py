@@ -4,6 +4,7 @@
     benchmarks/sweep_scale.py [--runs 1000000] [--run-s 0.3] [--metadata-per-s 10000]
                               [--writes-per-s 5000] [--start-s 0.3] [--save-every-s 5]
     benchmarks/sweep_scale.py --merge LOGS [--runs-each 10] [--tagfield build/release/bin/tagfield]
+    benchmarks/sweep_scale.py --efficiency SEEDS [--tagfield build/release/bin/tagfield]
 
 Without --merge: a queue of metadata operations and one of small synchronous writes, each served at a
 constant rate, and N nodes that start within a second, do their share of the runs and end. For three ways
@@ -12,6 +13,10 @@ to keep results (a file for each run; each result appended at once, all logs rea
 take over the time until the last node is done. How a run's time scatters: uniformly by ±50 %.
 
 With --merge: makes so many logs of real runs, under other keys, and takes the time of a merge.
+
+With --efficiency: so many seeds of the paper's warehouse by one process and by two at the same time, as
+shards and under mpirun. Efficiency is by CPU time, so that other work on the machine counts little: that of
+the one process over twice that of the busier of the two. Also says what a million runs would take.
 """
 
 import argparse
@@ -42,6 +47,7 @@ def arguments():
     parser.add_argument("--start-s", type=float, default=0.3)
     parser.add_argument("--save-every-s", type=float, default=5.0)
     parser.add_argument("--merge", type=int)
+    parser.add_argument("--efficiency", type=int)
     parser.add_argument("--runs-each", type=int, default=10)
     parser.add_argument("--tagfield", default=ROOT / "build/release/bin/tagfield")
     return parser.parse_args()
@@ -155,8 +161,54 @@ def print_merge(args):
               f"{used.ru_maxrss / 1e3:.0f} MB of memory; results.sqlite {database / 1e6:.0f} MB")
 
 
+def cpu_seconds_of(commands):
+    """CPU time of each command with all that it starts, all run at the same time."""
+    code = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)"
+            ".returncode; used = resource.getrusage(resource.RUSAGE_CHILDREN); "
+            "print(used.ru_utime + used.ru_stime); sys.exit(code)")
+    started = [subprocess.Popen([sys.executable, "-c", code, *map(str, command)], stdout=subprocess.PIPE)
+               for command in commands]
+    seconds = [float(process.communicate()[0]) for process in started]
+    if any(process.returncode != 0 for process in started):
+        sys.exit("a sweep did not end well")
+    return seconds
+
+
+def logged_seconds(folder):
+    """CPU time of the runs in each log."""
+    return [sum(float(line.split(" ", 4)[3]) for line in log.read_text(encoding="utf-8").splitlines()[1:])
+            for log in sorted((folder / "shards").rglob("*.log"))]
+
+
+def print_efficiency(args):
+    program = pathlib.Path(args.tagfield)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        suite = folder / "suite.yaml"
+        suite.write_text(f"scenario: {ROOT}/scenarios/paper_warehouse.yaml\nseeds: {args.efficiency}\n"
+                         "methods: [hyperbola]\nconditions: [{name: as it is}]\n", encoding="utf-8")
+        sweep = [program, "sweep", suite, "--threads", "1"]
+        (one,) = cpu_seconds_of([[*sweep, "--shard", "1/1", "--out", folder / "one"]])
+        (runs,) = logged_seconds(folder / "one")
+        print(f"1 process: {one:.2f} s of CPU for {args.efficiency} runs, {runs / args.efficiency * 1e3:.1f} ms "
+              f"each, {one - runs:.2f} s around them; a million: {runs / args.efficiency * 1e6 / 3600:.1f} "
+              "core hours")
+        two = cpu_seconds_of([[*sweep, "--shard", f"{i}/2", "--out", folder / "two"] for i in (1, 2)])
+        print(f"2 shards: {two[0]:.2f} and {two[1]:.2f} s, efficiency {one / (2 * max(two)):.3f}")
+        mpi = program.parent / "tagfield_sweep_mpi"
+        if mpi.exists():
+            (both,) = cpu_seconds_of([["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", 2, mpi, suite,
+                                       "--out", folder / "mpi", "--no-page"]])
+            ranks = logged_seconds(folder / "mpi")
+            print(f"mpirun -np 2, merge included: {both:.2f} s in all, {ranks[0]:.2f} and {ranks[1]:.2f} s of it "
+                  f"runs, efficiency {one / both:.3f}")
+
+
 def main():
     args = arguments()
+    if args.efficiency:
+        print_efficiency(args)
+        return 0
     if args.merge:
         print_merge(args)
     else:

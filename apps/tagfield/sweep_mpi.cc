@@ -88,8 +88,8 @@ int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
   }
 }
 
-/// Throws CLI::ParseError.
-void parse(int argc, char** argv, MpiArguments& arguments) {
+/// The exit code where that is all, as after --help.
+std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
   CLI::App app(
       "Does a sweep (see tagfield sweep --help) with all ranks of mpirun, each of which takes "
       "runs\n"
@@ -103,37 +103,47 @@ void parse(int argc, char** argv, MpiArguments& arguments) {
       ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   app.footer("For example:\n  mpirun -np 4 tagfield_sweep_mpi SUITE --out DIR");
-  app.parse(argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "tagfield_sweep_mpi: {} (see --help)\n", error.what());
+    return kExitBadInput;
+  }
+  return std::nullopt;
 }
 
 /// One rank alone says what is wrong with what all were given.
-int complain(const mpi::Session& session, const std::string& what, int code) {
+[[noreturn]] void complain(const mpi::Session& session, const std::string& what, int code) {
   fmt::print(stderr, "tagfield_sweep_mpi: {}{}\n",
              session.ranks() > 1 ? fmt::format("rank {}: ", session.rank()) : "", what);
   std::fflush(stderr);
   mpi::Session::abort(code);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_sweep(int argc, char** argv) {
   MpiArguments arguments;
-  try {
-    parse(argc, argv, arguments);
-  } catch (const CLI::Success& success) {
-    return CLI::App().exit(success);
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "tagfield_sweep_mpi: {} (see --help)\n", error.what());
-    return kExitBadInput;
-  }
-  mpi::Session session(argc, argv);
+  if (const std::optional<int> code = parse(argc, argv, arguments)) return *code;
+  const mpi::Session session(argc, argv);
   try {
     return sweep_together(session, arguments);
   } catch (const Error& error) {
-    return complain(session, error.what(), kExitBadInput);
+    complain(session, error.what(), kExitBadInput);
   } catch (const std::bad_alloc&) {
-    return complain(session, "there is not enough memory for this", kExitBadInput);
+    complain(session, "there is not enough memory for this", kExitBadInput);
   } catch (const std::exception& error) {
-    return complain(session, fmt::format("internal error: {}", error.what()), kExitFailure);
+    complain(session, fmt::format("internal error: {}", error.what()), kExitFailure);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_sweep(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "tagfield_sweep_mpi: {}\n", error.what());
+    return kExitFailure;
   }
 }

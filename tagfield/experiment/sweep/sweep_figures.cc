@@ -236,11 +236,14 @@ Multiples panels_of_grid(const SweepResults& results, const Metric& metric) {
 
 Multiples panels_by_key(const SweepResults& results, const Metric& metric) {
   Multiples all;
+  const std::size_t step = thinning(results.rows.size(), kMostMarks);
+  if (step > 1) all.caption = fmt::format(" One in {} of the points is drawn.", step);
   for (const std::string& key : results.plan.keys) {
     if (all.panels.size() == kMostPanels) break;
     const KeyAxis axis = key_axis(results.plan, key);
     Panel panel{key, {}};
-    for (const SweepRow& row : results.rows) {
+    for (std::size_t i = 0; i < results.rows.size(); i += step) {
+      const SweepRow& row = results.rows[i];
       const auto measured = metric.of(row);
       if (!measured) continue;
       panel.marks.push_back(mark_of_row(results, row, metric, {measured->value, 0.0, 0.0},
