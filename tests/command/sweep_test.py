@@ -156,7 +156,7 @@ def halving_gives_more_seeds_to_the_better(context):
     design = ("sweep:\n  list: [{pose.sigma_m: 0.2}, {pose.sigma_m: 0.001}, {pose.sigma_m: 0.1},\n"
               "         {pose.sigma_m: 0.4}, {pose.sigma_m: 0.003}]\n"
               "  adaptive: {target: mean_m, first_seeds: 2, keep_one_in: 2}\n")
-    suite = suite_of(context, design, seeds=8, methods="[ml]")
+    suite = suite_of(context, design, seeds=8, methods="[hyperbola]")
     context.run_well("sweep", suite, "--out", "one")
     expected = results_of(context.folder / "one")
     rows = read_csv(context.folder / "one/points.csv")
@@ -268,7 +268,7 @@ def bench_and_runs_go_on(context):
 @case
 def resume_takes_what_was_kept(context):
     """A result in the log is not computed again, and one of another suite is refused."""
-    suite = suite_of(context, "conditions: [{name: a}]\n", seeds=3, methods="[ml]")
+    suite = suite_of(context, "conditions: [{name: a}]\n", seeds=3, methods="[hyperbola]")
     context.run_well("sweep", suite, "--out", "swept", "--no-page")
     log = (context.folder / "swept/shards/of_1/1.log").read_text(encoding="utf-8").splitlines()
     result = context.run("bench", suite, "--out", "bench", "--resume")
@@ -333,7 +333,7 @@ def a_shard_that_is_there_twice_is_refused(context):
 
 @case
 def results_that_differ_are_refused_and_copies_are_not(context):
-    suite = suite_of(context, seeds=2, methods="[ml]")
+    suite = suite_of(context, seeds=2, methods="[hyperbola]")
     folder = shards(context, suite, 2, "out")
     expected = results_of(folder)
     (folder / "shards/copy").mkdir()
@@ -344,7 +344,7 @@ def results_that_differ_are_refused_and_copies_are_not(context):
 
 @case
 def damage_costs_the_runs_it_hits(context):
-    suite = suite_of(context, seeds=2, methods="[ml]")
+    suite = suite_of(context, seeds=2, methods="[hyperbola]")
     folder = shards(context, suite, 2, "out")
     expected = results_of(folder)
     log = folder / "shards/of_2/2.log"
@@ -365,7 +365,7 @@ def failures_are_listed_with_what_runs_them_again(context):
     context.write("world.sdf", "<sdf version='1.7'><world name='w'/></sdf>")
     away = context.write("away.sdf", "<sdf version='1.7'><world name='w'/></sdf>")
     suite = suite_of(context, "sweep: {grid: {world.path: [world.sdf, away.sdf]}}\n", seeds=2,
-                     methods="[ml]")
+                     methods="[hyperbola]")
     context.write("small.yaml", SCENARIO + "world: {path: world.sdf}\n")
     whole = results_of(shards(context, suite, 1, "whole"))
     work = context.folder / "whole/sweep.json"
@@ -396,7 +396,7 @@ def a_full_disk_loses_nothing(context):
                  context.source / "tests/command/faults.c", "-ldl"])
     if built.code != 0:
         raise Skip(f"cc does not build faults.c: {built.stderr[:200]}")
-    suite = suite_of(context, seeds=2, methods="[ml]")
+    suite = suite_of(context, seeds=2, methods="[hyperbola]")
     expected = results_of(shards(context, suite, 1, "whole"))
     for first in (1, 3, 6):
         folder = context.folder / f"full_{first}"
@@ -481,7 +481,7 @@ def mpi_ranks_make_the_same_bytes(context):
 
 @case
 def scripts_submit_what_they_say(context):
-    suite = suite_of(context, seeds=1, methods="[ml]")
+    suite = suite_of(context, seeds=1, methods="[hyperbola]")
     expected = results_of(shards(context, suite, 1, "one"))
     scripts = context.source / "examples/09_cluster"
     environment = ["env", f"TAGFIELD={context.tagfield}"]

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kSmall = TAGFIELD_SOURCE_DIR "/scenarios/z_axis.yaml";
-const LogHead kHead{"1", "a"};
+const std::string kSmallScenario = TAGFIELD_SOURCE_DIR "/scenarios/z_axis.yaml";
+const LogHead kStoreHead{"1", "a"};
 
 /// A folder of the test's own.
 class RunStoreTest : public ::testing::Test {
@@ -93,16 +93,16 @@ TEST(MethodRunsJson, ComplainsOfOtherText) {
 
 TEST_F(RunStoreTest, KeptSeedsMakeTheSameSummary) {
   const Scenario scenario = load_scenario(
-      kSmall,
+      kSmallScenario,
       {{"pose.source", "noisy"}, {"pose.sigma_m", "0.01"}, {"localization.compare", "[ml]"}});
   Diagnostics whole_warnings;
   const auto whole = run_seeds(scenario, 3, 4, {}, whole_warnings);
   const std::string log = path("resume.log");
   {
-    RunStore store(log, kHead, Resume::kNo, diagnostics_);
+    RunStore store(log, kStoreHead, Resume::kNo, diagnostics_);
     run_seeds(scenario, 3, 2, {}, diagnostics_, nullptr, &store);
   }
-  RunStore store(log, kHead, Resume::kYes, diagnostics_);
+  RunStore store(log, kStoreHead, Resume::kYes, diagnostics_);
   EXPECT_EQ(store.found(), 1U);  // The first seed is always run again.
   Diagnostics warnings;
   const auto resumed = run_seeds(scenario, 3, 4, {}, warnings, nullptr, &store);
@@ -115,7 +115,7 @@ TEST_F(RunStoreTest, KeptSeedsMakeTheSameSummary) {
 TEST_F(RunStoreTest, KeptRunsMakeTheSameBench) {
   Condition condition;
   condition.name = "plain";
-  condition.scenario = kSmall;
+  condition.scenario = kSmallScenario;
   Suite suite;
   suite.name = "small";
   suite.count = 3;
@@ -129,10 +129,10 @@ TEST_F(RunStoreTest, KeptRunsMakeTheSameBench) {
   const std::string whole = benched(nullptr);
   const std::string log = path("resume.log");
   {
-    RunStore store(log, kHead, Resume::kNo, diagnostics_);
+    RunStore store(log, kStoreHead, Resume::kNo, diagnostics_);
     EXPECT_EQ(benched(&store), whole);
   }
-  RunStore store(log, kHead, Resume::kYes, diagnostics_);
+  RunStore store(log, kStoreHead, Resume::kYes, diagnostics_);
   EXPECT_EQ(store.found(), 3U);
   EXPECT_EQ(benched(&store), whole);
 }
@@ -140,7 +140,7 @@ TEST_F(RunStoreTest, KeptRunsMakeTheSameBench) {
 TEST_F(RunStoreTest, SaysWhatIsDroppedWithoutResume) {
   const std::string log = path("resume.log");
   {
-    RunStore store(log, kHead, Resume::kNo, diagnostics_);
+    RunStore store(log, kStoreHead, Resume::kNo, diagnostics_);
     store.add({0, 1}, "{}");
   }
   EXPECT_TRUE(diagnostics_.warnings().empty());
