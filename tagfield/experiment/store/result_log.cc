@@ -100,8 +100,10 @@ void read_lines(const std::string& path,
   read_in_blocks(path, [&](std::string_view bytes) {
     rest += bytes;
     std::size_t begin = 0;
-    for (std::size_t end; (end = rest.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    for (std::size_t end = rest.find('\n'); end != std::string::npos;
+         end = rest.find('\n', begin)) {
       take(std::string_view(rest).substr(begin, end - begin), offset + begin);
+      begin = end + 1;
     }
     rest.erase(0, begin);
     offset += begin;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostPanels = 24;
 constexpr std::size_t kMostGridKeys = 3;
 constexpr std::size_t kMostTitle = 30;
-constexpr double kLogarithmicOver = 30.0;  // Of the greatest value over the least.
+constexpr double kLogarithmicOver = 10.0;  // Of the greatest value over the least.
 constexpr double kLeastShown_mm = 0.01;
 constexpr double kNinetyFivePercent = 1.96;
 
