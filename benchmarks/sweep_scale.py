@@ -24,6 +24,7 @@ import heapq
 import json
 import pathlib
 import random
+import re
 import resource
 import subprocess
 import sys
@@ -36,6 +37,7 @@ NODES = (1, 10, 100, 1000, 10_000)
 # Metadata operations at a start: the program and its libraries are taken to be on the node; suite,
 # scenario, world and models (some 15 files), sweep.json, the folder's list, the log.
 START_OPERATIONS = 25
+SEED = re.compile(r'"seed":\d+')
 
 
 def arguments():
@@ -135,7 +137,9 @@ def forge(folder, suite, args, points, seeds):
         text = [head]
         for run in range(shard, runs, args.merge):
             _, _, state, seconds, body = bodies[run % len(bodies)]
-            rest = f"{run // seeds}:{run % seeds + 1} {state} {seconds} {body}"
+            seed = run % seeds + 1
+            body = SEED.sub(f'"seed":{seed}', body)
+            rest = f"{run // seeds}:{seed} {state} {seconds} {body}"
             text.append(f"{zlib.crc32(rest.encode()):08x} {rest}")
         (logs / f"{shard + 1}.log").write_text("\n".join(text) + "\n", encoding="utf-8")
 
@@ -151,13 +155,15 @@ def print_merge(args):
         forge(folder / "out", suite, args, points, seeds)
         size = sum(log.stat().st_size for log in (folder / "out/shards").rglob("*.log"))
         begin = time.monotonic()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([args.tagfield, "sweep", "--merge", folder / "out"], check=True,
                        stdout=subprocess.DEVNULL)
         wall_s = time.monotonic() - begin
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        cpu_s = used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime
         database = (folder / "out/results.sqlite").stat().st_size
         json.loads((folder / "out/results.json").read_text(encoding="utf-8"))
-        print(f"{args.merge} logs, {points * seeds} runs, {size / 1e6:.0f} MB: merged in {wall_s:.1f} s, "
+        print(f"{args.merge} logs, {points * seeds} runs, {size / 1e6:.0f} MB: merged in {wall_s:.1f} s, {cpu_s:.1f} s of CPU, "
               f"{used.ru_maxrss / 1e3:.0f} MB of memory; results.sqlite {database / 1e6:.0f} MB")
 
 

@@ -242,9 +242,9 @@ def without_times(folder):
 
 @case
 def bench_and_runs_go_on(context):
-    suite = suite_of(context, "conditions: [{name: a}, {name: b, set: {pose.sigma_m: 0.03}}]\n", seeds=20)
+    suite = suite_of(context, "conditions: [{name: a}, {name: b, set: {pose.sigma_m: 0.03}}]\n", seeds=10)
     for name, command in (("bench", ("bench", suite, "--no-timing", "--threads", "1")),
-                          ("run", ("run", "small.yaml", "--seeds", "60", "--threads", "1"))):
+                          ("run", ("run", "small.yaml", "--seeds", "40", "--threads", "1"))):
         whole = context.folder / f"{name}_whole"
         begin = time.monotonic()
         context.run_well(*command, "--out", whole)
