@@ -12,10 +12,10 @@ namespace {
 
 TEST(TableRows, WritesEachKindOfCell) {
   EXPECT_EQ(csv_header({"t", {"a", "b,c"}}), "a,\"b,c\"\n");
-  EXPECT_EQ(csv_row({Cell(), Cell(std::int64_t{-7}), Cell(0.1), Cell(std::string("x \"y\"")),
-                     Cell(std::numeric_limits<double>::quiet_NaN()),
-                     Cell(std::optional<double>())}),
-            ",-7,0.1,\"x \"\"y\"\"\",,\n");
+  EXPECT_EQ(
+      csv_row({Cell(), Cell(std::int64_t{-7}), Cell(0.1), Cell(std::string("x \"y\"")),
+               Cell(std::numeric_limits<double>::quiet_NaN()), Cell(std::optional<double>())}),
+      ",-7,0.1,\"x \"\"y\"\"\",,\n");
   EXPECT_EQ(csv_row({}), "\n");
 }
 
