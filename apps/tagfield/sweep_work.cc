@@ -142,8 +142,8 @@ void print_failures(const SweepResults& results, const FoundSweep& found,
 }
 
 std::string left_text(const SweepResults& results, const FoundSweep& found,
-                      const std::string& folder) {
-  if (results.missing > 0) {
+                      const std::string& folder, bool closed_a_rung) {
+  if (results.missing > 0 && !closed_a_rung) {
     return fmt::format(
         "INCOMPLETE: {} of {} runs are missing; go on:  tagfield sweep {} --out {}\n",
         results.missing, results.planned, found.source.suite, folder);
@@ -216,10 +216,9 @@ Merged merge_sweep(const std::string& folder, bool with_page) {
   if (merged.closed_a_rung) write_closed_rungs(folder, found.source.head, results.closed);
 
   merged.complete = results.complete();
-  if (merged.closed_a_rung && !merged.complete) results.missing = 0;
   fmt::print("{}", sweep_to_text(results));
   print_failures(results, found, folder);
-  fmt::print("{}", left_text(results, found, folder));
+  fmt::print("{}", left_text(results, found, folder, merged.closed_a_rung));
   if (!sqlite::is_built_in()) {
     fmt::print(stderr,
                "tagfield: warning: built without SQLite (libsqlite3-dev), so there is no "
