@@ -5,11 +5,10 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/command_method.h"
 #include "apps/tagfield/commands.h"
-#include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/method_text.h"
-#include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/suite_recording.h"
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/bench_page.h"
@@ -17,6 +16,9 @@
 #include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/bench/run_bench.h"
 #include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/store/run_store.h"
+#include "tagfield/experiment/store/work_hash.h"
+#include "tagfield/files/files.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/localization/locate.h"
 
@@ -34,6 +36,7 @@ struct BenchArguments {
   int threads = default_threads();
   bool no_page = false;
   bool no_timing = false;
+  bool resume = false;
   bool list_methods = false;
 };
 
@@ -86,29 +89,37 @@ Suite suite_of(const BenchArguments& arguments) {
   Suite suite = load_suite(arguments.suite);
   add_commands(arguments, suite);
   suite = only(suite, arguments.methods, arguments.conditions);
+  if (suite.sweep) {
+    fail(suite.sweep->location, "has a 'sweep': run it by tagfield sweep " + arguments.suite);
+  }
   if (!arguments.seeds) return suite;
   suite.count = *arguments.seeds;
   for (Condition& condition : suite.conditions) condition.count.reset();
   return suite;
 }
 
-RecordedReads read_recording(const SuiteRecording& recording, Diagnostics& diagnostics) {
-  ReadsAndPoses tables =
-      read_tables("recording", recording.reads, recording.poses, recording.format);
-  warn_of_odd_reads(recording.reads, tables.reads, diagnostics);
-  warn_of_odd_poses(recording.poses.empty() ? recording.reads : recording.poses, tables.poses,
-                    diagnostics);
-  return {std::move(tables.reads), std::move(tables.poses)};
+/// What is done stays there until all is: a bench that was cut off can go on. More seeds go on too.
+std::unique_ptr<RunStore> store_of(const BenchArguments& arguments, const Suite& suite,
+                                   const std::string& out) {
+  std::vector<std::string> words;
+  for (const SuiteMethod& method : suite.methods) words.push_back(method.name);
+  for (const Condition& condition : suite.conditions) words.push_back(condition.name);
+  const LogHead head{TAGFIELD_VERSION, work_hash(read_text_file(arguments.suite), suite, words)};
+  Diagnostics of_store;
+  auto store = std::make_unique<RunStore>(out + "/resume.log", head,
+                                          arguments.resume ? Resume::kYes : Resume::kNo, of_store);
+  print_warnings(of_store);
+  return store;
 }
 
-Bench run_with_progress(const PreparedSuite& prepared, int threads) {
+Bench run_with_progress(const PreparedSuite& prepared, int threads, RunStore& store) {
   ProgressBar bar("bench");
   RunControl control;
   control.threads = threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
   catch_interrupts();
-  return run_bench(prepared, control);
+  return run_bench(prepared, control, &store);
 }
 
 void write(const Bench& bench, const BenchArguments& arguments, Timing timing,
@@ -138,14 +149,16 @@ int bench(const BenchArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
   StagedFolder folder(out);
-  Bench result = run_with_progress(prepared, arguments.threads);
+  const std::unique_ptr<RunStore> store = store_of(arguments, suite, out);
+  Bench result = run_with_progress(prepared, arguments.threads, *store);
   for (const std::string& warning : result.warnings) diagnostics.warn(warning);
   result.warnings = diagnostics.warnings();
   const Timing timing = arguments.no_timing ? Timing::kWithoutTimes : Timing::kWithTimes;
   print_warnings(diagnostics);
   write(result, arguments, timing, folder);
+  if (result.complete) store->drop();
   fmt::print("{}", bench_to_text(result, timing));
-  if (!result.complete) fmt::print("INCOMPLETE: the bench was interrupted\n");
+  if (!result.complete) fmt::print("INCOMPLETE: the bench was interrupted; --resume goes on\n");
   fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
              arguments.no_page ? out : out + "/bench.html");
   return result.complete ? kExitOk : kExitInterrupted;
@@ -179,6 +192,8 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command.add_flag("--no-page", arguments.no_page, "Write the data only, no bench.html");
   command.add_flag("--no-timing", arguments.no_timing,
                    "Leave times out, so that the same suite gives the same bytes");
+  command.add_flag("--resume", arguments.resume,
+                   "Go on where a bench into the same folder was cut off");
   command.add_flag("--list-methods", arguments.list_methods, "Say which methods there are");
 }
 
@@ -206,7 +221,8 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "The folder then holds bench.html, bench.json, bench.csv with a row for each condition and\n"
       "method, and tags.csv with a row for each tag of each run. For example\n"
       "  tagfield bench scenarios/bench/paper_warehouse.yaml --seeds 5\n"
-      "Ctrl-C ends it early and keeps the runs that are done. docs/bench.md lists all keys and\n"
+      "Ctrl-C ends it early and keeps the runs that are done; --resume goes on, also where it was\n"
+      "killed. docs/bench.md lists all keys and\n"
       "columns, and says how errors are judged.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return bench(*arguments); }; });
 }

@@ -13,6 +13,7 @@ namespace tagfield {
 inline constexpr int kExitOk = 0;
 inline constexpr int kExitFailure = 1;        ///< A fault of the program.
 inline constexpr int kExitBadInput = 2;       ///< Bad input or usage.
+inline constexpr int kExitIncomplete = 3;     ///< Some runs failed, or are not done yet.
 inline constexpr int kExitInterrupted = 130;  ///< By SIGINT or SIGTERM, as shells say it.
 
 /// Prints each warning as a line on standard error.

@@ -36,6 +36,7 @@ int parse_and_run(int argc, char** argv) {
   tagfield::add_plan_command(app, chosen);
   tagfield::add_bench_command(app, chosen);
   tagfield::add_score_command(app, chosen);
+  tagfield::add_sweep_command(app, chosen);
   tagfield::add_events_command(app, chosen);
   tagfield::add_stream_command(app, chosen);
   tagfield::add_serve_command(app, chosen);
@@ -53,7 +54,7 @@ int parse_and_run(int argc, char** argv) {
     fmt::print(
         stderr,
         "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, bench, score, events, stream, serve, view or gazebo (see tagfield --help)\n");
+        " coverage, plan, bench, score, sweep, events, stream, serve, view or gazebo (see tagfield --help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

@@ -17,6 +17,8 @@
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/leave_one_out.h"
 #include "tagfield/experiment/tracing_forecast.h"
+#include "tagfield/experiment/store/run_store.h"
+#include "tagfield/experiment/store/work_hash.h"
 #include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/staged_folder.h"
@@ -43,6 +45,7 @@ struct RunArguments {
   bool no_page = false;
   bool breakdown = false;
   bool record_only = false;
+  bool resume = false;
   OutletArguments outlets;
   WorldOptions world;
 };
@@ -80,11 +83,24 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
   folder.add("scene.json", http::scene_json(loaded));
 }
 
+/// Of many seeds those that are done stay there until all are, so that a run that was cut off can
+/// go on; the first is always run again, as its reads are what the folder shows.
+std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
+                                   const std::vector<Override>& overrides, const std::string& out) {
+  if (arguments.seeds == 1) return nullptr;
+  const LogHead head{TAGFIELD_VERSION, work_hash(arguments.scenario, overrides)};
+  Diagnostics of_store;
+  auto store = std::make_unique<RunStore>(out + "/resume.log", head,
+                                          arguments.resume ? Resume::kYes : Resume::kNo, of_store);
+  print_warnings(of_store);
+  return store;
+}
+
 /// The first seed's tables go into `folder` while it runs.
 std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
                                        const ScenarioWithWorld& loaded,
-                                       const NavigationWorld* world, StagedFolder& folder,
-                                       Diagnostics& diagnostics) {
+                                       const NavigationWorld* world, RunStore* store,
+                                       StagedFolder& folder, Diagnostics& diagnostics) {
   const Scenario& scenario = loaded.scenario;
   RunControl control;
   const RunOutlets outlets = attach_outlets(arguments.outlets, loaded, control);
@@ -100,7 +116,7 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
   std::vector<SeedRun> runs =
       arguments.record_only
           ? std::vector<SeedRun>{simulate(scenario, seed, control, world)}
-          : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world);
+          : run_seeds(scenario, seed, arguments.seeds, control, diagnostics, world, store);
   for (const auto& sink : outlets.sinks) sink->finish();
   return runs;
 }
@@ -148,7 +164,10 @@ void print_result(const Summary& summary, const std::string& out, bool page) {
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
              summary.real_time_factor);
   fmt::print("{}", table_of(summary));
-  if (!summary.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  if (!summary.complete) {
+    fmt::print("INCOMPLETE: the run was interrupted{}\n",
+               summary.seeds.size() > 1 ? "; --resume goes on" : "");
+  }
   fmt::print("{}: {}\n", page ? "page" : "folder", page ? out + "/report.html" : out);
 }
 
@@ -209,7 +228,9 @@ int run(const RunArguments& arguments) {
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::vector<SeedRun> runs = run_with_progress(arguments, loaded, ways, folder, diagnostics);
+  const std::unique_ptr<RunStore> store = store_of(arguments, overrides, out);
+  const std::vector<SeedRun> runs =
+      run_with_progress(arguments, loaded, ways, store.get(), folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   if (arguments.record_only) return finish_recording(runs.front(), diagnostics, out, folder);
 
@@ -229,6 +250,7 @@ int run(const RunArguments& arguments) {
     stage_report(staging, http::run_view(staging), folder);
   }
   folder.commit(stale_files());
+  if (store && summary.complete) store->drop();
   print_result(summary, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
 }
@@ -266,6 +288,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->add_flag("--leave-one-out", arguments->leave_one_out,
                  "Run again without each antenna in turn, and say how many tags are read then")
       ->excludes("--record-only");
+      ->add_flag("--resume", arguments->resume,
+                 "Go on where a run of many seeds into the same folder was cut off")
+      ->needs("--seeds");
   add_outlet_options(*command, arguments->outlets);
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"

@@ -30,6 +30,7 @@ enum class Purpose : std::uint64_t {
   kTagSearch = 17,     ///< Particles that stand for the places where a tag may be.
   kFault = 18,         ///< What faulty reads say instead, in a comparison of methods.
   kForecast = 19,      ///< Samples of a forecast, and of the tags of a plan.
+  kSweep = 20,         ///< Values of a scenario's keys that are tried.
 };
 
 /// 64-bit key of a name (FNV-1a), so that a stream follows a tag's ID and not its place in a list.

@@ -12,6 +12,8 @@
 #include "tagfield/experiment/inventory.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
+#include "tagfield/experiment/store/run_store.h"
+#include "tagfield/experiment/store/seed_run_json.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/report/method_summary.h"
 
@@ -166,6 +168,25 @@ std::string methods_of(const std::vector<SeedRun>& runs) {
   return names;
 }
 
+/// Of a seed that is not the first, which alone goes to the outlets; its recording is not kept.
+SeedRun another_seed(const Scenario& scenario, std::uint64_t seed, RunControl control,
+                     const NavigationWorld* world, RunStore* store, Diagnostics& warnings) {
+  const RunKey key{0, seed};
+  if (const std::string* const kept = store == nullptr ? nullptr : store->find(key)) {
+    KeptSeed found = kept_seed_in(*kept, store->location());
+    for (const std::string& warning : found.warnings) warnings.warn(warning);
+    return std::move(found.run);
+  }
+  control.outlets = {};
+  control.navigation = nullptr;
+  SeedRun run = simulate(scenario, seed, control, world);
+  localize(scenario, run, 1, warnings);
+  run.recording = {};
+  run.corrected_poses = {};
+  if (store != nullptr && run.complete) store->add(key, to_json_line(run, warnings.warnings()));
+  return run;
+}
+
 /// Simulated time that went into the map.
 double mapping_s(const SeedRun& run) {
   return run.navigation && run.navigation->survey ? run.navigation->survey->simulated_s : 0.0;
@@ -242,7 +263,7 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
 
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
                                const RunControl& control, Diagnostics& diagnostics,
-                               const NavigationWorld* world) {
+                               const NavigationWorld* world, RunStore* store) {
   std::vector<SeedRun> runs(count);
   std::vector<Diagnostics> warnings(count);
   std::vector<char> begun(count, 0);
@@ -258,16 +279,11 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   parallel_for(count, control.threads, [&](std::size_t i) {
     if (i > 0 && stopped(control)) return;
     begun[i] = 1;
-    RunControl of_seed = of_one;
     if (i > 0) {
-      of_seed.outlets = {};
-      of_seed.navigation = nullptr;
-    }
-    runs[i] = simulate(scenario, first + i, of_seed, world);
-    localize(scenario, runs[i], threads_inside, warnings[i]);
-    if (i > 0) {
-      runs[i].recording = {};
-      runs[i].corrected_poses = {};
+      runs[i] = another_seed(scenario, first + i, of_one, world, store, warnings[i]);
+    } else {
+      runs[i] = simulate(scenario, first, of_one, world);
+      localize(scenario, runs[i], threads_inside, warnings[i]);
     }
     const std::lock_guard lock(progress_mutex);
     finished += 1.0;

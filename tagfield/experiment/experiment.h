@@ -56,11 +56,14 @@ std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& ru
 /// located (why_inventory_alone()), and fills in all that comes of it.
 void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
 
+class RunStore;  // of store/run_store.h
+
 /// Simulates and localizes `count` ≥ 1 seeds from `first` on, in parallel. Recordings are kept of
-/// the first only. Seeds not begun when `control.stop` was set are left out.
+/// the first only. Seeds not begun when `control.stop` was set are left out. What others than the
+/// first come to goes into `store`, where given, or is taken from there (its keys: point 0, seed).
 std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, std::size_t count,
                                const RunControl& control, Diagnostics& diagnostics,
-                               const NavigationWorld* world = nullptr);
+                               const NavigationWorld* world = nullptr, RunStore* store = nullptr);
 
 /// How this scenario's tags are to be located.
 LocalizationOptions localization_options(const Scenario& scenario, int threads);

@@ -40,9 +40,12 @@ ROSBAG2 = "adapters/rosbag2/"
 ARCHIVE = "adapters/archive/"
 MQTT = "adapters/mqtt/"
 EPCIS = "adapters/epcis/"
+MPI = "adapters/mpi/"
+SQLITE = "adapters/sqlite/"
 # What containers of bytes may use.
 UNDER_MCAP = (MCAP, "tagfield/base/", "tagfield/files/")
 UNDER_ARCHIVE = (ARCHIVE, "tagfield/base/")
+UNDER_SQLITE = (SQLITE, "tagfield/base/", "tagfield/files/")
 UNDER_ROSBAG2 = (ROSBAG2, MCAP, "tagfield/base/", "tagfield/scenario/yaml_map.h")
 # The thin mains that join Gazebo and ROS.
 JOINTS = "adapters/gazebo_classic/plugins/"
@@ -112,6 +115,10 @@ def adapter_fault(path, header):
     if path.startswith(ARCHIVE) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
                                      not header.startswith(UNDER_ARCHIVE)):
         return "adapters/archive/ knows neither RFID nor ROS"
+    if path.startswith(MPI) and header.split("/")[0] in FOLDERS and not header.startswith(MPI):
+        return "adapters/mpi/ knows nothing but MPI"
+    if path.startswith(SQLITE) and header.split("/")[0] in FOLDERS and not header.startswith(UNDER_SQLITE):
+        return "adapters/sqlite/ knows nothing but tables"
     if path.startswith((MQTT, EPCIS)) and header.startswith((CLASSIC, ROS1, ROS2, *ALIENS)):
         return "adapters/mqtt/ and epcis/ know neither Gazebo nor ROS"
     if path.startswith(ROSBAG2) and (header.startswith(ALIENS) or header.split("/")[0] in FOLDERS and
@@ -342,6 +349,8 @@ PLANTED = (  # a file, its content, what must be said of it
     ("adapters/epcis/a.cc", "#include <ros/ros.h>\n", "know neither Gazebo nor ROS"),
     ("adapters/archive/a.cc", '#include "tagfield/stream/tag_read.h"\n',
      "adapters/archive/ knows neither RFID nor ROS"),
+    ("adapters/mpi/a.cc", '#include "tagfield/base/error.h"\n', "knows nothing but MPI"),
+    ("adapters/sqlite/a.cc", '#include "tagfield/stream/tag_read.h"\n', "knows nothing but tables"),
     ("adapters/rosbag2/a.cc", '#include "adapters/ros2/cdr.h"\n', "knows neither RFID nor messages"),
     ("adapters/ros1/a.cc", '#include "apps/tagfield/table.h"\n', "adapters/ must not include it"),
     ("tagfield/world/a.h", "/// @file\n/// It.\n#pragma once\nusing namespace std;\n",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <mutex>
@@ -9,6 +10,8 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/internal/condition_run.h"
 #include "tagfield/experiment/internal/faults.h"
+#include "tagfield/experiment/store/method_runs_json.h"
+#include "tagfield/experiment/store/run_store.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
@@ -17,19 +20,51 @@ namespace {
 /// One condition with one seed, and what came of it.
 struct Job {
   const PreparedCondition* condition = nullptr;
-  std::uint64_t seed = 0;
+  RunKey key;
   std::optional<std::vector<MethodRun>> runs;
   Diagnostics warnings;
 };
 
+/// Of a condition in the suite; those of recordings that are not there are not prepared.
+std::uint64_t place_of(const Suite& suite, const std::string& condition) {
+  const auto found = std::find_if(suite.conditions.begin(), suite.conditions.end(),
+                                  [&](const Condition& of) { return of.name == condition; });
+  return static_cast<std::uint64_t>(found - suite.conditions.begin());
+}
+
 std::vector<Job> jobs_of(const PreparedSuite& prepared) {
   std::vector<Job> jobs;
   for (const PreparedCondition& condition : prepared.conditions) {
+    const std::uint64_t place = place_of(prepared.suite, condition.condition.name);
     for (std::uint64_t i = 0; i < condition.runs; ++i) {
-      jobs.push_back({&condition, prepared.suite.first_seed + i, std::nullopt, {}});
+      jobs.push_back({&condition, {place, prepared.suite.first_seed + i}, std::nullopt, {}});
     }
   }
   return jobs;
+}
+
+/// Takes what the job came to from the store, where it is there.
+bool was_done(Job& job, const RunStore* store) {
+  const std::string* const kept = store == nullptr ? nullptr : store->find(job.key);
+  if (kept == nullptr) return false;
+  ConditionRun found = condition_run_in(*kept, store->location());
+  if (found.methods.size() != job.condition->methods.size()) return false;
+  job.runs = std::move(found.methods);
+  for (const std::string& warning : found.warnings) job.warnings.warn(warning);
+  return true;
+}
+
+void do_job(Job& job, const RunControl& control, RunStore* store) {
+  if (was_done(job, store)) return;
+  try {
+    job.runs = run_condition(*job.condition, job.key.seed, control, job.warnings);
+  } catch (const Error& error) {
+    const Condition& condition = job.condition->condition;
+    fail(condition.location,
+         fmt::format("condition '{}', seed {}: {}", condition.name, job.key.seed, error.what()));
+  }
+  if (store == nullptr || !job.runs) return;
+  store->add(job.key, to_json_line({*job.runs, job.warnings.warnings()}));
 }
 
 /// Counts the jobs done.
@@ -50,20 +85,13 @@ class Progress {
   double done_ = 0.0;
 };
 
-void run_all(std::vector<Job>& jobs, const RunControl& control) {
+void run_all(std::vector<Job>& jobs, const RunControl& control, RunStore* store) {
   RunControl of_one;
   of_one.stop = control.stop;
   Progress progress(control, jobs.size());
   parallel_for(jobs.size(), control.threads, [&](std::size_t i) {
     if (stopped(control)) return;
-    Job& job = jobs[i];
-    try {
-      job.runs = run_condition(*job.condition, job.seed, of_one, job.warnings);
-    } catch (const Error& error) {
-      const Condition& condition = job.condition->condition;
-      fail(condition.location,
-           fmt::format("condition '{}', seed {}: {}", condition.name, job.seed, error.what()));
-    }
+    do_job(jobs[i], of_one, store);
     progress.add_one();
   });
 }
@@ -100,10 +128,10 @@ Bench empty_bench(const PreparedSuite& prepared) {
 }
 
 void add_warnings(const Job& job, std::uint64_t first_seed, Diagnostics& diagnostics) {
-  if (job.seed != first_seed) return;
+  if (job.key.seed != first_seed) return;
   for (const std::string& warning : job.warnings.warnings()) {
     diagnostics.warn(fmt::format("condition '{}', seed {}: {}", job.condition->condition.name,
-                                 job.seed, warning));
+                                 job.key.seed, warning));
   }
 }
 
@@ -131,11 +159,11 @@ void collect(const PreparedSuite& prepared, std::vector<Job>& jobs, Bench& bench
 
 }  // namespace
 
-Bench run_bench(const PreparedSuite& prepared, const RunControl& control) {
+Bench run_bench(const PreparedSuite& prepared, const RunControl& control, RunStore* store) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   std::vector<Job> jobs = jobs_of(prepared);
-  run_all(jobs, control);
+  run_all(jobs, control, store);
   Bench bench = empty_bench(prepared);
   collect(prepared, jobs, bench);
   bench.threads = control.threads;

@@ -9,11 +9,15 @@
 namespace tagfield {
 
 struct PreparedSuite;  // of prepared.h
+class RunStore;        // of store/run_store.h
 
 /// Each condition with each seed is simulated once, and all its methods get the same problem. The
 /// result does not depend on the number of threads, times excepted. Runs that were not over when
-/// `control.stop` was set are left out. Warnings are those of each condition's first seed.
-Bench run_bench(const PreparedSuite& prepared, const RunControl& control);
+/// `control.stop` was set are left out. Warnings are those of each condition's first seed. What
+/// runs come to goes into `store`, where given, or is taken from there (its keys: place of the
+/// condition in the suite, seed).
+Bench run_bench(const PreparedSuite& prepared, const RunControl& control,
+                RunStore* store = nullptr);
 
 /// Reads scenarios, then runs. Throws Error as prepare() does, and on a recording that is there.
 Bench run_bench(const Suite& suite, const std::vector<Method>& methods, const RunControl& control);

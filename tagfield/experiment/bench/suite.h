@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_area.h"
@@ -95,6 +96,8 @@ struct Suite {
   std::uint64_t count = 1;  ///< Number of seeds.
   std::vector<SuiteMethod> methods;
   std::vector<Condition> conditions;
+  /// Of values that each condition is tried with, by `tagfield sweep`; a bench has none.
+  std::optional<SweepDesign> sweep;
 };
 
 }  // namespace tagfield

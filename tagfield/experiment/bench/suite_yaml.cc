@@ -10,6 +10,8 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/internal/overrides_yaml.h"
+#include "tagfield/experiment/sweep/design_yaml.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
 
@@ -20,30 +22,6 @@ namespace {
 constexpr std::uint64_t kMostSeeds = 1'000'000;
 constexpr double kLeastEvery_s = 1e-3;
 constexpr double kMostLate_s = 3600.0;
-
-/// A value as YAML text on one line.
-std::string text_of(const YAML::Node& node) {
-  YAML::Emitter emitter;
-  emitter.SetSeqFormat(YAML::Flow);
-  emitter.SetMapFormat(YAML::Flow);
-  emitter << node;
-  return emitter.c_str();
-}
-
-/// The keys of a mapping, each with `prefix` before it, and what stands there.
-std::vector<Override> overrides_of(const YamlValue& value, const std::string& prefix) {
-  const YamlMap checked(value);  // Throws unless it is a mapping whose keys are unique.
-  std::vector<Override> overrides;
-  for (const auto& entry : checked.self().node()) {
-    const std::string key = YamlValue(entry.first, value.file(), value.path()).text();
-    if (entry.second.IsNull()) {
-      YamlValue(entry.first, value.file(), value.path())
-          .fail(fmt::format("gives '{}' no value", key));
-    }
-    overrides.emplace_back(prefix + key, text_of(entry.second));
-  }
-  return overrides;
-}
 
 std::uint64_t count_of(const YamlValue& value) {
   const std::uint64_t count = value.whole_number();
@@ -85,7 +63,7 @@ SuiteMethod method_of(const YamlValue& value) {
   method.method = map.at("method").text();
   method.name = map.text("name", method.method);
   if (map.has("localization")) {
-    method.localization = overrides_of(map.at("localization"), "localization.");
+    method.localization = overrides_in(map.at("localization"), "localization.");
   }
   map.finish();
   return method;
@@ -210,18 +188,20 @@ ToldPoseError believed_of(const YamlValue& value) {
   return PoseErrorModel{};
 }
 
-std::string scenario_of(const YamlValue& value) {
-  std::string path = resolve_path(value);
-  if (!fs::is_regular_file(path))
-    value.fail(fmt::format("is '{}', but there is no such file", path));
-  return path;
-}
-
 /// What holds for all conditions that don't say it themselves.
 struct Common {
+  bool on_disk = true;  ///< Whether scenarios must be there.
   std::string scenario;
   std::optional<double> phase_noise_rad;
 };
+
+std::string scenario_of(const YamlValue& value, const Common& common) {
+  std::string path = resolve_path(value);
+  if (common.on_disk && !fs::is_regular_file(path)) {
+    value.fail(fmt::format("is '{}', but there is no such file", path));
+  }
+  return path;
+}
 
 void append(std::vector<Override>& overrides, const std::vector<Override>& more) {
   overrides.insert(overrides.end(), more.begin(), more.end());
@@ -235,12 +215,13 @@ Condition condition_of(YamlMap map, const Common& common) {
     refuse_beside_recording(map);
     condition.recording = recording_of(YamlMap(map.at("recording")));
   } else {
-    condition.scenario = map.has("scenario") ? scenario_of(map.at("scenario")) : common.scenario;
+    condition.scenario =
+        map.has("scenario") ? scenario_of(map.at("scenario"), common) : common.scenario;
     if (condition.scenario.empty()) map.self().fail("has no 'scenario', and neither has the suite");
   }
-  if (map.has("set")) append(condition.settings, overrides_of(map.at("set"), ""));
+  if (map.has("set")) append(condition.settings, overrides_in(map.at("set"), ""));
   if (map.has("localization")) {
-    append(condition.settings, overrides_of(map.at("localization"), "localization."));
+    append(condition.settings, overrides_in(map.at("localization"), "localization."));
   }
   if (map.has("seeds")) condition.count = count_of(map.at("seeds"));
   if (map.has("lose")) condition.lose = loss_of(YamlMap(map.at("lose")));
@@ -289,26 +270,53 @@ void check(const Suite& suite) {
   }
 }
 
-Suite suite_of(YamlMap map) {
+/// A sweep can do with a single condition, which then is all that varies.
+Condition only_condition(const YamlMap& map, const Common& common) {
+  if (common.scenario.empty()) map.self().fail("has no 'scenario' and no 'conditions'");
+  Condition condition;
+  condition.name = fs::path(common.scenario).stem().string();
+  condition.scenario = common.scenario;
+  condition.phase_noise_rad = common.phase_noise_rad;
+  condition.location = map.self().location();
+  return condition;
+}
+
+Suite suite_of(YamlMap map, bool on_disk) {
   Suite suite;
   suite.name = map.text("name", fs::path(map.self().file()).stem().string());
   suite.description = map.text("description", "");
   Common common;
-  if (map.has("scenario")) common.scenario = scenario_of(map.at("scenario"));
+  common.on_disk = on_disk;
+  if (map.has("scenario")) common.scenario = scenario_of(map.at("scenario"), common);
   if (map.has("phase_noise_rad")) {
     common.phase_noise_rad = map.at("phase_noise_rad").number(kPositive);
   }
   if (map.has("seeds")) read_seeds(map.at("seeds"), suite);
   for (const YamlValue& method : map.at("methods").list())
     suite.methods.push_back(method_of(method));
-  for (const YamlValue& condition : map.at("conditions").list()) {
-    suite.conditions.push_back(condition_of(YamlMap(condition), common));
-  }
   if (suite.methods.empty()) map.at("methods").fail("must have at least one method");
-  if (suite.conditions.empty()) map.at("conditions").fail("must have at least one condition");
+  if (map.has("sweep")) {
+    suite.sweep = sweep_design_of(map.at("sweep"), names_of(suite.methods), suite.count);
+  }
+  if (suite.sweep && !map.has("conditions")) {
+    suite.conditions.push_back(only_condition(map, common));
+  } else {
+    for (const YamlValue& condition : map.at("conditions").list()) {
+      suite.conditions.push_back(condition_of(YamlMap(condition), common));
+    }
+    if (suite.conditions.empty()) map.at("conditions").fail("must have at least one condition");
+  }
   map.finish();
   check(suite);
   return suite;
+}
+
+Suite suite_in(const YAML::Node& root, const std::string& path, bool on_disk) {
+  try {
+    return suite_of(YamlMap(YamlValue(root, path, "")), on_disk);
+  } catch (const YAML::Exception& error) {
+    fail({path, error.mark.line + 1}, error.msg);
+  }
 }
 
 template <typename Named>
@@ -325,12 +333,13 @@ void keep_only(std::vector<Named>& things, const std::vector<std::string>& names
 
 }  // namespace
 
-Suite load_suite(const std::string& path) {
-  const YAML::Node root = read_yaml(path);
+Suite load_suite(const std::string& path) { return suite_in(read_yaml(path), path, true); }
+
+Suite suite_from_text(const std::string& text, const std::string& path) {
   try {
-    return suite_of(YamlMap(YamlValue(root, path, "")));
+    return suite_in(YAML::Load(text), path, false);
   } catch (const YAML::Exception& error) {
-    fail({path, error.mark.line + 1}, error.msg);
+    fail({path, error.mark.line + 1}, fmt::format("not valid YAML: {}", error.msg));
   }
 }
 

@@ -12,6 +12,10 @@ namespace tagfield {
 /// Reads a suite. Paths of scenarios are relative to the file. Throws Error "FILE:LINE: …".
 Suite load_suite(const std::string& path);
 
+/// The same of a text, which was read from the file `path` here or elsewhere: whether scenarios are
+/// there is not asked.
+Suite suite_from_text(const std::string& text, const std::string& path);
+
 /// Only the methods and conditions of these names, in the suite's order; all where a list is empty.
 /// Conditions that none of the methods is left for go too. Throws Error on a name that there is
 /// not, with the nearest, and where nothing is left.

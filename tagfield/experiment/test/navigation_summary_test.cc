@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tagfield/experiment/store/seed_run_json.h"
 #include "tagfield/simulator/test/small_world.h"
 
 namespace tagfield {
@@ -91,6 +92,10 @@ TEST(RunSeeds, OfRobotsThatDriveByThemselves) {
     EXPECT_EQ(run.collisions, 0);
     EXPECT_EQ(run.position_errors_m, together[i].navigation->position_errors_m);
   }
+  // What a log keeps of another seed than the first is all that the summary asks of it.
+  std::vector<SeedRun> kept = {alone[0], kept_seed_in(to_json_line(alone[1], {}), {}).run};
+  EXPECT_EQ(to_json(summarize(scenario, kept, 1.0, {}, &known)),
+            to_json(summarize(scenario, alone, 1.0, {}, &known)));
   EXPECT_NE(alone[0].navigation->goals[0].goal_M.x, alone[1].navigation->goals[0].goal_M.x);
 }
 

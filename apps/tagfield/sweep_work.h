@@ -1,0 +1,42 @@
+/// @file
+/// What `tagfield sweep` and `tagfield_sweep_mpi` share: a sweep opened, its parts put together.
+#pragma once
+
+#include <string>
+
+#include "tagfield/experiment/sweep/run_sweep.h"
+#include "tagfield/experiment/sweep/sweep_folder.h"
+#include "tagfield/experiment/sweep/sweep_plan.h"
+
+namespace tagfield {
+
+inline constexpr double kSaveEvery_s = 5.0;  ///< So much work a killed process loses at most.
+
+/// A sweep and its folder.
+struct OpenSweep {
+  SweepPlan plan;
+  LogHead head;
+  std::string suite;  ///< Path of its file.
+  std::string folder;
+  SweepMeans means;
+};
+
+/// Reads a suite and makes its folder, or finds that the folder is for it. `out`: "" for
+/// runs/sweep_NAME. Warnings go to standard error. Throws Error.
+OpenSweep open_sweep(const std::string& suite, const std::string& out);
+
+/// What merge_sweep() came to.
+struct Merged {
+  bool complete = false;
+  bool closed_a_rung = false;  ///< So that there are more runs to do now.
+  int exit_code = 0;
+};
+
+/// Puts together what a folder's logs hold, writes the results beside them, and says what came out
+/// and what is missing. Throws Error.
+Merged merge_sweep(const std::string& folder, bool with_page);
+
+/// Prints how far all shards are. Throws Error.
+int print_status(const std::string& folder);
+
+}  // namespace tagfield

@@ -1,0 +1,110 @@
+#!/usr/bin/python3
+"""Shards of a sweep killed at random and started again: nothing lost, nothing done twice.
+
+    benchmarks/sweep_kills.py [--tagfield build/release/bin/tagfield] [--kills 50] [--shards 3]
+                              [--seed 1] [--save-every 0.2] [SUITE]
+
+Runs the suite whole; then its shards, all at once, each killed (SIGKILL) and started again at random
+until so many kills have hit; then merges. Prints how many runs were done, how many twice, and whether
+each file of results has the same bytes. Ends with 1 where not.
+"""
+
+import argparse
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RESULTS = ("points.csv", "runs.csv", "results.json", "results.sqlite", "sweep.html")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("suite", nargs="?", default=ROOT / "scenarios/sweep/pose_and_noise.yaml")
+    parser.add_argument("--tagfield", default=ROOT / "build/release/bin/tagfield")
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--shards", type=int, default=3)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--save-every", default="0.2")
+    return parser.parse_args()
+
+
+class Shards:
+    """The shards as processes."""
+
+    def __init__(self, args, folder):
+        self.args = args
+        self.folder = folder
+        self.running = {}
+        self.done = set()
+
+    def start_missing(self):
+        for shard in range(1, self.args.shards + 1):
+            if shard not in self.running and shard not in self.done:
+                self.running[shard] = subprocess.Popen(
+                    [self.args.tagfield, "sweep", self.args.suite, "--shard",
+                     f"{shard}/{self.args.shards}", "--out", self.folder, "--threads", "1",
+                     "--save-every", self.args.save_every], stdout=subprocess.DEVNULL)
+
+    def reap(self):
+        for shard, process in list(self.running.items()):
+            if process.poll() is not None:
+                del self.running[shard]
+                if process.returncode != 0:
+                    sys.exit(f"shard {shard} ended with {process.returncode}")
+                self.done.add(shard)
+
+    def kill_one(self, chance):
+        """Whether there was one to kill."""
+        self.reap()
+        if not self.running:
+            return False
+        shard = chance.choice(sorted(self.running))
+        process = self.running.pop(shard)
+        process.send_signal(signal.SIGKILL)
+        return process.wait() == -signal.SIGKILL or not self.done.add(shard)
+
+
+def killed_and_resumed(args, folder):
+    """How many kills hit before all was done."""
+    chance = random.Random(args.seed)
+    shards = Shards(args, folder)
+    kills = 0
+    while len(shards.done) < args.shards:
+        shards.start_missing()
+        time.sleep(chance.expovariate(1.0 / 0.4))
+        if kills < args.kills and shards.kill_one(chance):
+            kills += 1
+        shards.reap()
+    return kills
+
+
+def keys_in(folder):
+    return [line.split(" ")[1] for log in sorted((folder / "shards").rglob("*.log"))
+            for line in log.read_text(encoding="utf-8").splitlines()[1:]]
+
+
+def main():
+    args = arguments()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        subprocess.run([args.tagfield, "sweep", args.suite, "--out", folder / "whole"], check=True,
+                       stdout=subprocess.DEVNULL)
+        kills = killed_and_resumed(args, folder / "killed")
+        subprocess.run([args.tagfield, "sweep", "--merge", folder / "killed"], check=True,
+                       stdout=subprocess.DEVNULL)
+        keys = keys_in(folder / "killed")
+        expected = set(keys_in(folder / "whole"))
+        differ = [file for file in RESULTS if (folder / "whole" / file).read_bytes() !=
+                  (folder / "killed" / file).read_bytes()]
+        print(f"{kills} kills, {len(expected)} runs: {len(expected - set(keys))} lost, "
+              f"{len(keys) - len(set(keys))} in the logs twice, files that differ: {differ or 'none'}")
+        return 1 if differ or set(keys) != expected or len(keys) != len(set(keys)) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

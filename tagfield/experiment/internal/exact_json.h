@@ -1,0 +1,26 @@
+/// @file
+/// Values as JSON that are read back to the last bit.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace tagfield {
+
+/// JSON has no infinity and no NaN, which become words.
+nlohmann::json exact_json(double value);
+double exact_double_in(const nlohmann::json& json);
+
+/// Null for none.
+nlohmann::json exact_json(const std::optional<double>& value);
+std::optional<double> exact_optional_in(const nlohmann::json& json);
+
+/// A list of three; null for none.
+nlohmann::json exact_json(const std::optional<Eigen::Vector3d>& p);
+std::optional<Eigen::Vector3d> exact_place_in(const nlohmann::json& json);
+
+/// On one line; bytes that are not UTF-8 become U+FFFD.
+std::string one_line_of(const nlohmann::json& json);
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+/// @file
+/// Settings of a scenario that stand in a suite.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/scenario/yaml_map.h"
+
+namespace tagfield {
+
+/// A value as YAML text on one line.
+std::string yaml_line_of(const YAML::Node& node);
+
+/// The keys of a mapping, each with `prefix` before it, and what stands there. Throws Error
+/// "FILE:LINE: …" where that is nothing.
+std::vector<Override> overrides_in(const YamlValue& value, const std::string& prefix);
+
+}  // namespace tagfield
