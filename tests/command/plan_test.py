@@ -16,7 +16,7 @@ plan:
        orientations: any, count: 40}
   mounts:
     - {name: ceiling, surface: [[0, 0, 3], [4, 0, 3], [0, 2, 3]], spacing_m: 2, rpy_deg: [[0, 90, 0]],
-       cost: 100, profiles: [speedway_r420, panel_6dbi]}
+       cost: 100, powers_dbm: [20], profiles: [speedway_r420, panel_6dbi]}
   limits: {antennas: 3, readers: 1, ports: 4}
 """
 

@@ -20,6 +20,7 @@ inline std::string small_store(const std::string& more = "") {
          "      spacing_m: 2.5\n"
          "      rpy_deg: [[0, 90, 0]]\n"
          "      cost: 100\n"
+         "      powers_dbm: [20]\n"
          "      profiles: [speedway_r420, panel_6dbi]\n"
          "  limits: {antennas: 4, readers: 1, ports: 4}\n" +
          more;
