@@ -16,9 +16,9 @@
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/leave_one_out.h"
-#include "tagfield/experiment/tracing_forecast.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/work_hash.h"
+#include "tagfield/experiment/tracing_forecast.h"
 #include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/staged_folder.h"
@@ -86,9 +86,11 @@ void stage_run(const ScenarioWithWorld& loaded, const SeedRun& run, StagedFolder
 /// Of many seeds those that are done stay there until all are, so that a run that was cut off can
 /// go on; the first is always run again, as its reads are what the folder shows.
 std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
-                                   const std::vector<Override>& overrides, const std::string& out) {
+                                   const std::vector<Override>& overrides, const Scene& scene,
+                                   const std::string& out) {
   if (arguments.seeds == 1) return nullptr;
-  const LogHead head{TAGFIELD_VERSION, work_hash(arguments.scenario, overrides)};
+  const LogHead head{TAGFIELD_VERSION,
+                     work_hash(arguments.scenario, overrides, scene, arguments.without)};
   Diagnostics of_store;
   auto store = std::make_unique<RunStore>(out + "/resume.log", head,
                                           arguments.resume ? Resume::kYes : Resume::kNo, of_store);
@@ -228,7 +230,7 @@ int run(const RunArguments& arguments) {
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const std::unique_ptr<RunStore> store = store_of(arguments, overrides, out);
+  const std::unique_ptr<RunStore> store = store_of(arguments, overrides, loaded.scene, out);
   const std::vector<SeedRun> runs =
       run_with_progress(arguments, loaded, ways, store.get(), folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -288,8 +290,8 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->add_flag("--leave-one-out", arguments->leave_one_out,
                  "Run again without each antenna in turn, and say how many tags are read then")
       ->excludes("--record-only");
-      ->add_flag("--resume", arguments->resume,
-                 "Go on where a run of many seeds into the same folder was cut off")
+  ->add_flag("--resume", arguments->resume,
+             "Go on where a run of many seeds into the same folder was cut off")
       ->needs("--seeds");
   add_outlet_options(*command, arguments->outlets);
   command->footer(

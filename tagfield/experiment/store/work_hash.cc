@@ -170,11 +170,13 @@ std::string work_hash(const std::string& suite_text, const Suite& suite,
   return hash.text();
 }
 
-std::string work_hash(const std::string& scenario_path, const std::vector<Override>& overrides) {
+std::string work_hash(const std::string& scenario_path, const std::vector<Override>& overrides,
+                      const Scene& scene, const std::vector<std::string>& words) {
   ContentHash hash;
   add_scenario(scenario_path, hash);
   add_overrides(overrides, hash);
-  add_world(scenario_path, overrides, hash);
+  for (const std::string& word : words) hash.add(word);
+  add_to_hash(scene, hash);
   return hash.text();
 }
 

@@ -17,7 +17,8 @@ namespace tagfield {
 std::string work_hash(const std::string& suite_text, const Suite& suite,
                       const std::vector<std::string>& words);
 
-/// The same of one scenario with these overrides.
-std::string work_hash(const std::string& scenario_path, const std::vector<Override>& overrides);
+/// The same of one scenario with these overrides, in the world `scene` that it loaded.
+std::string work_hash(const std::string& scenario_path, const std::vector<Override>& overrides,
+                      const Scene& scene, const std::vector<std::string>& words);
 
 }  // namespace tagfield

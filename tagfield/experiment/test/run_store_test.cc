@@ -168,16 +168,23 @@ TEST_F(RunStoreTest, HashFollowsTheFiles) {
                     "a, pose: [0, 0, 1, 0, 0, 0], rate_hz: " +
                         rate + "}]\ntags: [{id: t, position: [2, 2, 1]}]\n");
   };
+  const auto hash_of = [&](const std::vector<Override>& overrides,
+                           const std::vector<std::string>& words) {
+    Diagnostics unheard;
+    const Scene scene = load_scenario_with_world(scenario, overrides, unheard).scene;
+    return work_hash(scenario, overrides, scene, words);
+  };
   write("10", "1 1 1");
-  const std::string hash = work_hash(scenario, {});
+  const std::string hash = hash_of({}, {});
   EXPECT_EQ(hash.size(), 16U);
   write("10", "1 1 1");
-  EXPECT_EQ(work_hash(scenario, {}), hash);
-  EXPECT_NE(work_hash(scenario, {{"tags.t.position", "[2, 2, 2]"}}), hash);
+  EXPECT_EQ(hash_of({}, {}), hash);
+  EXPECT_NE(hash_of({{"tags.t.position", "[2, 2, 2]"}}, {}), hash);
+  EXPECT_NE(hash_of({}, {"a*"}), hash);
   write("20", "1 1 1");
-  EXPECT_NE(work_hash(scenario, {}), hash);
+  EXPECT_NE(hash_of({}, {}), hash);
   write("10", "1 1 2");  // In a file that only the world names.
-  EXPECT_NE(work_hash(scenario, {}), hash);
+  EXPECT_NE(hash_of({}, {}), hash);
 }
 
 }  // namespace
