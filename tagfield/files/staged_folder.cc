@@ -139,6 +139,8 @@ GrowingFile::GrowingFile(const fs::path& path, fs::path named)
       file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0)
     fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
+  // So that others see that somebody still writes to it.
+  (void)::flock(file_, LOCK_SH | LOCK_NB);
 }
 
 GrowingFile::~GrowingFile() {
