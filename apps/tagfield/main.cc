@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -83,6 +84,10 @@ int main(int argc, char** argv) {
     return tagfield::kExitBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "tagfield: there is not enough memory for this\n");
+    return tagfield::kExitBadInput;
+  } catch (const std::system_error& error) {
+    // No more threads or open files, a folder that vanished: what Tagfield does itself says it better.
+    fmt::print(stderr, "tagfield: the system refuses: {}\n", tagfield::as_one_line(error.what()));
     return tagfield::kExitBadInput;
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return with_output_checked(tagfield::kExitBadInput);

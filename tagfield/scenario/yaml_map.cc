@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
@@ -44,13 +45,12 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
 }
 
 void require_unique_keys(const YamlValue& map) {
-  std::vector<std::string> keys;
+  std::set<std::string> keys;
   for (const auto& entry : map.node()) {
     const std::string key = entry.first.as<std::string>("");
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+    if (!keys.insert(key).second) {
       YamlValue(entry.first, map.file(), map.path()).fail(fmt::format("has '{}' twice", key));
     }
-    keys.push_back(key);
   }
 }
 

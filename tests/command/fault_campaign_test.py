@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Lets things go wrong around each command, many times, and looks at what is left.
 
-    fault_campaign.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]…
+    fault_campaign_test.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]…
 
 Of each command that writes something: killed (SIGKILL) at random moments, ended by SIGINT and SIGTERM,
 errors at each kind of call (faults.c), few files, little memory, little room for a file, a clock that
