@@ -12,6 +12,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/memory_limit.h"
 #include "tagfield/base/error.h"
 
 namespace {
@@ -78,6 +79,7 @@ int with_output_checked(int code) {
 int main(int argc, char** argv) {
   open_standard_streams();
   try {
+    tagfield::limit_memory_to_what_is_left();
     return with_output_checked(parse_and_run(argc, argv));
   } catch (const tagfield::Error& error) {
     fmt::print(stderr, "tagfield: {}\n", error.what());
@@ -86,7 +88,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "tagfield: there is not enough memory for this\n");
     return tagfield::kExitBadInput;
   } catch (const std::system_error& error) {
-    // No more threads or open files, a folder that vanished: what Tagfield does itself says it better.
+    // No more threads or open files, a folder that vanished: what Tagfield does itself says it
+    // better.
     fmt::print(stderr, "tagfield: the system refuses: {}\n", tagfield::as_one_line(error.what()));
     return tagfield::kExitBadInput;
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include "adapters/http/run_json.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/outlet_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
@@ -165,6 +166,9 @@ int run(const RunArguments& arguments) {
   ScenarioWithWorld loaded = load_scenario_with_world(arguments.scenario, overrides, diagnostics);
   apply(arguments.outlets, loaded.scenario);
   const Scenario& scenario = loaded.scenario;
+  Diagnostics beforehand;
+  warn_of_long_run(scenario, !arguments.record_only, beforehand);
+  print_warnings(beforehand);
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   StagedFolder folder(out);

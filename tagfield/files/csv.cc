@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/range_check.h"
@@ -205,13 +206,17 @@ void read_csv_rows(const std::string& path, const std::function<void(const CsvTa
   std::error_code no_size;
   const auto size = static_cast<double>(std::filesystem::file_size(path, no_size));
   std::size_t done = 0;
-  read_in_blocks(path, [&](std::string_view block) {
-    parse(without_mark(block), parser, filling);
-    done += block.size();
-    if (on_progress && !no_size) on_progress(static_cast<double>(done) / std::max(size, 1.0));
-  });
-  parse(without_mark.rest(), parser, filling);
-  finish(parser, filling);
+  try {
+    read_in_blocks(path, [&](std::string_view block) {
+      parse(without_mark(block), parser, filling);
+      done += block.size();
+      if (on_progress && !no_size) on_progress(static_cast<double>(done) / std::max(size, 1.0));
+    });
+    parse(without_mark.rest(), parser, filling);
+    finish(parser, filling);
+  } catch (const std::bad_alloc&) {
+    fail({path, filling.lines_seen}, "more rows than there is memory for");
+  }
   if (filling.table.header.empty()) {
     fail({path, 0}, form.header ? "is empty, expected a table with a header line" : "is empty");
   }

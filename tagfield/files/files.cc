@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <system_error>
 
 #include "tagfield/base/error.h"
@@ -144,13 +145,17 @@ Partial partial_of(const std::string& path) {
 std::string read_text_file(const std::string& path, std::size_t most_bytes) {
   const Opened file = opened(path);
   std::string text;
-  text.reserve(std::min(require_file(file.get(), path), most_bytes));
-  read_all(file.get(), path, [&](std::string_view bytes) {
-    text += bytes;
-    if (text.size() > most_bytes) {
-      fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
-    }
-  });
+  try {
+    text.reserve(std::min(require_file(file.get(), path), most_bytes));
+    read_all(file.get(), path, [&](std::string_view bytes) {
+      text += bytes;
+      if (text.size() > most_bytes) {
+        fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
+      }
+    });
+  } catch (const std::bad_alloc&) {
+    fail({path, 0}, "is longer than there is memory for");
+  }
   return text;
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kMost = 1e15;  // Of any other number.
 constexpr std::size_t kMostYamlBytes = 16'000'000;
+constexpr std::size_t kMostKeys = 100'000;
 constexpr int kMostLevels = 100;  // Of lists and maps in each other; a node may hold itself.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
@@ -45,6 +46,9 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
 }
 
 void require_unique_keys(const YamlValue& map) {
+  if (map.node().size() > kMostKeys) {
+    map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMostKeys));
+  }
   std::set<std::string> keys;
   for (const auto& entry : map.node()) {
     const std::string key = entry.first.as<std::string>("");
