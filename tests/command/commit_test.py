@@ -165,6 +165,17 @@ def a_disk_that_is_full_at_each_write(context):
 
 
 @case
+def a_system_that_gives_no_threads(context):
+    """All is done by the one that there is, with the same result."""
+    library = fault_library(context.folder)
+    result = result_in(files_in(context.simulate("z_axis", name="many")))
+    code, said = run_with(context, library, ["run", context.shipped("z_axis"), "--out", "one"],
+                          "thread:1+:EAGAIN")
+    check_equal(code, 0, f"exit code without threads ({said})")
+    check(result_in(files_in(context.folder / "one")) == result, "the result is another")
+
+
+@case
 def devices_are_written_to_and_not_replaced(context):
     world = context.run("gazebo", context.shipped("two_antennas"), "--out", "/dev/stdout")
     check_equal(world.code, 0, "exit code")
