@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -78,6 +79,8 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     tagfield::limit_memory_to_what_is_left();
     return with_output_checked(parse_and_run(argc, argv));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <iterator>
 #include <string_view>
 #include <system_error>
@@ -146,7 +147,8 @@ GrowingFile::GrowingFile(const fs::path& path, fs::path named)
 GrowingFile::~GrowingFile() {
   try {
     flush();
-  } catch (const Error&) {  // Told where it mattered: by sync() or commit().
+  } catch (const std::exception&) {  // Told where it mattered: by sync() or commit().
+    text_.clear();
   }
   ::close(file_);
 }
@@ -193,14 +195,23 @@ StagedFolder::StagedFolder(const fs::path& folder) : folder_(folder) {
   own_ = own_files(folder_);
   staging_ = make_staging(folder_);
   lock_ = locked(staging_, LOCK_EX | LOCK_NB);
-  write_through(staging_ / kOwnList, kOwnListHeader, folder_ / kOwnList);
+  try {
+    write_through(staging_ / kOwnList, kOwnListHeader, folder_ / kOwnList);
+  } catch (...) {
+    delete_own_folder(staging_);
+    throw;
+  }
 }
 
 StagedFolder::~StagedFolder() {
   const bool has_grown = std::any_of(growing_.begin(), growing_.end(),
                                      [](const auto& file) { return file->has_written(); });
-  // What has grown was interrupted; its name says that it is incomplete.
-  if (!has_grown) delete_own_folder(staging_);
+  try {
+    // What has grown was interrupted; its name says that it is incomplete.
+    if (!has_grown) delete_own_folder(staging_);
+  } catch (const std::exception&) {  // Without memory; the next result here clears it away.
+    static_cast<void>(has_grown);
+  }
   if (lock_ >= 0) ::close(lock_);
 }
 

@@ -1222,6 +1222,18 @@ def what_never_ends(context):
 
 
 @case
+def files_larger_than_allowed(context):
+    path = context.write("good.yaml", SCENARIO)
+    words = f'ulimit -f 4; "{context.tagfield}" run "{path}" --out o'
+    done = subprocess.run(["bash", "-c", words], cwd=context.folder, capture_output=True, text=True,
+                          check=False)
+    check_equal((done.returncode, len(done.stderr.splitlines())), (2, 1), f"exit code ({done.stderr})")
+    check_in("can't be written: File too large", done.stderr, "complaint")
+    results = [name for name in files_in(context.folder / "o") if not name.startswith("incomplete-")]
+    check_equal(results, [], "results")
+
+
+@case
 def more_than_there_is_memory_for(context):
     """Little memory stands for a table that is larger than that of the machine."""
     rows = "".join(f"{0.01 * i:.2f},r,a,one,865700000,1.0,-50\n" for i in range(300_000))

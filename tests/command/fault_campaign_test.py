@@ -36,7 +36,7 @@ seeds: 2
 methods: [hyperbola]
 conditions: [{{name: plain, set: {{duration_s: {duration}}}}}]
 """
-EVENTS = "events:\n  presence: {{timeout_s: {timeout}}}\n"
+EVENTS = "events:\n  presence: {{gone_after_s: {timeout}}}\n"
 # What goes wrong, how often it is told apart from "from then on".
 FAULTS = (("write", "ENOSPC", "+"), ("write", "EIO", ""), ("sync", "EIO", ""), ("rename", "EIO", ""),
           ("rename", "EACCES", "+"), ("mkdir", "ENOSPC", ""), ("open", "EMFILE", ""),

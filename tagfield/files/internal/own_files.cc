@@ -45,11 +45,13 @@ OwnFiles read_own_list(const fs::path& path) {
 OwnFiles files_below(const fs::path& folder) {
   OwnFiles files;
   std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
-    if (entry.symlink_status().type() != fs::file_type::directory) {
-      files.insert(entry.path().lexically_relative(folder));
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->symlink_status().type() != fs::file_type::directory) {
+      files.insert(entry->path().lexically_relative(folder));
     }
   }
+  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
   return files;
 }
 
@@ -64,7 +66,10 @@ void delete_own_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().filename() != kOwnList) inside.push_back(entry.path());
   }
-  for (const fs::path& path : inside) fs::remove_all(path, error);
+  for (const fs::path& path : inside) {
+    fs::remove_all(path, error);
+    if (error) return;
+  }
   fs::remove(folder / kOwnList, error);
   fs::remove(folder, error);
 }

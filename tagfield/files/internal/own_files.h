@@ -22,7 +22,8 @@ bool is_within(const std::filesystem::path& name);
 std::string own_list_of(const OwnFiles& files);
 OwnFiles read_own_list(const std::filesystem::path& path);
 
-/// Files below a folder, by path in it; links are not followed.
+/// Files below a folder, by path in it; links are not followed. Throws Error where it can't be
+/// looked through to its end.
 OwnFiles files_below(const std::filesystem::path& folder);
 
 /// Whether a folder has such a list, or has lost it in delete_own_folder().

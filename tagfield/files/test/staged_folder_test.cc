@@ -1,6 +1,7 @@
 #include "tagfield/files/staged_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -329,6 +330,28 @@ TEST(StagedFolder, KilledAtAnyMomentHoldsTheOneOrTheOther) {
   commit_one();
   EXPECT_EQ(folder.names(), (Names{"out", "out/.tagfield", "out/a", "out/b", "out/b/c", "out/stale",
                                    "out/stale/d"}));
+}
+
+/// What can't be looked through is not taken for empty, and deleted.
+TEST(FinishCommit, WithoutFilesToOpenLosesNothing) {
+  const TemporaryFolder folder;
+  cut_off_commit(folder.path(), {{"a", "1"}, {"b/c", "1"}}, 1);
+  const pid_t child = fork();
+  if (child == 0) {
+    for (rlim_t files = 0; files < 12; ++files) {
+      const rlimit few{files, 100};
+      ::setrlimit(RLIMIT_NOFILE, &few);
+      try {
+        finish_commit(folder.path());
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+    _exit(0);
+  }
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  finish_commit(folder.path());
+  EXPECT_EQ(files_of(folder), (Files{{"a", "1"}, {"b/c", "1"}}));
 }
 
 TEST(FinishCommit, LeavesOtherFoldersAlone) {
