@@ -7,7 +7,7 @@
 namespace tagfield {
 namespace {
 
-// Half a million steps and some million links of the paper's model a second (docs/reliability.md).
+// At some ten thousand steps and half a million links of the paper's model a second.
 constexpr double kLongSteps = 2e9;
 constexpr double kLongLinks = 1e10;
 constexpr double kMostSteps = 1e13;

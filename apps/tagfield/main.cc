@@ -6,9 +6,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "apps/tagfield/command_line.h"
@@ -68,6 +70,22 @@ void open_standard_streams() {
   }
 }
 
+/// Without memory an exception may be thrown where none may leave, as in destructors of libraries.
+[[noreturn]] void end_without_exception() {
+  constexpr std::string_view kNoMemory = "tagfield: there is not enough memory for this\n";
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    // As it was in the middle of something, it ends here and now.
+    if (::write(STDERR_FILENO, kNoMemory.data(), kNoMemory.size()) >= 0) {
+      ::_exit(tagfield::kExitBadInput);
+    }
+  } catch (...) {
+    std::abort();
+  }
+  std::abort();
+}
+
 /// What was printed must have arrived: its last part only leaves now.
 int with_output_checked(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -79,6 +97,7 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  std::set_terminate(end_without_exception);
   // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
