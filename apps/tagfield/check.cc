@@ -7,6 +7,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/scenario/placements.h"
@@ -94,6 +95,7 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
     if (loaded.scenario.pose.source == PoseSource::kSlam) {
       navigation_world(loaded.scenario, loaded.scene, diagnostics);
     }
+    warn_of_long_run(loaded.scenario, true, diagnostics);
     Json json = {{"scenario", loaded.scenario.name}};
     json.update(describe(loaded.scene));
     add_scenario(loaded.scenario, json);

@@ -243,7 +243,7 @@ int localize(const LocalizeArguments& arguments) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
   const std::string out = folder_of(arguments);
-  StagedFolder folder(out);
+  { const StagedFolder tried(out); }  // Says now that nothing can be written there.
   const std::vector<std::string> order = order_of(loaded);
   LocalizationResult result =
       locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
@@ -254,6 +254,9 @@ int localize(const LocalizeArguments& arguments) {
   summary.compared_methods = compared_methods(recording, loaded, options, summary, order);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
+  catch_interrupts();  // What is left to do takes but a moment, and then nothing half-done lies
+                       // about.
+  StagedFolder folder(out);
   stage(recording, loaded, options, result, folder);
   folder.add("summary.json", to_json(summary));
   if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);

@@ -4,13 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/memory_limit.h"
 #include "tagfield/base/error.h"
 
 namespace {
@@ -68,6 +73,22 @@ void open_standard_streams() {
   }
 }
 
+/// Without memory an exception may be thrown where none may leave, as in destructors of libraries.
+[[noreturn]] void end_without_exception() {
+  constexpr std::string_view kNoMemory = "tagfield: there is not enough memory for this\n";
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    // As it was in the middle of something, it ends here and now.
+    if (::write(STDERR_FILENO, kNoMemory.data(), kNoMemory.size()) >= 0) {
+      ::_exit(tagfield::kExitBadInput);
+    }
+  } catch (...) {
+    std::abort();
+  }
+  std::abort();
+}
+
 /// What was printed must have arrived: its last part only leaves now.
 int with_output_checked(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -79,13 +100,22 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  std::set_terminate(end_without_exception);
+  // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
+    tagfield::limit_memory_to_what_is_left();
     return with_output_checked(parse_and_run(argc, argv));
   } catch (const tagfield::Error& error) {
     fmt::print(stderr, "tagfield: {}\n", error.what());
     return tagfield::kExitBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "tagfield: there is not enough memory for this\n");
+    return tagfield::kExitBadInput;
+  } catch (const std::system_error& error) {
+    // No more threads or open files, a folder that vanished: what Tagfield does itself says it
+    // better.
+    fmt::print(stderr, "tagfield: the system refuses: {}\n", tagfield::as_one_line(error.what()));
     return tagfield::kExitBadInput;
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return with_output_checked(tagfield::kExitBadInput);

@@ -6,6 +6,7 @@
 #include "adapters/http/run_json.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/outlet_arguments.h"
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
@@ -216,6 +217,7 @@ int run(const RunArguments& arguments) {
   const Scenario& scenario = loaded.scenario;
   // Other warnings come with the result.
   Diagnostics beforehand;
+  warn_of_long_run(scenario, !arguments.record_only, beforehand);
   warn_of_long_tracing(scenario, beforehand);
   print_warnings(beforehand);
   const std::string out =

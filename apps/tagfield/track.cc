@@ -229,6 +229,7 @@ int track_command(const TrackArguments& arguments) {
   print_warnings(diagnostics);
   if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
   const std::string out = folder_of(arguments, result);
+  catch_interrupts();
   StagedFolder folder(out);
   if (is_scenario(arguments.input)) {
     folder.add("reads.csv", reads_to_csv(result.first.reads));

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/range_check.h"
@@ -16,16 +17,19 @@
 namespace tagfield {
 namespace {
 
+constexpr std::size_t kMostRowBytes = 1'000'000;  // A row is kept until it is whole.
+
 /// What libcsv's callbacks fill.
 struct Filling {
   CsvTable table;  ///< Without rows.
   const std::function<void(const CsvTable&)>& begin;
   const std::function<void(const CsvRow&)>& take;
-  bool header = true;     ///< Whether the table has one.
-  int lines_seen = 0;     ///< Of which the last may go on in the next block.
-  bool in_line = false;   ///< Whether it does.
-  CsvRow row;             ///< Its fields are used again and again.
-  std::size_t count = 0;  ///< Of them that are filled.
+  bool header = true;       ///< Whether the table has one.
+  int lines_seen = 0;       ///< Of which the last may go on in the next block.
+  bool in_line = false;     ///< Whether it does.
+  std::size_t unended = 0;  ///< Bytes of a row that has not come to its end.
+  CsvRow row;               ///< Its fields are used again and again.
+  std::size_t count = 0;    ///< Of them that are filled.
   std::string problem;
   std::exception_ptr thrown;  ///< By `begin` or `take`: not through libcsv, which is C.
 };
@@ -59,6 +63,7 @@ void on_field(void* bytes, std::size_t size, void* user) {
 
 void on_row(int /*terminator*/, void* user) {
   auto& filling = *static_cast<Filling*>(user);
+  filling.unended = 0;
   if (!filling.problem.empty() || filling.thrown) return;
   try {
     const bool first = filling.table.header.empty();
@@ -88,7 +93,11 @@ void parse(std::string_view text, csv_parser& parser, Filling& filling) {
         text.substr(0, newline == std::string_view::npos ? newline : newline + 1);
     if (!filling.in_line) ++filling.lines_seen;
     filling.in_line = newline == std::string_view::npos;
-    if (csv_parse(&parser, line.data(), line.size(), on_field, on_row, &filling) != line.size()) {
+    filling.unended += line.size();
+    if (filling.unended > kMostRowBytes) {
+      filling.problem = fmt::format("a row of over {} bytes", kMostRowBytes);
+    } else if (csv_parse(&parser, line.data(), line.size(), on_field, on_row, &filling) !=
+               line.size()) {
       filling.problem = csv_strerror(csv_error(&parser));
     }
     require_no_problem(filling);
@@ -192,18 +201,22 @@ void read_csv_rows(const std::string& path, const std::function<void(const CsvTa
   }
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
   csv_set_delim(&parser, static_cast<unsigned char>(form.delimiter));
-  Filling filling{{path, {}, {}}, begin, take, form.header, 0, false, {}, 0, "", nullptr};
+  Filling filling{{path, {}, {}}, begin, take, form.header, 0, false, 0, {}, 0, "", nullptr};
   WithoutMark without_mark;
   std::error_code no_size;
   const auto size = static_cast<double>(std::filesystem::file_size(path, no_size));
   std::size_t done = 0;
-  read_in_blocks(path, [&](std::string_view block) {
-    parse(without_mark(block), parser, filling);
-    done += block.size();
-    if (on_progress && !no_size) on_progress(static_cast<double>(done) / std::max(size, 1.0));
-  });
-  parse(without_mark.rest(), parser, filling);
-  finish(parser, filling);
+  try {
+    read_in_blocks(path, [&](std::string_view block) {
+      parse(without_mark(block), parser, filling);
+      done += block.size();
+      if (on_progress && !no_size) on_progress(static_cast<double>(done) / std::max(size, 1.0));
+    });
+    parse(without_mark.rest(), parser, filling);
+    finish(parser, filling);
+  } catch (const std::bad_alloc&) {
+    fail({path, filling.lines_seen}, "more rows than there is memory for");
+  }
   if (filling.table.header.empty()) {
     fail({path, 0}, form.header ? "is empty, expected a table with a header line" : "is empty");
   }

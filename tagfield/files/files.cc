@@ -2,14 +2,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <system_error>
 
 #include "tagfield/base/error.h"
@@ -86,8 +91,53 @@ fs::path target_of(const std::string& path) {
   return error ? fs::path(path) : target;
 }
 
+constexpr const char* kPartial = ".partial";
+
 fs::path beside(const fs::path& target) {
-  return fmt::format("{}.{}.partial", target.string(), getpid());
+  return fmt::format("{}.{}{}", target.string(), getpid(), kPartial);
+}
+
+/// The process that gave a file beside `target` its name; 0 where it is none of those.
+pid_t writer_of(const fs::path& path, const fs::path& target) {
+  const std::string start = target.filename().string() + ".";
+  const std::string name = path.filename().string();
+  const std::size_t end = name.rfind(kPartial);
+  if (name.rfind(start, 0) != 0 || end == std::string::npos || end <= start.size()) return 0;
+  pid_t pid = 0;
+  const char* const last = name.data() + end;
+  const auto [parsed, error] = std::from_chars(name.data() + start.size(), last, pid);
+  const bool is_whole = parsed == last && end + std::string_view(kPartial).size() == name.size();
+  return error == std::errc{} && is_whole ? pid : 0;
+}
+
+/// Files of programs that were killed while they wrote this one: those are no more, and nobody has
+/// a lock on it, as one of another machine or container would.
+void remove_abandoned_partials(const fs::path& target) {
+  std::error_code error;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const pid_t pid = writer_of(entry.path(), target);
+    if (pid <= 0 || ::kill(pid, 0) == 0 || errno != ESRCH) continue;
+    const Opened file(entry.path().string());
+    if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0) {
+      fs::remove(entry.path(), error);
+    }
+  }
+}
+
+/// A file that is written beside its place, until it is moved there.
+struct Partial {
+  fs::path path;
+  fs::path target;
+  std::unique_ptr<GrowingFile> file;
+};
+
+Partial partial_of(const std::string& path) {
+  const fs::path target = target_of(path);
+  remove_abandoned_partials(target);
+  Partial partial{beside(target), target, nullptr};
+  partial.file = std::make_unique<GrowingFile>(partial.path, path);
+  return partial;
 }
 
 }  // namespace
@@ -95,13 +145,17 @@ fs::path beside(const fs::path& target) {
 std::string read_text_file(const std::string& path, std::size_t most_bytes) {
   const Opened file = opened(path);
   std::string text;
-  text.reserve(std::min(require_file(file.get(), path), most_bytes));
-  read_all(file.get(), path, [&](std::string_view bytes) {
-    text += bytes;
-    if (text.size() > most_bytes) {
-      fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
-    }
-  });
+  try {
+    text.reserve(std::min(require_file(file.get(), path), most_bytes));
+    read_all(file.get(), path, [&](std::string_view bytes) {
+      text += bytes;
+      if (text.size() > most_bytes) {
+        fail({path, 0}, fmt::format("is longer than {} bytes", most_bytes));
+      }
+    });
+  } catch (const std::bad_alloc&) {
+    fail({path, 0}, "is longer than there is memory for");
+  }
   return text;
 }
 
@@ -116,21 +170,22 @@ void write_text_file(const std::string& path, const std::string& text) {
 }
 
 void write_text_files(const std::vector<std::pair<std::string, std::string>>& files) {
-  std::vector<std::pair<fs::path, fs::path>> renames;
+  std::vector<Partial> partials;
   try {
     for (const auto& [path, text] : files) {
       if (is_special(path)) {
         files_internal::write_through(path, text, path);
         continue;
       }
-      const fs::path target = target_of(path);
-      renames.emplace_back(beside(target), target);
-      files_internal::write_through(renames.back().first, text, path);
+      partials.push_back(partial_of(path));
+      partials.back().file->text() = text;
+      partials.back().file->finish();
     }
-    for (const auto& [from, to] : renames) files_internal::rename_over(from, to);
+    for (const Partial& partial : partials)
+      files_internal::rename_over(partial.path, partial.target);
   } catch (const Error&) {
     std::error_code ignored;
-    for (const auto& [from, to] : renames) fs::remove(from, ignored);
+    for (const Partial& partial : partials) fs::remove(partial.path, ignored);
     throw;
   }
 }

@@ -8,88 +8,40 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <iterator>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "tagfield/base/error.h"
-#include "tagfield/files/files.h"
 #include "tagfield/files/internal/file_steps.h"
+#include "tagfield/files/internal/folder_lock.h"
+#include "tagfield/files/internal/folder_swap.h"
+#include "tagfield/files/internal/own_files.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
+using files_internal::delete_own_folder;
+using files_internal::files_below;
+using files_internal::FolderLock;
+using files_internal::is_at_or_below;
+using files_internal::is_own_folder;
+using files_internal::is_within;
+using files_internal::kOwnList;
+using files_internal::kOwnListHeader;
+using files_internal::locked;
 using files_internal::make_folder;
+using files_internal::own_list_of;
+using files_internal::read_own_list;
 using files_internal::rename_over;
 using files_internal::sync_folder;
 using files_internal::write_through;
 
-constexpr const char* kList = ".tagfield";
 constexpr const char* kCommitting = ".tagfield-commit";
 constexpr const char* kIncomplete = "incomplete-";
-constexpr const char* kListHeader = "# Files that Tagfield wrote here; it replaces no others.\n";
-constexpr std::size_t kMostListBytes = 10'000'000;
-
-/// A lock on a folder, as long as it lives. -1 where it could not be had.
-int locked(const fs::path& folder, int how) {
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return -1;
-  while (::flock(file, how) != 0) {
-    if (errno == EINTR) continue;
-    ::close(file);
-    return -1;
-  }
-  return file;
-}
-
-/// One program at a time moves files within a folder.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) : file_(locked(folder, LOCK_EX)) {}
-  ~FolderLock() {
-    if (file_ >= 0) ::close(file_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
-
-bool is_within(const fs::path& name) {
-  return !name.empty() && name.is_relative() && name.native() == name.lexically_normal().native() &&
-         *name.begin() != ".." && *name.begin() != "." && name.has_filename();
-}
-
-bool is_at_or_below(const fs::path& name, const fs::path& place) {
-  const auto [in_name, in_place] =
-      std::mismatch(name.begin(), name.end(), place.begin(), place.end());
-  return in_place == place.end();
-}
-
-std::string list_of(const OwnFiles& files) {
-  std::string text = kListHeader;
-  for (const fs::path& file : files) text += file.generic_string() + "\n";
-  return text;
-}
-
-OwnFiles read_list(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(path, error))) return {};
-  std::istringstream text(read_text_file(path.string(), kMostListBytes));
-  OwnFiles files;
-  int line = 0;
-  for (std::string name; std::getline(text, name);) {
-    ++line;
-    if (name.empty() || name.front() == '#') continue;
-    if (!is_within(name)) fail({path.string(), line}, "expected a file below this folder");
-    files.insert(name);
-  }
-  return files;
-}
 
 /// Throws Error unless each part of the way to `name` is a folder or not there yet.
 void require_way(const fs::path& folder, const fs::path& name) {
@@ -104,18 +56,6 @@ void require_way(const fs::path& folder, const fs::path& name) {
     }
     if (!fs::is_directory(status)) fail({way.string(), 0}, "is in the way of a folder");
   }
-}
-
-/// Files below a folder, by path in it; links are not followed.
-OwnFiles files_in(const fs::path& folder) {
-  OwnFiles files;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
-    if (entry.symlink_status().type() != fs::file_type::directory) {
-      files.insert(entry.path().lexically_relative(folder));
-    }
-  }
-  return files;
 }
 
 void remove_with_empty_parents(const fs::path& folder, const fs::path& name) {
@@ -134,11 +74,11 @@ void roll_forward(const fs::path& folder) {
   const fs::path committing = folder / kCommitting;
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(committing, error))) return;
-  if (fs::exists(fs::symlink_status(committing / kList, error))) {
-    const OwnFiles before = read_list(folder / kList);
-    const OwnFiles after = read_list(committing / kList);
-    for (const fs::path& name : files_in(committing)) {
-      if (name == kList) continue;
+  if (fs::exists(fs::symlink_status(committing / kOwnList, error))) {
+    const OwnFiles before = read_own_list(folder / kOwnList);
+    const OwnFiles after = read_own_list(committing / kOwnList);
+    for (const fs::path& name : files_below(committing)) {
+      if (name == kOwnList) continue;
       require_way(folder, name);
       make_folder((folder / name).parent_path());
       rename_over(committing / name, folder / name);
@@ -146,24 +86,37 @@ void roll_forward(const fs::path& folder) {
     for (const fs::path& name : before) {
       if (after.count(name) == 0) remove_with_empty_parents(folder, name);
     }
-    rename_over(committing / kList, folder / kList);
+    rename_over(committing / kOwnList, folder / kOwnList);
     sync_folder(folder);
   }
-  if (files_in(committing).empty()) fs::remove_all(committing, error);
+  if (files_below(committing).empty()) fs::remove_all(committing, error);
 }
 
-/// What a run left that was killed: nobody holds the lock on it any more.
+/// Where it can't be in one step: a program that is killed within it leaves the rest to others.
+void move_in(const fs::path& folder, const fs::path& staging) {
+  rename_over(staging, folder / kCommitting);
+  sync_folder(folder);
+  roll_forward(folder);
+}
+
+/// Whether a folder is called as those of make_staging().
+bool is_staging(const std::string& name) {
+  const std::size_t start = std::string_view(kIncomplete).size();
+  return name.rfind(kIncomplete, 0) == 0 && name.size() > start &&
+         name.find_first_not_of("0123456789.", start) == std::string::npos;
+}
+
+/// What runs left that were killed: nobody holds the lock on it any more. Those that had not come
+/// to write their list are empty; a folder of that name with something in it is somebody else's.
 void remove_abandoned(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& place = entry.path();
-    if (place.filename().string().rfind(kIncomplete, 0) != 0) continue;
-    if (!fs::is_directory(fs::symlink_status(place, error)) || !fs::exists(place / kList, error)) {
-      continue;
-    }
+    if (!is_staging(place.filename().string())) continue;
+    if (!fs::is_directory(fs::symlink_status(place, error))) continue;
     const int lock = locked(place, LOCK_EX | LOCK_NB);
     if (lock < 0) continue;
-    fs::remove_all(place, error);
+    if (is_own_folder(place)) delete_own_folder(place);
     ::close(lock);
   }
 }
@@ -187,12 +140,15 @@ GrowingFile::GrowingFile(const fs::path& path, fs::path named)
       file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (file_ < 0)
     fail({named_.string(), 0}, fmt::format("can't be written: {}", std::strerror(errno)));
+  // So that others see that somebody still writes to it.
+  (void)::flock(file_, LOCK_SH | LOCK_NB);
 }
 
 GrowingFile::~GrowingFile() {
   try {
     flush();
-  } catch (const Error&) {  // Told where it mattered: by sync() or commit().
+  } catch (const std::exception&) {  // Told where it mattered: by sync() or commit().
+    text_.clear();
   }
   ::close(file_);
 }
@@ -220,7 +176,7 @@ void GrowingFile::finish() {
   }
 }
 
-OwnFiles own_files(const fs::path& folder) { return read_list(folder / kList); }
+OwnFiles own_files(const fs::path& folder) { return read_own_list(folder / kOwnList); }
 
 void finish_commit(const fs::path& folder) {
   if (folder.empty()) return finish_commit(".");
@@ -234,18 +190,28 @@ StagedFolder::StagedFolder(const fs::path& folder) : folder_(folder) {
   if (folder_ == "-") throw Error("'-' is no folder for results: they are several files");
   make_folder(folder_);
   finish_commit(folder_);
+  const FolderLock lock(folder_);
+  files_internal::remove_swap_leftovers(folder_);
   own_ = own_files(folder_);
   staging_ = make_staging(folder_);
   lock_ = locked(staging_, LOCK_EX | LOCK_NB);
-  write_through(staging_ / kList, kListHeader, folder_ / kList);
+  try {
+    write_through(staging_ / kOwnList, kOwnListHeader, folder_ / kOwnList);
+  } catch (...) {
+    delete_own_folder(staging_);
+    throw;
+  }
 }
 
 StagedFolder::~StagedFolder() {
   const bool has_grown = std::any_of(growing_.begin(), growing_.end(),
                                      [](const auto& file) { return file->has_written(); });
-  std::error_code ignored;
-  // What has grown was interrupted; its name says that it is incomplete.
-  if (!has_grown) fs::remove_all(staging_, ignored);
+  try {
+    // What has grown was interrupted; its name says that it is incomplete.
+    if (!has_grown) delete_own_folder(staging_);
+  } catch (const std::exception&) {  // Without memory; the next result here clears it away.
+    static_cast<void>(has_grown);
+  }
   if (lock_ >= 0) ::close(lock_);
 }
 
@@ -261,7 +227,7 @@ void StagedFolder::require_free(const fs::path& name) const {
       {(folder_ / name).string(), 0},
       fmt::format("was not written by Tagfield ({} does not list it), and is not replaced: move it "
                   "away, or choose another folder",
-                  (folder_ / kList).string()));
+                  (folder_ / kOwnList).string()));
 }
 
 std::shared_ptr<GrowingFile> StagedFolder::grow(const fs::path& name) {
@@ -290,20 +256,22 @@ void StagedFolder::commit(const std::vector<fs::path>& stale) {
   for (const auto& file : growing_) file->finish();
   const FolderLock lock(folder_);
   roll_forward(folder_);  // Another program's that was killed meanwhile.
+  remove_abandoned(folder_);
   own_ = own_files(folder_);
   for (const fs::path& name : added_) require_free(name);
-  OwnFiles after = added_;
-  std::copy_if(own_.begin(), own_.end(), std::inserter(after, after.end()), [&](const auto& name) {
-    return std::none_of(stale.begin(), stale.end(),
+  OwnFiles kept;
+  std::copy_if(own_.begin(), own_.end(), std::inserter(kept, kept.end()), [&](const auto& name) {
+    return added_.count(name) == 0 &&
+           std::none_of(stale.begin(), stale.end(),
                         [&](const fs::path& place) { return is_at_or_below(name, place); });
   });
-  write_through(staging_ / kList, list_of(after), folder_ / kList);
+  OwnFiles after = added_;
+  after.insert(kept.begin(), kept.end());
+  write_through(staging_ / kOwnList, own_list_of(after), folder_ / kOwnList);
   growing_.clear();
-  rename_over(staging_, folder_ / kCommitting);
-  sync_folder(folder_);
-  roll_forward(folder_);
-  remove_abandoned(folder_);
+  if (!files_internal::swap_in(folder_, staging_, own_, kept)) move_in(folder_, staging_);
   added_.clear();
+  if (lock_ >= 0) ::close(std::exchange(lock_, -1));  // It would be one on `folder_` by now.
 }
 
 }  // namespace tagfield

@@ -76,9 +76,10 @@ class StagedFolder {
   [[nodiscard]] const std::filesystem::path& staging() const;
 
   /// Moves all to their places, each replacing what was there, and deletes those of `stale` (files
-  /// or folders, relative) that Tagfield wrote earlier and that were not added now. One step: a
-  /// program killed before it leaves the old files; one killed in it leaves the rest to
-  /// finish_commit().
+  /// or folders, relative) that Tagfield wrote earlier and that were not added now. Where the
+  /// folder holds Tagfield's files alone, another folder takes its place in one step: whoever looks
+  /// finds the old files or the new ones. Else they are moved one after the other, and a program
+  /// killed meanwhile leaves the rest to finish_commit().
   void commit(const std::vector<std::filesystem::path>& stale = {});
 
  private:

@@ -214,9 +214,15 @@ std::string top_view_to_json(const std::vector<Silhouette>& silhouettes) {
 }
 
 std::vector<Silhouette> top_view_from_json(const std::string& text) {
+  constexpr int kMostLevels = 20;
   try {
+    const nlohmann::json list = nlohmann::json::parse(text, [](int levels, auto, const auto&) {
+      if (levels > kMostLevels) throw Error("top view is not the JSON expected: too deep a nest");
+      return true;
+    });
+    if (!list.is_array()) throw Error("top view is not the JSON expected: no list");
     std::vector<Silhouette> silhouettes;
-    for (const auto& object : nlohmann::json::parse(text).get<std::vector<nlohmann::json>>()) {
+    for (const nlohmann::json& object : list) {
       silhouettes.push_back(silhouette_from_json(object));
     }
     return silhouettes;

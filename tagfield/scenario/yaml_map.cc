@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kMost = 1e15;  // Of any other number.
 constexpr std::size_t kMostYamlBytes = 16'000'000;
+constexpr std::size_t kMostKeys = 100'000;
 constexpr int kMostLevels = 100;  // Of lists and maps in each other; a node may hold itself.
 constexpr const char* kCommandLine = "--set";
 // Tag of YAML nodes that did not come from the file.
@@ -45,13 +47,15 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
 }
 
 void require_unique_keys(const YamlValue& map) {
-  std::vector<std::string> keys;
+  if (map.node().size() > kMostKeys) {
+    map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMostKeys));
+  }
+  std::set<std::string> keys;
   for (const auto& entry : map.node()) {
     const std::string key = entry.first.as<std::string>("");
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+    if (!keys.insert(key).second) {
       YamlValue(entry.first, map.file(), map.path()).fail(fmt::format("has '{}' twice", key));
     }
-    keys.push_back(key);
   }
 }
 

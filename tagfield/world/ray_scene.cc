@@ -163,17 +163,21 @@ RTCRayHit single(const Ray& ray) {
   return hit;
 }
 
+/// One for all scenes, which is never released: once the last device is, TBB starts threads of its
+/// own, and ends the program where the system gives it none.
+RTCDevice lasting_device() {
+  static const RTCDevice device = rtcNewDevice("threads=1");
+  return device;
+}
+
 }  // namespace
 
-RayScene::Impl::Impl() : device(rtcNewDevice("threads=1")) {
+RayScene::Impl::Impl() : device(lasting_device()) {
   if (device == nullptr) throw Error("rays can't be made ready: Embree has no device");
   scene = rtcNewScene(device);
 }
 
-RayScene::Impl::~Impl() {
-  rtcReleaseScene(scene);
-  rtcReleaseDevice(device);
-}
+RayScene::Impl::~Impl() { rtcReleaseScene(scene); }
 
 float RayScene::Impl::with_planes(const Ray& ray, float distance) const {
   // Up to most_m, but an endless ray doesn't meet a plane at infinity.

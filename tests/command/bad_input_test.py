@@ -1208,7 +1208,68 @@ def output_that_cannot_be_printed(context):
 
 
 @case
+def what_never_ends(context):
+    """Files without an end, nests without a bottom, runs of years."""
+    context.run_well("run", context.write("good.yaml", SCENARIO), "--set", "duration_s=0.3",
+                     "--no-page", "--out", "out")
+    endless = {"one line": "head -c 300000000 /dev/zero | tr '\\0' x", "YAML": "yes 'a: 1'",
+               "zeros": "cat /dev/zero"}
+    for name, command in endless.items():
+        for reader in ("check /dev/fd/3 --set seed=1", "localize /dev/fd/3 --poses out/antenna_poses.csv"):
+            if name == "YAML" and reader.startswith("localize"):
+                continue
+            words = f'"{context.tagfield}" {reader} 3< <({command})'
+            done = subprocess.run(["bash", "-c", words], cwd=context.folder, timeout=60,
+                                  capture_output=True, text=True, check=False)
+            check_equal((done.returncode, len(done.stderr.splitlines())), (2, 1),
+                        f"{reader} of {name}, {done.stderr[:300]}")
+    for file in ("summary.json", "top_view.json", "scene.json"):
+        folder = context.folder / "deep"
+        shutil.copytree(context.folder / "out", folder)
+        (folder / file).write_text("[" * 500_000 + "]" * 500_000, encoding="utf-8")
+        result = context.run("report", folder, timeout=60)
+        check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{file}: {result.err[:200]}")
+        shutil.rmtree(folder)
+    context.write("long.yaml", SCENARIO)
+    for settings, code, says in (
+            (("duration_s=4e9", "time_step_s=1e-5"), 2, "more than a computer gets done in a year"),
+            (("duration_s=4e8",), 0, "this takes hours"),
+            (("duration_s=4e8",), 0, "with 'run --record-only' it doesn't grow")):
+        words = [word for setting in settings for word in ("--set", setting)]
+        result = context.run("check", "long.yaml", *words)
+        check_equal(result.code, code, f"exit code with {settings}")
+        check_in(says, result.err, f"what is said with {settings}")
+
+
+@case
+def files_larger_than_allowed(context):
+    path = context.write("good.yaml", SCENARIO)
+    words = f'ulimit -f 4; "{context.tagfield}" run "{path}" --out o'
+    done = subprocess.run(["bash", "-c", words], cwd=context.folder, capture_output=True, text=True,
+                          check=False)
+    check_equal((done.returncode, len(done.stderr.splitlines())), (2, 1), f"exit code ({done.stderr})")
+    check_in("can't be written: File too large", done.stderr, "complaint")
+    results = [name for name in files_in(context.folder / "o") if not name.startswith("incomplete-")]
+    check_equal(results, [], "results")
+
+
+@case
+def more_than_there_is_memory_for(context):
+    """Little memory stands for a table that is larger than that of the machine."""
+    rows = "".join(f"{0.01 * i:.2f},r,a,one,865700000,1.0,-50\n" for i in range(300_000))
+    context.write("reads.csv", READS.splitlines()[0] + "\n" + rows)
+    context.write("poses.csv", POSES)
+    words = f'ulimit -d 45000; "{context.tagfield}" localize reads.csv --poses poses.csv --out o'
+    done = subprocess.run(["bash", "-c", words], cwd=context.folder, capture_output=True, text=True,
+                          check=False)
+    check_equal(done.returncode, 2, f"exit code ({done.stderr[:300]})")
+    check_in("there is memory for", done.stderr, "complaint")
+
+
+@case
 def yaml_beyond_all_measure(context):
+    many = context.write("many.yaml", "".join(f"k{i}: 1\n" for i in range(100_001)))
+    expect_complaint(context, "keys", ["run", many, "--out", "o"], "has 100001 keys, expected at most")
     path = context.write("good.yaml", SCENARIO)
     expect_complaint(context, "a node that holds itself",
                      ["run", path, "--set", "tags=&a [*a]", "--out", "o"], "--set tags: holds itself")

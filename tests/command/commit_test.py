@@ -2,57 +2,39 @@
 the old result or the new one.
 
 Faults are made by a library loaded before the C library (faults.c): a kill at the Nth rename, a disk
-that is full from the Nth write on.
+that is full from the Nth write on. scripts/faults tries many more.
 """
 
 import os
 import pathlib
 import subprocess
 
-from common import (Skip, case, check, check_equal, check_in, clean_environment, files_in, main)
+from common import case, check, check_equal, check_in, files_in, main
+from faulty import counts_in, environment_with, fault_library, is_left_over, result_in
 
-TIMED = ("summary.json", "report.html")  # They hold how long it took.
 OTHERS = {"figures/mine.svg": "<svg/>", "map.pgm": "mine", "truth/notes.csv": "a,b\n"}
 
 
-def faults(context):
-    """Builds the library of faults.c; gives its path."""
-    library = context.folder / "faults.so"
-    source = pathlib.Path(__file__).parent / "faults.c"
-    built = subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-Wall", "-Werror", "-o", library,
-                            source, "-ldl"], capture_output=True, text=True, check=False)
-    if built.returncode != 0:
-        raise Skip(f"cc does not build faults.c: {built.stderr.strip()[:200]}")
-    return library
-
-
-def run_with(context, library, arguments, **settings):
+def run_with(context, library, arguments, fault=None, count_file=None):
     """The exit code (negative: the signal) and the standard error of a run with a fault."""
-    environment = clean_environment() | {"LD_PRELOAD": str(library)}
-    environment |= {name: str(value) for name, value in settings.items()}
     done = subprocess.run([str(word) for word in [context.tagfield, *arguments]],
-                          cwd=context.folder, env=environment, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=300, check=False)
+                          cwd=context.folder, env=environment_with(library, fault, count_file),
+                          capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300,
+                          check=False)
     return done.returncode, done.stderr
 
 
 def counts(context, library, arguments):
-    """How many renames and writes such a run makes."""
+    """How often such a run makes each call."""
     path = context.folder / "counts"
-    code, said = run_with(context, library, arguments, COUNT_FILE=path)
+    code, said = run_with(context, library, arguments, count_file=path)
     check_equal(code, 0, f"exit code with the counting library ({said})")
-    return [int(word) for word in path.read_text(encoding="ascii").split()]
+    return counts_in(path)
 
 
 def kept(folder):
     """The files but those of a run that was cut off, which stand apart."""
-    return {name: content for name, content in files_in(folder).items()
-            if not name.startswith("incomplete-")}
-
-
-def result_in(folder):
-    """What does not depend on how long it took, and which files there are."""
-    return {name: None if name in TIMED else content for name, content in kept(folder).items()}
+    return {name: content for name, content in files_in(folder).items() if not is_left_over(name)}
 
 
 def commands(context):
@@ -111,42 +93,86 @@ def a_folder_that_is_a_link_is_not_followed(context):
                 "the file outside")
 
 
-@case
-def killed_at_each_step_of_a_commit(context):
-    library = faults(context)
-    old = result_in(context.simulate("two_antennas", name="old"))
+def old_and_new(context):
+    """What a folder holds before and after the run that faults meet."""
+    return (result_in(files_in(context.simulate("two_antennas", name="old"))),
+            result_in(files_in(context.simulate("z_axis", name="new"))))
+
+
+def kill_at_each_rename(context, library, others=()):
+    """How often the folder then holds the old result and how often the new one, with nothing done
+    about it since; and the same after `report` looked at it."""
+    old, new = old_and_new(context)
+    beside = {name: text.encode() for name, text in others}
     command = ["run", context.shipped("z_axis"), "--out", "out"]
     context.simulate("two_antennas", name="out")
-    steps = counts(context, library, command)[0]
-    new = result_in(context.folder / "out")
-    check(steps > 15, f"only {steps} renames")
-    outcomes = {"old": 0, "new": 0}
+    for name, text in others:
+        context.write(f"out/{name}", text)
+    steps = counts(context, library, command)["rename"]
+    as_left = {"old": 0, "new": 0, "neither": 0}
+    looked_at = dict(as_left)
+
+    def outcome():
+        found = result_in(files_in(context.folder / "out"))
+        check(all(found.pop(name, None) == text for name, text in beside.items()), "others' files")
+        return "old" if found == old else "new" if found == new else "neither"
+
     for step in range(1, steps + 1):
         context.simulate("two_antennas", name="out")
-        code, _ = run_with(context, library, command, KILL_AT_RENAME=step)
+        code, _ = run_with(context, library, command, f"rename:{step}:KILL")
         check_equal(code, -9, f"exit code when killed at rename {step}")
+        as_left[outcome()] += 1
         context.run_well("report", "out")
-        found = result_in(context.folder / "out")
-        if check(found in (old, new), f"killed at rename {step}: neither the old result nor the new"):
-            outcomes["old" if found == old else "new"] += 1
-    check(outcomes["old"] > 0 and outcomes["new"] > 10, f"outcomes {outcomes}")
+        looked_at[outcome()] += 1
+    context.simulate("z_axis", name="out")
+    check_equal([name for name in files_in(context.folder) if is_left_over(name)], [], "left over")
+    return steps, as_left, looked_at
+
+
+@case
+def killed_at_each_step_of_a_commit(context):
+    """In a folder with nothing of others the files change at once."""
+    steps, as_left, looked_at = kill_at_each_rename(context, fault_library(context.folder))
+    check_equal(as_left, {"old": steps, "new": 0, "neither": 0}, "what is there")
+    check_equal(looked_at, as_left, "what is there after a look")
+
+
+@case
+def killed_at_each_step_of_a_commit_among_others_files(context):
+    """There they are moved one by one; whoever looks next finishes that."""
+    steps, _, looked_at = kill_at_each_rename(context, fault_library(context.folder),
+                                              [("notes.txt", "mine"), ("truth/notes", "mine")])
+    check(steps > 15, f"only {steps} renames")
+    check_equal(looked_at["neither"], 0, "neither the old result nor the new")
+    check(looked_at["old"] > 0 and looked_at["new"] > 10, f"outcomes {looked_at}")
 
 
 @case
 def a_disk_that_is_full_at_each_write(context):
-    library = faults(context)
+    library = fault_library(context.folder)
     old = context.simulate("two_antennas", name="out")
     before = files_in(old)
     command = ["run", context.shipped("z_axis"), "--out", "out"]
-    writes = counts(context, library, [*command[:3], "counted"])[1]
+    writes = counts(context, library, [*command[:3], "counted"])["write"]
     check(writes > 15, f"only {writes} writes")
     for step in range(1, writes + 1):
-        code, said = run_with(context, library, command, FULL_AT_WRITE=step)
+        code, said = run_with(context, library, command, f"write:{step}+:ENOSPC")
         check_equal(code, 2, f"exit code when the disk is full at write {step} ({said})")
         check_in("No space left on device", said, "complaint")
         found = kept(old)
         check_equal(sorted(found), sorted(before), f"files with a disk full at write {step}")
         check(found == before, f"a disk full at write {step} changed the old result")
+
+
+@case
+def a_system_that_gives_no_threads(context):
+    """All is done by the one that there is, with the same result."""
+    library = fault_library(context.folder)
+    result = result_in(files_in(context.simulate("z_axis", name="many")))
+    code, said = run_with(context, library, ["run", context.shipped("z_axis"), "--out", "one"],
+                          "thread:1+:EAGAIN")
+    check_equal(code, 0, f"exit code without threads ({said})")
+    check(result_in(files_in(context.folder / "one")) == result, "the result is another")
 
 
 @case

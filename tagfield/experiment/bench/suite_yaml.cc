@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 1'000'000;
+constexpr double kMostBursts = 1000.0;  // At a time.
 constexpr double kLeastEvery_s = 1e-3;
 constexpr double kMostLate_s = 3600.0;
 
@@ -80,6 +81,11 @@ ReadLoss loss_of(YamlMap map) {
         fmt::format("must be at least {} s, is {}", kLeastEvery_s, loss.every_s));
   }
   if (loss.burst_s > 0.0) static_cast<void>(map.at("every_s"));
+  if (loss.burst_s > kMostBursts * loss.every_s) {
+    map.at("burst_s").fail(
+        fmt::format("must be at most {} times every_s, is {}: nothing would be read", kMostBursts,
+                    loss.burst_s));
+  }
   map.finish();
   return loss;
 }

@@ -105,6 +105,16 @@ TEST(ReadCsv, RefusesFilesThatAreNoTable) {
   EXPECT_EQ(complaint(std::string("a,b\n1,\0\n", 8)), "t.csv: is not a text file");
 }
 
+/// A quote that is never closed, or a file without line breaks, would be kept in memory to its end.
+TEST(ReadCsv, RefusesRowsThatDoNotEnd) {
+  EXPECT_EQ(complaint("a,b\n1,2\n" + std::string(1'100'000, '3') + ",4\n"),
+            "t.csv:3: a row of over 1000000 bytes");
+  std::string open_quote = "a,b\n\"1";
+  for (int i = 0; i < 200'000; ++i) open_quote += "2,3\n.";
+  EXPECT_TRUE(contains(complaint(open_quote), "a row of over 1000000 bytes"));
+  EXPECT_EQ(table_of("a\n" + std::string(900'000, '3') + "\n4\n").rows.size(), 2U);
+}
+
 TEST(ReadCsv, RefusesWhatIsNoFile) {
   const TemporaryFolder folder;
   const std::string missing = folder.file("missing.csv");

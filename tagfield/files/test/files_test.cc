@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "tagfield/base/error.h"
@@ -98,6 +100,22 @@ TEST(ReadTextFile, ReadsPipes) {
   std::thread writer([&] { std::ofstream(pipe) << text; });
   EXPECT_EQ(read_text_file(pipe), text);
   writer.join();
+}
+
+TEST(WriteTextFile, DeletesWhatKilledProgramsLeftBesideIt) {
+  const TemporaryFolder folder;
+  const pid_t gone = fork();
+  if (gone == 0) _exit(0);
+  ASSERT_EQ(waitpid(gone, nullptr, 0), gone);
+  const std::string of_gone = "f." + std::to_string(gone) + ".partial";
+  (void)folder.with(of_gone, "half");
+  const std::set<std::string> others = {"f." + std::to_string(getppid()) + ".partial",
+                                        "f.x.partial", "f.partial", "g" + of_gone, of_gone + "x"};
+  for (const std::string& name : others) (void)folder.with(name, "somebody's");
+  write_text_file(folder.file("f"), "whole");
+  std::set<std::string> expected = others;
+  expected.insert("f");
+  EXPECT_EQ(folder.names(), expected);
 }
 
 TEST(WriteTextFile, WritesThroughLinksAndPipes) {

@@ -1,11 +1,17 @@
 #include "tagfield/files/staged_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <map>
+#include <random>
+#include <thread>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/test/error_text.h"
@@ -227,6 +233,125 @@ TEST(StagedFolder, NextOneFinishesACommitThatWasCutOff) {
   cut_off_commit(folder.path(), {{"a", "1"}, {"b", "1"}}, 1);
   commit(folder.path(), {{"b", "2"}});
   EXPECT_EQ(files_of(folder), (Files{{"a", "1"}, {"b", "2"}}));
+}
+
+ino_t inode_of(const fs::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+TEST(StagedFolder, IsSwappedForAnotherWhereAllInItIsItsOwn) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  commit(out, {{"a", "old"}, {"kept/b", "old"}, {"stale", "old"}});
+  ASSERT_EQ(::chmod(out.c_str(), 0750), 0);
+  const ino_t before = inode_of(out);
+  const ino_t kept = inode_of(out / "kept/b");
+  commit(out, {{"a", "new"}, {"c/d", "new"}}, {"stale"});
+  EXPECT_NE(inode_of(out), before);
+  EXPECT_EQ(inode_of(out / "kept/b"), kept);
+  EXPECT_EQ(fs::status(out).permissions(), fs::perms(0750));
+  EXPECT_EQ(folder.names(),
+            (Names{"out", "out/.tagfield", "out/a", "out/c", "out/c/d", "out/kept", "out/kept/b"}));
+  EXPECT_EQ(files_of(folder), (Files{{"out/a", "new"}, {"out/c/d", "new"}, {"out/kept/b", "old"}}));
+}
+
+TEST(StagedFolder, StaysTheSameFolderWhereOthersAreInIt) {
+  using Prepare = std::function<void(const fs::path&)>;
+  const std::map<std::string, Prepare> others = {
+      {"a file", [](const fs::path& out) { std::ofstream(out / "mine") << "mine"; }},
+      {"a file among ours", [](const fs::path& out) { std::ofstream(out / "b/mine") << "mine"; }},
+      {"an empty folder", [](const fs::path& out) { fs::create_directory(out / "mine"); }},
+      {"a link", [](const fs::path& out) { fs::create_symlink("nowhere", out / "mine"); }}};
+  for (const auto& [what, prepare] : others) {
+    const TemporaryFolder folder;
+    const fs::path out = folder.path() / "out";
+    commit(out, {{"a", "old"}, {"b/c", "old"}});
+    prepare(out);
+    const ino_t before = inode_of(out);
+    commit(out, {{"a", "new"}, {"d", "new"}}, {"b"});
+    EXPECT_EQ(inode_of(out), before) << what;
+    EXPECT_EQ(folder.text_of("out/a") + folder.text_of("out/d"), "newnew") << what;
+    EXPECT_FALSE(fs::exists(out / "b/c")) << what;
+    const bool is_left = fs::exists(fs::symlink_status(out / "mine")) || fs::exists(out / "b/mine");
+    EXPECT_TRUE(is_left) << what;
+  }
+}
+
+TEST(StagedFolder, StaysTheSameFolderUnderTheFeetOfWhoStandsInIt) {
+  const TemporaryFolder folder;
+  commit(folder.path() / "out", {{"a", "old"}, {"b/c", "old"}});
+  const ino_t before = inode_of(folder.path() / "out");
+  const fs::path here = fs::current_path();
+  fs::current_path(folder.path() / "out/b");
+  commit("..", {{"a", "new"}});
+  fs::current_path(here);
+  EXPECT_EQ(inode_of(folder.path() / "out"), before);
+  EXPECT_EQ(files_of(folder), (Files{{"out/a", "new"}, {"out/b/c", "old"}}));
+}
+
+TEST(StagedFolder, ALinkToItStaysALink) {
+  const TemporaryFolder folder;
+  commit(folder.path() / "real", {{"a", "old"}});
+  fs::create_directory_symlink("real", folder.path() / "out");
+  commit(folder.path() / "out", {{"a", "new"}});
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "out"));
+  EXPECT_EQ(folder.text_of("real/a"), "new");
+}
+
+/// Kills a child that commits the one and the other in turn, and goes on with what is left.
+TEST(StagedFolder, KilledAtAnyMomentHoldsTheOneOrTheOther) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Files one = {{"out/a", "1"}, {"out/b/c", "1"}, {"out/stale/d", "1"}};
+  const Files other = {{"out/a", "2"}, {"out/b/c", "2"}, {"out/e", "2"}};
+  const auto commit_one = [&] { commit(out, {{"a", "1"}, {"b/c", "1"}, {"stale/d", "1"}}, {"e"}); };
+  const auto commit_other = [&] { commit(out, {{"a", "2"}, {"b/c", "2"}, {"e", "2"}}, {"stale"}); };
+  commit_one();
+  std::mt19937 random(1);
+  for (int kill_number = 0; kill_number < 40; ++kill_number) {
+    const pid_t child = fork();
+    if (child == 0) {
+      for (;;) {
+        commit_other();
+        commit_one();
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 20'000));
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    Files found;
+    for (const auto& [name, text] : files_of(folder)) {
+      // What the child was at; another commit removes it.
+      if (name.rfind("out/incomplete-", 0) != 0 && name.rfind("out/", 0) == 0) found[name] = text;
+    }
+    EXPECT_TRUE(found == one || found == other) << "kill " << kill_number;
+  }
+  commit_one();
+  EXPECT_EQ(folder.names(), (Names{"out", "out/.tagfield", "out/a", "out/b", "out/b/c", "out/stale",
+                                   "out/stale/d"}));
+}
+
+/// What can't be looked through is not taken for empty, and deleted.
+TEST(FinishCommit, WithoutFilesToOpenLosesNothing) {
+  const TemporaryFolder folder;
+  cut_off_commit(folder.path(), {{"a", "1"}, {"b/c", "1"}}, 1);
+  const pid_t child = fork();
+  if (child == 0) {
+    for (rlim_t files = 0; files < 12; ++files) {
+      const rlimit few{files, 100};
+      ::setrlimit(RLIMIT_NOFILE, &few);
+      try {
+        finish_commit(folder.path());
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+    _exit(0);
+  }
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  finish_commit(folder.path());
+  EXPECT_EQ(files_of(folder), (Files{{"a", "1"}, {"b/c", "1"}}));
 }
 
 TEST(FinishCommit, LeavesOtherFoldersAlone) {

@@ -211,6 +211,9 @@ TEST(TopViewJson, AnythingElseIsAnError) {
                            R"([{"name": "a", "z_min": 0, "z_max": 1e999, "rings": []}])"}) {
     EXPECT_THROW(top_view_from_json(text), Error) << text;
   }
+  const std::string deep(500'000, '[');
+  EXPECT_THROW(top_view_from_json(deep), Error);
+  EXPECT_THROW(top_view_from_json(deep + std::string(deep.size(), ']')), Error);
 }
 
 TEST(TopViewJson, NamesThatAreNotUtf8AreWritten) {

@@ -1,0 +1,14 @@
+/// @file
+/// What a scenario asks for that takes long.
+#pragma once
+
+#include "tagfield/base/error.h"
+#include "tagfield/scenario/scenario.h"
+
+namespace tagfield {
+
+/// Warns, before a scenario with a duration is run, where that takes hours, or where `is_kept` and
+/// the tables will not fit into the memory of most machines. Throws Error for what no machine ends.
+void warn_of_long_run(const Scenario& scenario, bool is_kept, Diagnostics& diagnostics);
+
+}  // namespace tagfield
