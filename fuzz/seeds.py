@@ -14,6 +14,7 @@ import struct
 import sys
 import tarfile
 import tempfile
+import zlib
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(SOURCE / "examples/07_llrp_client"), str(SOURCE / "tests/live"),
@@ -96,6 +97,17 @@ def epc():
                      b"    sets: [current, additions, deletions]\n")
 
 
+def grey_png(rows):
+    """An image of 8 bits a pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    pixels = b"".join(b"\0" + bytes(row) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" +
+            chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+
+
 def world():
     triangle = "0 0 0 1 0 0 0 1 0"
     yield "dae", (b"\0<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
@@ -114,6 +126,18 @@ def world():
     yield "stl_text", (b"\1solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                        b"vertex 0 1 0\nendloop\nendfacet\nendsolid s\n")
     yield "obj", b"\2v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n"
+    yield "heights", b"\xff" + grey_png([[0, 90, 200], [10, 255, 30], [40, 50, 60]])
+    yield "frames", (
+        b"\3<sdf version='1.7'><world name='w'><frame name='f' attached_to='m::j'><pose>1 2 3 0 0 1"
+        b"</pose></frame><model name='m' placement_frame='g'><pose relative_to='f'/><frame name='g'/>"
+        b"<link name='l'><pose degrees='1' relative_to='__model__'>0 0 1 0 0 90</pose><collision name='c'>"
+        b"<geometry><polyline><height>2</height><point>0 0</point><point>1 0</point><point>0 1</point>"
+        b"</polyline></geometry></collision><sensor name='s' type='rfidtag'/></link><joint name='j' "
+        b"type='fixed'><parent>world</parent><child>l</child></joint><include merge='1'>"
+        b"<uri>world.sdf</uri></include></model><state world_name='w'><insertions><model name='n'>"
+        b"<link name=l><collision name='c'><geometry><capsule/></geometry></collision></link></model>"
+        b"</insertions><deletions><name>x</name></deletions><model name='m'><pose>0 0 1 0 0 0</pose>"
+        b"<link name='l'><pose>1 1 1 0 0 0</pose></link></model></state></world></sdf>")
     for path in sorted([*SOURCE.glob("worlds/*.sdf"), *SOURCE.glob("models/*/model.sdf")]):
         yield path.parent.name + "_" + path.stem, b"\3" + path.read_bytes()
 

@@ -1,15 +1,17 @@
-// A world as SDF; or, by the first byte, a mesh that one names.
+// A world as SDF; or, by the first byte, a mesh or the image of a heightmap that one names.
 #include "fuzz/input.h"
 #include "tagfield/sdf/load_world.h"
 
 namespace {
 
 constexpr const char* kMeshes[] = {"mesh.dae", "mesh.stl", "mesh.obj"};
+constexpr std::uint8_t kHeightmap = 255;
 
-std::string world_of(const std::string& mesh) {
+std::string world_of(const std::string& shape, const std::string& file) {
   return "<sdf version='1.7'><world name='w'><model name='m'><static>1</static><link name='l'>"
-         "<collision name='c'><geometry><mesh><uri>" +
-         mesh + "</uri></mesh></geometry></collision></link></model></world></sdf>";
+         "<collision name='c'><geometry><" +
+         shape + "><uri>" + file + "</uri></" + shape +
+         "></geometry></collision></link></model></world></sdf>";
 }
 
 }  // namespace
@@ -22,7 +24,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string sdf(text);
   if (kind < 3) {
     fuzz::folder().write(kMeshes[kind], text);
-    sdf = world_of(kMeshes[kind]);
+    sdf = world_of("mesh", kMeshes[kind]);
+  } else if (data[0] == kHeightmap) {
+    fuzz::folder().write("heights.png", text);
+    sdf = world_of("heightmap", "heights.png");
   }
   const std::string path = fuzz::folder().write("world.sdf", sdf);
   return fuzz::refused_or_taken([&] {

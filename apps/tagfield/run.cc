@@ -292,8 +292,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->add_flag("--leave-one-out", arguments->leave_one_out,
                  "Run again without each antenna in turn, and say how many tags are read then")
       ->excludes("--record-only");
-  ->add_flag("--resume", arguments->resume,
-             "Go on where a run of many seeds into the same folder was cut off")
+  command
+      ->add_flag("--resume", arguments->resume,
+                 "Go on where a run of many seeds into the same folder was cut off")
       ->needs("--seeds");
   add_outlet_options(*command, arguments->outlets);
   command->footer(

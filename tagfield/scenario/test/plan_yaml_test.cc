@@ -16,14 +16,14 @@ std::string scenario(const std::string& plan) {
   return "model: link_budget\nduration_s: 3\nplan:\n" + plan;
 }
 
-PlanSpec read(const std::string& text) {
+PlanSpec plan_in(const std::string& text) {
   Diagnostics unheard;
   return load_scenario_to_plan(folder_of_test().with("plan.yaml", text), {}, unheard).plan;
 }
 
 std::string complaint(const std::string& text) {
   try {
-    read(text);
+    plan_in(text);
     return "";
   } catch (const Error& error) {
     return error.what();
@@ -32,7 +32,7 @@ std::string complaint(const std::string& text) {
 
 TEST(PlanYaml, SpreadsPlacesAndMounts) {
   const PlanSpec plan =
-      read(scenario(kTags + "  mounts:\n" + kMount + ", powers_dbm: [30, 27]}\n" +
+      plan_in(scenario(kTags + "  mounts:\n" + kMount + ", powers_dbm: [30, 27]}\n" +
                     "    - {name: rail, line: [[0, 0, 2], [2, 0, 2]], spacing_m: 1, "
                     "rpy_deg: [[0, 45, 0], [0, 45, 180]], zone: z}\n"));
   ASSERT_EQ(plan.tags.size(), 1U);
@@ -76,7 +76,7 @@ TEST(PlanYaml, SaysWhatIsWrongWhere) {
 
 TEST(PlanYaml, TakesTheScenariosOwnTags) {
   const PlanSpec plan =
-      read(scenario("  mounts:\n" + kMount + "}\n") + "tags: [{id: own, position: [1, 2, 3]}]\n");
+      plan_in(scenario("  mounts:\n" + kMount + "}\n") + "tags: [{id: own, position: [1, 2, 3]}]\n");
   ASSERT_EQ(plan.tags.size(), 1U);
   EXPECT_EQ(plan.tags[0].name, "own");
   EXPECT_EQ(plan.tags[0].places[0], Eigen::Vector3d(1, 2, 3));

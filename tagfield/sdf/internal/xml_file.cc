@@ -31,6 +31,43 @@ void blank_out_declarations(std::string& text) {
   }
 }
 
+/// The text with quotes around the values of attributes that have none, as Gazebo 11 takes them:
+/// <link name=a> becomes <link name="a">.
+std::string with_quotes(const std::string& text) {
+  constexpr const char* kBlank = " \t\r\n";
+  std::string quoted;
+  bool in_tag = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!in_tag && text.compare(i, 4, "<!--") == 0) {
+      const std::size_t end = std::min(text.find("-->", i), text.size());
+      quoted += text.substr(i, end - i);
+      i = end;
+      if (i == text.size()) break;
+    }
+    quoted += text[i];
+    if (text[i] == '<') in_tag = true;
+    if (text[i] == '>') in_tag = false;
+    if (!in_tag || (text[i] != '=' && text[i] != '"' && text[i] != '\'')) continue;
+    if (text[i] != '=') {
+      const std::size_t end = std::min(text.find(text[i], i + 1), text.size() - 1);
+      quoted += text.substr(i + 1, end - i);
+      i = end;
+      continue;
+    }
+    const std::size_t begin = text.find_first_not_of(kBlank, i + 1);
+    if (begin == std::string::npos || text[begin] == '"' || text[begin] == '\'') continue;
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n/>", begin), text.size());
+    quoted += text.substr(i + 1, begin - i - 1) + '"' + text.substr(begin, end - begin) + '"';
+    i = end - 1;
+  }
+  return quoted;
+}
+
+bool parse(XmlFile& file, const std::string& text) {
+  return file.document.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS &&
+         file.document.RootElement() != nullptr;
+}
+
 /// The outline tells better what is wrong, where it sees it.
 [[noreturn]] void refuse_malformed(const XmlFile& file, const std::string& text) {
   const XmlOutline outline = outline_xml(text);
@@ -79,10 +116,9 @@ void parse_xml(XmlFile& file) {
   }
   blank_out_declarations(text);
   file.document.SetUserData(&file);
-  if (file.document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
-      file.document.RootElement() == nullptr) {
-    refuse_malformed(file, text);
-  }
+  if (parse(file, text)) return;
+  const bool lacks_quotes = file.document.ErrorID() == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE;
+  if (!lacks_quotes || !parse(file, with_quotes(text))) refuse_malformed(file, text);
 }
 
 const XmlFile& file_of(const XMLElement& element) {

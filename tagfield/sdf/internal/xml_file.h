@@ -20,7 +20,8 @@ struct XmlFile {
   tinyxml2::XMLDocument document;
 };
 
-/// Parses the file at `file.path`. Declarations may stand anywhere, as in files that Gazebo takes.
+/// Parses the file at `file.path`. Declarations may stand anywhere, and values of attributes
+/// without quotes, as in files that Gazebo takes.
 /// Throws Error if it can't be read or is malformed.
 void parse_xml(XmlFile& file);
 

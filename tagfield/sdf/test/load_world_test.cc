@@ -295,6 +295,15 @@ TEST_F(LoadWorld, IncludesOfNothingAreLeftOutWithAWarning) {
                                                  ":4: <include> without <uri>: left out"});
 }
 
+/// As in three of Gazebo's own models, which Gazebo 11 reads.
+TEST_F(LoadWorld, AttributesNeedNoQuotes) {
+  const Scene scene = load(
+      "<!-- name=x '> --><model name = m><link name='l = 1'><collision name=c><geometry><sphere>"
+      "<radius>1</radius></sphere></geometry></collision><visual name=v/></link></model>");
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(scene.collisions[0].name, "m::l = 1::c");
+}
+
 TEST_F(LoadWorld, FilesWithoutAVersionAreReadWithAWarning) {
   const std::string path = write("w.sdf", "<sdf><world name='w'/></sdf>");
   EXPECT_EQ(load_file(path).name, "w");
