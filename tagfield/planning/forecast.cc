@@ -1,15 +1,17 @@
 #include "tagfield/planning/forecast.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
+#include <functional>
+#include <set>
+#include <utility>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
-#include "tagfield/base/units.h"
+#include "tagfield/base/time.h"
 #include "tagfield/field/port_turns.h"
+#include "tagfield/gen2/inventory.h"
 #include "tagfield/planning/local_link.h"
 #include "tagfield/reader/radio_model.h"
 
@@ -19,10 +21,9 @@ namespace {
 constexpr double kStep_db = 0.25;
 constexpr int kMostSteps = 126;
 constexpr std::int8_t kNoLink = -128;
-/// An inventory without a change of port is followed in pieces of this or more.
+constexpr double kReply_dbm = -50.0;
+/// Who is heard, and by which reader first, is looked at no less often than this.
 constexpr double kPiece_s = 0.25;
-constexpr double kS1_s = 2.0;    ///< Persistence of flags, as TagMemories has it.
-constexpr double kS23_s = 10.0;  ///< Likewise.
 
 std::int8_t step_of(double margin_db) {
   if (margin_db < -0.5 * kMostSteps) return kNoLink;
@@ -35,7 +36,6 @@ struct Turn {
   std::size_t port = 0;
   double begin_s = 0.0;
   double end_s = 0.0;
-  double since_s = 0.0;    ///< When the inventory that goes on here had begun.
   double carrier_s = 0.0;  ///< The carrier is that of this moment.
 };
 
@@ -43,11 +43,6 @@ std::size_t port_named(const ForecastRequest& request, const std::string& name) 
   std::size_t port = 0;
   while (request.ports[port].antenna.name != name) ++port;
   return port;
-}
-
-/// How long an inventory is followed before it is taken to begin anew.
-double followed_s(const RadioModel& model) {
-  return std::clamp(model.gen2->port_dwell_s, kPiece_s, 8.0 * kPiece_s);
 }
 
 /// Hops that were made at the antenna's last update by `time_s`, and when that was. Who has power
@@ -65,8 +60,6 @@ LastUpdate last_update(const AntennaParameters& antenna, double time_s) {
 void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, double end_s,
               std::vector<Turn>& turns) {
   const AntennaParameters& antenna = request.ports[port].antenna;
-  const double most_s = followed_s(*physical(antenna));
-  double since_s = begin_s;
   double at = begin_s;
   while (at < end_s - 1e-9) {
     const LastUpdate now = last_update(antenna, at);
@@ -74,9 +67,8 @@ void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, 
     do {
       until += 1.0 / antenna.rate_hz;
     } while (until < end_s && last_update(antenna, until).hop == now.hop);
-    if (at - since_s >= most_s - 1e-9) since_s = at;
-    const double end = std::min({until, end_s, since_s + most_s});
-    turns.push_back({port, at, end, since_s, now.stamp_s});
+    const double end = std::min({until, end_s, at + kPiece_s});
+    turns.push_back({port, at, end, now.stamp_s});
     at = end;
   }
 }
@@ -109,13 +101,6 @@ bool takes_turns(const ForecastPort& port) {
   return model != nullptr && model->gen2 && model->effects.inventory;
 }
 
-/// How a flag that says "read" wears off.
-struct Memory {
-  Session session = Session::kS0;
-  bool is_lost_between = false;  ///< S0, and the tag has no power until its port's next turn.
-  bool asks_all = false;         ///< Tags are asked again at once.
-};
-
 struct Link {
   std::size_t tag = 0;
   const ForecastLink* link = nullptr;
@@ -146,22 +131,26 @@ class HoldingLinks {
 class Sampler {
  public:
   explicit Sampler(const ForecastRequest& request);
-  /// What one sample reads: by group and tag, and reads by tag and port.
+  /// What one sample reads: by group and tag, and by tag and port.
   void sample(std::size_t first, std::size_t place, Forecast& forecast,
-              std::vector<std::vector<float>>& by_port, double& reads) const;
-  [[nodiscard]] const std::vector<std::size_t>& group_of() const { return group_of_; }
+              std::vector<std::vector<float>>& by_port) const;
 
  private:
   [[nodiscard]] std::size_t carrier_at(std::size_t number, std::size_t port, double time_s,
                                        std::size_t carriers) const;
+  [[nodiscard]] std::vector<TagOnAir> heard_in(std::size_t number, const Turn& turn,
+                                               const std::vector<std::size_t>& places,
+                                               HoldingLinks& holding) const;
+  void run_inventories(std::size_t number, const std::vector<std::size_t>& places,
+                       const std::function<bool(std::size_t, std::size_t)>& on_read) const;
+  [[nodiscard]] std::size_t pairs_heard(const std::vector<std::size_t>& places) const;
   void read_updates(std::size_t number, const std::vector<std::size_t>& places,
-                    const std::function<void(std::size_t, std::size_t)>& on_read) const;
+                    const std::function<bool(std::size_t, std::size_t)>& on_read) const;
 
   const ForecastRequest& request_;
   std::vector<Turn> turns_;
+  std::vector<Time> changes_;             ///< When turns begin or end, rising.
   std::vector<std::vector<Link>> links_;  ///< By port.
-  std::vector<Memory> memory_;            ///< By port.
-  std::vector<std::shared_ptr<const InventoryPace>> pace_;
   std::vector<std::size_t> group_of_;
 };
 
@@ -179,31 +168,17 @@ Sampler::Sampler(const ForecastRequest& request)
       return a.link->begin_s < b.link->begin_s;
     });
   }
-  std::map<std::string, std::size_t> ports_of;
-  for (const ForecastPort& port : request.ports) ++ports_of[port.antenna.reader];
+  for (const Turn& turn : turns_) {
+    changes_.push_back(time_from_seconds(turn.begin_s));
+    changes_.push_back(time_from_seconds(turn.end_s));
+  }
+  std::sort(changes_.begin(), changes_.end());
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
   std::vector<std::string> groups;
-  for (std::size_t i = 0; i < request.ports.size(); ++i) {
-    const ForecastPort& port = request.ports[i];
+  for (const ForecastPort& port : request.ports) {
     const auto known = std::find(groups.begin(), groups.end(), port.group);
     group_of_.push_back(static_cast<std::size_t>(known - groups.begin()));
     if (known == groups.end()) groups.push_back(port.group);
-    Memory& memory = memory_.emplace_back();
-    auto& pace = pace_.emplace_back();
-    if (!takes_turns(port)) continue;
-    const Gen2Reader& gen2 = *physical(port.antenna)->gen2;
-    memory.session = gen2.inventory.session;
-    memory.is_lost_between = memory.session == Session::kS0 && ports_of[port.antenna.reader] > 1;
-    memory.asks_all = gen2.inventory.target == Target::kAlternate;
-    // Antennas of one reader have one pace.
-    for (std::size_t other = 0; other < i; ++other) {
-      const RadioModel* const model = physical(request.ports[other].antenna);
-      if (request.ports[other].antenna.reader == port.antenna.reader && model != nullptr &&
-          model->gen2) {
-        pace = pace_[other];
-      }
-    }
-    if (port.pace) pace = port.pace;
-    if (!pace) pace = pace_of(*physical(port.antenna), request.tags.size(), request.seed);
   }
 }
 
@@ -226,7 +201,7 @@ std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double tim
 
 /// Antennas without an inventory: each update reads all that is heard on its carrier.
 void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& places,
-                           const std::function<void(std::size_t, std::size_t)>& on_read) const {
+                           const std::function<bool(std::size_t, std::size_t)>& on_read) const {
   for (std::size_t port = 0; port < request_.ports.size(); ++port) {
     if (takes_turns(request_.ports[port]) || links_[port].empty()) continue;
     const AntennaParameters& antenna = request_.ports[port].antenna;
@@ -251,8 +226,81 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
   }
 }
 
+/// Those that take part in a turn. Replies are equally strong: none is captured.
+std::vector<TagOnAir> Sampler::heard_in(std::size_t number, const Turn& turn,
+                                        const std::vector<std::size_t>& places,
+                                        HoldingLinks& holding) const {
+  const std::size_t carriers = links_[turn.port].front().link->states->carriers();
+  const std::size_t carrier = carrier_at(number, turn.port, turn.carrier_s, carriers);
+  std::vector<TagOnAir> heard;
+  for (const Link& link : holding.at(0.5 * (turn.begin_s + turn.end_s))) {
+    if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;
+    heard.push_back({static_cast<std::uint32_t>(link.tag), kReply_dbm, 1.0});
+  }
+  return heard;
+}
+
+/// Pairs of a tag and a port with an inventory that can hear it at all.
+std::size_t Sampler::pairs_heard(const std::vector<std::size_t>& places) const {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t port = 0; port < request_.ports.size(); ++port) {
+    if (!takes_turns(request_.ports[port])) continue;
+    for (const Link& link : links_[port]) {
+      if (link.link->states->share_heard(places[link.tag], request_.less_db) > 0.0) {
+        pairs.insert({link.tag, port});
+      }
+    }
+  }
+  return pairs.size();
+}
+
+/// The inventories themselves, slot by slot, from change to change of who sends and who is heard;
+/// until nothing is left that would be read for the first time. `on_read` tells whether one was.
+void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>& places,
+                              const std::function<bool(std::size_t, std::size_t)>& on_read) const {
+  TagMemories memories;
+  std::vector<std::unique_ptr<Inventory>> inventories(request_.ports.size());
+  std::vector<HoldingLinks> holding;
+  for (std::size_t port = 0; port < request_.ports.size(); ++port) {
+    holding.emplace_back(links_[port]);
+    if (!takes_turns(request_.ports[port]) || links_[port].empty()) continue;
+    const AntennaParameters& antenna = request_.ports[port].antenna;
+    const Gen2Reader& gen2 = *physical(antenna)->gen2;
+    const std::uint64_t key = stream_key(antenna.name);
+    RandomStream seeds(request_.seed, Purpose::kForecast, number, key, ~std::uint64_t{0});
+    inventories[port] =
+        std::make_unique<Inventory>(gen2.link, gen2.inventory, memories, seeds(), key);
+  }
+  std::size_t left = pairs_heard(places);
+  std::vector<Time> sends_until(request_.ports.size(), Time::min());
+  std::vector<Singulation> read;
+  auto turn = turns_.begin();
+  for (std::size_t i = 0; i + 1 < changes_.size() && left > 0; ++i) {
+    const Time now = changes_[i];
+    auto begun = turn;
+    for (; turn != turns_.end() && time_from_seconds(turn->begin_s) == now; ++turn) {
+      sends_until[turn->port] = time_from_seconds(turn->end_s);
+    }
+    for (std::size_t port = 0; port < inventories.size(); ++port) {
+      if (inventories[port] && sends_until[port] <= now) inventories[port]->stop(now);
+    }
+    for (; begun != turn; ++begun) {
+      if (!inventories[begun->port]) continue;
+      inventories[begun->port]->set_field(now,
+                                          heard_in(number, *begun, places, holding[begun->port]));
+      inventories[begun->port]->start(now);
+    }
+    for (std::size_t port = 0; port < inventories.size(); ++port) {
+      if (!inventories[port] || !inventories[port]->on()) continue;
+      read.clear();
+      inventories[port]->run_until(changes_[i + 1], read);
+      for (const Singulation& one : read) left -= on_read(one.tag, port) ? 1U : 0U;
+    }
+  }
+}
+
 void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
-                     std::vector<std::vector<float>>& by_port, double& reads) const {
+                     std::vector<std::vector<float>>& by_port) const {
   const std::size_t number = first + place;
   const std::size_t count = request_.tags.size();
   RandomStream stream(request_.seed, Purpose::kForecast, number);
@@ -262,54 +310,14 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
         static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
     places[tag] = request_.tags[tag].place.value_or(drawn);
   }
-  std::vector<char>& read = forecast.read[place];
   const auto on_read = [&](std::size_t tag, std::size_t port) {
-    read[tag] = 1;
+    const bool is_first = by_port[tag][port] == 0.0F;
+    forecast.read[place][tag] = 1;
     forecast.read_by_group[place][group_of_[port]][tag] = 1;
-    if (!by_port[tag].empty()) by_port[tag][port] = 1.0F;
-    reads += 1.0;
+    by_port[tag][port] = 1.0F;
+    return is_first;
   };
-  // Until when each session's flag says that the tag was read, by tag.
-  std::array<std::vector<double>, 4> silent_until;
-  for (auto& of_session : silent_until) of_session.assign(count, -1.0);
-  std::vector<HoldingLinks> holding;
-  for (const std::vector<Link>& links : links_) holding.emplace_back(links);
-  std::vector<std::size_t> heard;
-  for (const Turn& turn : turns_) {
-    const auto& links = links_[turn.port];
-    if (links.empty()) continue;
-    const Memory& memory = memory_[turn.port];
-    auto& silent = silent_until[static_cast<std::size_t>(memory.session)];
-    const double middle_s = 0.5 * (turn.begin_s + turn.end_s);
-    const std::size_t carrier =
-        carrier_at(number, turn.port, turn.carrier_s, links.front().link->states->carriers());
-    heard.clear();
-    for (const Link& link : holding[turn.port].at(middle_s)) {
-      const bool is_silent = memory.is_lost_between ? silent[link.tag] >= turn.since_s
-                                                    : silent[link.tag] > turn.begin_s;
-      if (is_silent && !memory.asks_all) continue;
-      if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;
-      heard.push_back(link.tag);
-    }
-    if (heard.empty()) continue;
-    const auto all = static_cast<double>(heard.size());
-    // Of those that are not read yet as many as the inventory, begun with them, reads in this time.
-    const InventoryPace& pace = *pace_[turn.port];
-    const double before = pace.read(all, turn.begin_s - turn.since_s);
-    const double share =
-        before >= all - 1e-9
-            ? 1.0
-            : (pace.read(all, turn.end_s - turn.since_s) - before) / (all - before);
-    for (const std::size_t tag : heard) {
-      if (uniform(stream) >= share) continue;
-      on_read(tag, turn.port);
-      if (memory.session == Session::kS0) {
-        silent[tag] = memory.is_lost_between ? turn.since_s : request_.duration_s;
-      } else {
-        silent[tag] = turn.end_s + (memory.session == Session::kS1 ? kS1_s : kS23_s);
-      }
-    }
-  }
+  run_inventories(number, places, on_read);
   read_updates(number, places, on_read);
 }
 
@@ -363,12 +371,6 @@ double LinkStates::best_db() const {
   return best == steps_.end() || *best == kNoLink ? kNothing_db : kStep_db * *best;
 }
 
-std::shared_ptr<const InventoryPace> pace_of(const RadioModel& model, std::size_t tags,
-                                             std::uint64_t seed) {
-  return std::make_shared<const InventoryPace>(*model.gen2, followed_s(model),
-                                               std::max<std::size_t>(1, tags), seed);
-}
-
 Forecasted range_of(const std::vector<double>& samples, double most) {
   const auto count = static_cast<double>(samples.size());
   Forecasted range;
@@ -402,20 +404,18 @@ Forecast forecast(const ForecastRequest& request) {
       std::vector<std::vector<char>>(result.groups.size(), std::vector<char>(tags, 0)));
   // Sums in the order of the samples, so that they don't depend on the threads.
   std::vector<std::vector<std::vector<float>>> by_port(request.samples);
-  std::vector<double> reads(request.samples, 0.0);
   parallel_for(request.samples, request.threads, [&](std::size_t sample) {
     by_port[sample].resize(tags);
     for (std::size_t tag = 0; tag < tags; ++tag) {
       if (!request.tags[tag].links.empty()) by_port[sample][tag].assign(request.ports.size(), 0.0F);
     }
-    sampler.sample(request.first_sample, sample, result, by_port[sample], reads[sample]);
+    sampler.sample(request.first_sample, sample, result, by_port[sample]);
   });
   result.probability.assign(tags, 0.0);
   result.by_port.assign(tags, {});
   std::vector<double> counts(request.samples, 0.0);
   const double weight = 1.0 / static_cast<double>(request.samples);
   for (std::size_t sample = 0; sample < request.samples; ++sample) {
-    result.reads += weight * reads[sample];
     for (std::size_t tag = 0; tag < tags; ++tag) {
       const double read = result.read[sample][tag] != 0 ? 1.0 : 0.0;
       counts[sample] += read;

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/planning/inventory_pace.h"
 #include "tagfield/reader/antenna.h"
 
 namespace tagfield {
@@ -43,13 +42,7 @@ class LinkStates {
 struct ForecastPort {
   AntennaParameters antenna;  ///< Names, and the inventory's settings.
   std::string group;          ///< The reader, as reader_groups() has it.
-  /// Of its inventory; made where it is null, and then the same for all ports of a reader.
-  std::shared_ptr<const InventoryPace> pace{};
 };
-
-/// The pace that forecast() makes for a port of so many tags.
-std::shared_ptr<const InventoryPace> pace_of(const RadioModel& model, std::size_t tags,
-                                             std::uint64_t seed);
 
 /// A link of a tag that moves counts while it is there.
 struct ForecastLink {
@@ -91,13 +84,11 @@ struct Forecast {
   std::vector<std::vector<std::vector<char>>> read_by_group;  ///< By sample, group, tag.
   std::vector<std::string> groups;                            ///< Distinct, in the ports' order.
   Forecasted tags_read;
-  double reads = 0.0;  ///< Mean number of all reads.
 };
 
-/// Simulates who is asked when: in each of a port's turns the tags that are heard on the turn's
-/// carriers, and whose flags in the session say so, share what InventoryPace says; which of them
-/// are read is drawn. Antennas without an inventory read all that they hear at each update. Throws
-/// Error on a request without ports or samples.
+/// Runs the inventories slot by slot (tagfield/gen2/inventory.h), each turn with the tags that are
+/// heard on the turn's carrier. Antennas without an inventory read all that they hear at each
+/// update. Throws Error on a request without ports or samples.
 Forecast forecast(const ForecastRequest& request);
 
 /// Mean and 95 % prediction range of a count of `most` at most, from samples of it: Student's t,

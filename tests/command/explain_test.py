@@ -333,7 +333,7 @@ def coverage_is_a_circle_in_the_open(context):
     check_near(told["heights"][0]["share_read"], math.pi * radius ** 2 / 64.0, 0.01, "share")
     check_equal(told["region_m"], [-4.0, -4.0, 4.0, 4.0], "region")
     check_equal(told["tag_counts"],
-                {"never": 1, "intended": 2, "also_other": 0, "wrong": 0}, "tags")
+                {"never": 1, "intended": 2, "also_other": 0, "wrong": 0, "seldom": 0}, "tags")
     check_in("never read: 1 of 3 tags\n  lost", said, "what is said")
     before = files_in(out)
     check("coverage.html" in before and len(before) == 9, f"files are {sorted(before)}")

@@ -1,11 +1,10 @@
 #include "tagfield/layout/internal/layout_forecast.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/planning/local_link.h"
-#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {
@@ -52,11 +51,6 @@ LayoutForecast::LayoutForecast(const PlanSpec& plan, const LinkMatrix& matrix,
     stops_.push_back(stops_of(tags, plan.dwell_s));
     duration_s_ = std::max(duration_s_, stops_.back().back().end_s);
   }
-  for (const PlanMount& mount : plan.mounts) {
-    const RadioModel* const model = physical(mount.antenna);
-    if (!model->gen2 || !model->effects.inventory || paces_.count(model) > 0) continue;
-    paces_[model] = pace_of(*model, tags_.front().size(), request.seed);
-  }
 }
 
 std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) const {
@@ -68,8 +62,6 @@ std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) cons
     ForecastPort port{mount.antenna, antennas[i].reader};
     port.antenna.name = antennas[i].name;
     port.antenna.reader = antennas[i].reader;
-    const auto pace = paces_.find(physical(mount.antenna));
-    if (pace != paces_.end()) port.pace = pace->second;
     ports.push_back(std::move(port));
   }
   return ports;

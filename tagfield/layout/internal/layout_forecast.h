@@ -2,8 +2,7 @@
 /// What a layout's inventory will read, over samples of tags.
 #pragma once
 
-#include <map>
-#include <memory>
+#include <vector>
 
 #include "tagfield/layout/plan.h"
 #include "tagfield/planning/forecast.h"
@@ -37,7 +36,6 @@ class LayoutForecast {
   std::vector<std::vector<std::size_t>>
       first_rows_;                            ///< By group: place · orientations + orientation.
   std::vector<std::vector<PlanStop>> stops_;  ///< By group.
-  std::map<const RadioModel*, std::shared_ptr<const InventoryPace>> paces_;
   double duration_s_ = 0.0;
 };
 

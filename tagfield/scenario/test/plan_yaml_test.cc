@@ -33,8 +33,8 @@ std::string complaint(const std::string& text) {
 TEST(PlanYaml, SpreadsPlacesAndMounts) {
   const PlanSpec plan =
       plan_in(scenario(kTags + "  mounts:\n" + kMount + ", powers_dbm: [30, 27]}\n" +
-                    "    - {name: rail, line: [[0, 0, 2], [2, 0, 2]], spacing_m: 1, "
-                    "rpy_deg: [[0, 45, 0], [0, 45, 180]], zone: z}\n"));
+                       "    - {name: rail, line: [[0, 0, 2], [2, 0, 2]], spacing_m: 1, "
+                       "rpy_deg: [[0, 45, 0], [0, 45, 180]], zone: z}\n"));
   ASSERT_EQ(plan.tags.size(), 1U);
   EXPECT_EQ(plan.tags[0].places.size(), 3U);
   EXPECT_EQ(plan.tags[0].count, 3U);
@@ -75,8 +75,8 @@ TEST(PlanYaml, SaysWhatIsWrongWhere) {
 }
 
 TEST(PlanYaml, TakesTheScenariosOwnTags) {
-  const PlanSpec plan =
-      plan_in(scenario("  mounts:\n" + kMount + "}\n") + "tags: [{id: own, position: [1, 2, 3]}]\n");
+  const PlanSpec plan = plan_in(scenario("  mounts:\n" + kMount + "}\n") +
+                                "tags: [{id: own, position: [1, 2, 3]}]\n");
   ASSERT_EQ(plan.tags.size(), 1U);
   EXPECT_EQ(plan.tags[0].name, "own");
   EXPECT_EQ(plan.tags[0].places[0], Eigen::Vector3d(1, 2, 3));
