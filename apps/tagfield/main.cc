@@ -59,7 +59,8 @@ int parse_and_run(int argc, char** argv) {
     fmt::print(
         stderr,
         "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, plan, bench, score, sweep, events, stream, serve, view or gazebo (see tagfield --help)\n");
+        " coverage, plan, bench, score, sweep, events, stream, serve, view or gazebo (see tagfield "
+        "--help)\n");
     return tagfield::kExitBadInput;
   }
   return chosen();

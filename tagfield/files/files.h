@@ -21,8 +21,8 @@ std::string read_text_file(const std::string& path, std::size_t most_bytes = std
 void read_in_blocks(const std::string& path, const std::function<void(std::string_view)>& take);
 
 /// Replaces or makes a file in one step; what a symbolic link points to, not the link. Devices and
-/// pipes are written to as they are. What programs left beside it that were killed at this is deleted.
-/// Throws Error if that can't be done.
+/// pipes are written to as they are. What programs left beside it that were killed at this is
+/// deleted. Throws Error if that can't be done.
 void write_text_file(const std::string& path, const std::string& text);
 
 /// Several, by path: none is replaced before all are written.

@@ -585,8 +585,8 @@ ScenarioWithWorld scenario_from_text(const std::string& text, const std::string&
 ScenarioToPlan load_scenario_to_plan(const std::string& path,
                                      const std::vector<Override>& overrides,
                                      Diagnostics& diagnostics) {
-  ReadScenario read =
-      read_scenario(read_yaml(path), path, overrides, nullptr, built_in_methods(), diagnostics, true);
+  ReadScenario read = read_scenario(read_yaml(path), path, overrides, nullptr, built_in_methods(),
+                                    diagnostics, true);
   ScenarioToPlan to_plan;
   Scenario& scenario = to_plan.loaded.scenario;
   scenario = std::move(read.scenario);

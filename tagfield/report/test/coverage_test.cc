@@ -33,10 +33,11 @@ TEST(Coverage, IsATableWithoutWhatIsNotThere) {
             "x_m,y_m,power_dbm,reply_dbm,margin_db,probability,antenna\n"
             "-0.2500,0.2500,-10.00,-50.00,8.00,0.750,\"gate, west\"\n"
             "0.2500,0.2500,,,,0.000,\n");
-  EXPECT_EQ(coverage_tags_to_csv(coverage),
-            "tag,x_m,y_m,z_m,verdict,nearest,nearest_m,meant_for,read_by,read_probability,power_dbm,"
-            "reply_dbm,margin_db,probability\n"
-            "lost,0.0000,0.0000,0.0000,never,\"gate, west\",3.000,,,0.000,,,,0.000\n");
+  EXPECT_EQ(
+      coverage_tags_to_csv(coverage),
+      "tag,x_m,y_m,z_m,verdict,nearest,nearest_m,meant_for,read_by,read_probability,power_dbm,"
+      "reply_dbm,margin_db,probability\n"
+      "lost,0.0000,0.0000,0.0000,never,\"gate, west\",3.000,,,0.000,,,,0.000\n");
 }
 
 TEST(Coverage, SumsUpAsJson) {
