@@ -60,6 +60,8 @@ LastUpdate last_update(const AntennaParameters& antenna, double time_s) {
 void add_turn(const ForecastRequest& request, std::size_t port, double begin_s, double end_s,
               std::vector<Turn>& turns) {
   const AntennaParameters& antenna = request.ports[port].antenna;
+  // What is read after the antenna's last update is not told any more.
+  end_s = std::min(end_s, last_update(antenna, request.duration_s).stamp_s);
   double at = begin_s;
   while (at < end_s - 1e-9) {
     const LastUpdate now = last_update(antenna, at);
