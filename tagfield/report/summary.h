@@ -192,6 +192,11 @@ std::size_t count_over(const Summary& summary, double limit_m);
 /// equally long. Bytes that are not UTF-8 become U+FFFD.
 std::string to_json(const Summary& summary);
 
+/// The inventory by itself, as it stands in there.
+std::string to_json(const InventorySummary& inventory);
+/// The same back. Throws Error naming `file` and the member that is missing or wrong.
+InventorySummary inventory_from_json(const std::string& text, const std::string& file);
+
 /// Inverse of to_json; what follows from the rest (errors, counts) is not read, and a figure that
 /// is null reads as 0. Throws Error "FILE: tags[3].moved is null, expected true or false", on one
 /// line, on text that is not such a summary.

@@ -330,6 +330,17 @@ std::string to_json(const Summary& summary) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string to_json(const InventorySummary& inventory) {
+  return json_of(inventory).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+InventorySummary inventory_from_json(const std::string& text, const std::string& file) {
+  const nlohmann::json json = parsed_json(text, file);
+  InventorySummary inventory;
+  take(JsonPlace{&json, file, ""}, inventory);
+  return inventory;
+}
+
 Summary summary_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json json = parsed_json(text, file);
   const JsonPlace top{&json, file, ""};

@@ -172,6 +172,8 @@ SeedRun run_of_member(const Member& member) {
   }
   const Member& navigation = member.at("navigation");
   if (!navigation.is_null()) run.navigation = navigation_in(navigation);
+  const Member& inventory = member.at("inventory");
+  if (!inventory.is_null()) run.inventory = inventory_from_json(inventory.dump(), "inventory");
   return run;
 }
 
@@ -191,8 +193,10 @@ std::string to_json_line(const SeedRun& run, const std::vector<std::string>& war
                    {"errors_with_true_pose_m", member_of(run.errors_with_true_pose_m)},
                    {"compared", std::move(compared)},
                    {"navigation", nullptr},
+                   {"inventory", nullptr},
                    {"warnings", warnings}};
   if (run.navigation) member["navigation"] = member_of(*run.navigation);
+  if (run.inventory) member["inventory"] = Member::parse(to_json(*run.inventory));
   return one_line_of(member);
 }
 

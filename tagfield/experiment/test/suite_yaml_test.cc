@@ -112,10 +112,10 @@ TEST(SuiteYaml, ComplainsOfFileAndLine) {
             "suite.yaml:4: conditions[0].lose.share must be from 0 to 1, is 1.5");
   EXPECT_EQ(complaint_of(with_conditions("  - {name: a, lose: {burst_s: 1}}\n")),
             "suite.yaml:4: conditions[0].lose has no 'every_s'");
-  EXPECT_EQ(
-      complaint_of(with_conditions("  - {name: a, lose: {burst_s: 1e15, every_s: 1}}\n")),
-      "suite.yaml:4: conditions[0].lose.burst_s must be at most 1000 times every_s, is 1e+15: "
-      "nothing would be read");
+  EXPECT_EQ(complaint_of(with_conditions("  - {name: a, lose: {burst_s: 1e15, every_s: 1}}\n")),
+            "suite.yaml:4: conditions[0].lose.burst_s must be at most 1000 times every_s, is "
+            "1000000000000000: "
+            "nothing would be read");
   EXPECT_EQ(complaint_of(with_conditions("  - {name: a}\n  - {name: a}\n")),
             "suite.yaml:5: condition 'a' is there twice");
   EXPECT_EQ(complaint_of(with_conditions("  - {name: a, methods: [hyperbol]}\n")),

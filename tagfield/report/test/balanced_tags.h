@@ -23,6 +23,8 @@ inline std::string unbalanced_tag(const std::string& markup) {
       open.pop_back();
     } else if (tag.back() != '/' && without_end.count(name) == 0) {
       open.push_back(name);
+      // What a script holds is no markup.
+      if (name == "script") at = markup.find("</script>", end) - 1;
     }
   }
   return open.empty() ? "" : open.back();

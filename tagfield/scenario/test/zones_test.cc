@@ -50,7 +50,7 @@ TEST(Zones, HoldPlacesByTheirBox) {
 TEST(Zones, RefuseWhatNobodyReads) {
   EXPECT_NE(
       complaint_of("zones: [{name: z, box: [0, 0, 1, 1], readers: [door_3]}]\n")
-          .find("doors.yaml:9: zone 'z' is for reader 'door_3', but no antenna belongs to it"),
+          .find("doors.yaml:11: zone 'z' is for reader 'door_3', but no antenna belongs to it"),
       std::string::npos);
   EXPECT_NE(complaint_of("zones: [{name: z, box: [0, 0, 1, 1, 1]}]\n").find("has 5"),
             std::string::npos);
