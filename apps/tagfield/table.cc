@@ -270,7 +270,9 @@ std::string inventory_lines(const Summary& summary) {
 }  // namespace
 
 std::string table_of(const Summary& summary) {
-  if (summary.inventory && summary.method == "none") return inventory_lines(summary);
+  if (summary.inventory && summary.method == "none") {
+    return inventory_lines(summary) + navigation_lines(summary) + effect_lines(summary);
+  }
   std::string text = method_line(summary);
   text += summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
   text +=

@@ -579,8 +579,8 @@ def arguments(context):
     run = ["run", path, "--out", stranger(context)]
     localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
     for command, says in (
-            ([], "expected run, localize, track, calibrate, report, check, explain, coverage, bench, "
-             "events, stream, serve, view or gazebo"),
+            ([], "expected run, localize, track, calibrate, report, check, explain, coverage, plan, "
+             "bench, score, sweep, events, stream, serve, view or gazebo"),
             (["ran"], "ran"), (["frobnicate", path], "frobnicate"),
             (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),

@@ -62,10 +62,10 @@ class Context:
         return result
 
     def simulate(self, scenario, *arguments, name="out"):
-        """Runs a scenario, shipped (by its name) or a path, and gives back its folder."""
+        """Runs a scenario, shipped (by its name) or a path, and gives back its folder, whatever was in it."""
         path = self.shipped(scenario) if isinstance(scenario, str) else scenario
         folder = self.folder / name
-        self.run_well("run", path, "--out", folder, *arguments)
+        self.run_well("run", path, "--out", folder, "--force", *arguments)
         return folder
 
     def shipped(self, name):

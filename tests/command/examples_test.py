@@ -161,7 +161,7 @@ def told_rates(reads, distances, interval_s=5.0):
 
 def check_own_outlet(context, prefix):
     out = build_example(context, prefix, "06_own_outlet", context.shipped("two_antennas"))
-    folder = context.simulate("two_antennas", "--no-page", "--force")
+    folder = context.simulate("two_antennas", "--no-page")
     expected = told_rates(read_csv(folder / "reads.csv"), read_csv(folder / "truth/distances.csv"))
     lines = out.splitlines()
     check(len(lines) > 3, f"own_outlet prints {out!r}")

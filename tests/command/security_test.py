@@ -118,7 +118,8 @@ def a_scenarios_name_leads_nowhere_else(context):
 
 @case
 def no_process_is_started(context):
-    """By the program's own imports: nothing in it can start another one."""
+    """By the program's own imports: what can start another one is a bench's method that is a command, alone,
+    which must be allowed (bench_test.py)."""
     if shutil.which("nm") is None:
         raise Skip("nm is missing (binutils)")
 
@@ -127,7 +128,7 @@ def no_process_is_started(context):
         return re.findall(r"\b(system|popen|execve?|execl[pe]?|execvp?e?|posix_spawnp?|fork|vfork)@", imports)
 
     check(starters("/bin/bash"), "nothing is found where there is something")
-    check_equal(starters(context.tagfield), [], "what it imports")
+    check_equal(starters(context.tagfield), ["posix_spawn"], "what it imports")
 
 
 if __name__ == "__main__":
