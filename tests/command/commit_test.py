@@ -155,7 +155,7 @@ def a_disk_that_is_full_at_each_write(context):
     old = context.simulate("two_antennas", name="out")
     before = files_in(old)
     command = ["run", context.shipped("z_axis"), "--force", "--out", "out"]
-    writes = counts(context, library, [*command[:3], "counted"])["write"]
+    writes = counts(context, library, [*command[:4], "counted"])["write"]
     check(writes > 15, f"only {writes} writes")
     for step in range(1, writes + 1):
         code, said = run_with(context, library, command, f"write:{step}+:ENOSPC")
