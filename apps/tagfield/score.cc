@@ -37,6 +37,7 @@ void warn_of_strangers(const std::string& file, const std::vector<TagEstimate>& 
                        const std::map<std::string, double>& heights,
                        const std::map<std::string, std::size_t>& reads, Diagnostics& diagnostics) {
   std::vector<std::string> known;
+  known.reserve(heights.size());
   for (const auto& [tag, height] : heights) known.push_back(tag);
   for (const TagEstimate& estimate : estimates) {
     if (heights.count(estimate.tag) > 0 || reads.count(estimate.tag) > 0) continue;

@@ -40,7 +40,7 @@ RigidTransform transform_of(const PoseRow& row, std::size_t number) {
     throw Error("poses: row " + std::to_string(number) +
                 ": quaternion_xyzw must be of length 1 (0.9 to 1.1 is taken)");
   }
-  const RigidTransform transform{*rotation, vector_of(row.position_m)};
+  RigidTransform transform{*rotation, vector_of(row.position_m)};
   if (!is_finite(transform)) {
     throw Error("poses: row " + std::to_string(number) + ": position_m is not finite");
   }

@@ -106,7 +106,7 @@ void move_path(YAML::Node node, const std::string& scenario, const std::string& 
 
 /// All paths that a scenario can have but those of antennas and tags, which are written anew.
 void move_paths(YAML::Node root, const std::string& scenario, const std::string& folder) {
-  const auto move = [&](YAML::Node node) { move_path(node, scenario, folder); };
+  const auto move = [&](const YAML::Node& node) { move_path(node, scenario, folder); };
   if (root["world"].IsMap()) {
     if (root["world"]["path"]) move(root["world"]["path"]);
     if (root["world"]["model_paths"]) {

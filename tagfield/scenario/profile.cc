@@ -24,7 +24,7 @@ const char* folder_of(ProfileKind kind) {
 fs::path profiles_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path beside = program.parent_path().parent_path() / "share/tagfield/profiles";
+  fs::path beside = program.parent_path().parent_path() / "share/tagfield/profiles";
   if (fs::is_directory(beside, error)) return beside;
   const fs::path source = TAGFIELD_PROFILES;
   return fs::is_directory(source, error) ? source : fs::path(TAGFIELD_INSTALLED_PROFILES);

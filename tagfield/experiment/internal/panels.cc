@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/report/style_sheet.h"
 
@@ -81,7 +82,8 @@ void draw_panels(Svg& svg, const std::vector<Panel>& panels, const std::vector<P
     axes.x.from = left + kPanelLeft;
     axes.x.to = axes.x.from + panel_width(columns);
     axes.y.to = top + 20.0 + kPanelHead +
-                static_cast<double>(i / columns) * (height + kPanelHead + kPanelFoot);
+                std::floor(static_cast<double>(i) / static_cast<double>(columns)) *
+                    (height + kPanelHead + kPanelFoot);
     axes.y.from = axes.y.to + height;
     draw_frame(svg, form, axes);
     add_text(svg, {axes.x.from, axes.y.to - 9.0}, panels[i].title, Anchor::kStart);

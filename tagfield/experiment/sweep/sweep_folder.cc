@@ -44,8 +44,7 @@ void publish(const std::string& path, const std::string& text) {
 }
 
 nlohmann::ordered_json read_json_of(const std::string& path) {
-  const auto json =
-      nlohmann::ordered_json::parse(read_text_file(path, kMostSourceBytes), nullptr, false);
+  auto json = nlohmann::ordered_json::parse(read_text_file(path, kMostSourceBytes), nullptr, false);
   if (!json.is_object()) fail({path, 0}, "is damaged: it is no JSON object");
   return json;
 }

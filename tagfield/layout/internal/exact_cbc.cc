@@ -167,6 +167,7 @@ std::size_t Program::add_tangents(const OptionSet& choice, const std::vector<dou
   return added;
 }
 
+// NOLINTNEXTLINE(readability-function-size): one conversation with CBC, step by step.
 Program::Solved Program::solve_once(double seconds) const {
   std::vector<std::vector<std::pair<int, double>>> by_column(columns());
   for (std::size_t row = 0; row < rows_.size(); ++row) {

@@ -67,6 +67,7 @@ std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) cons
   return ports;
 }
 
+// NOLINTNEXTLINE(readability-function-size): what all samples share is gathered once.
 std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& choice,
                                                             double less_db) const {
   const std::vector<ForecastPort> ports = ports_of(choice);
@@ -133,6 +134,7 @@ ExpectedCount LayoutForecast::read(const OptionSet& choice, double less_db) cons
 void LayoutForecast::fill(const OptionSet& choice, PlannedLayout& layout) const {
   const std::vector<Sample> all = samples(choice, 0.0);
   std::vector<double> counts;
+  counts.reserve(all.size());
   for (const Sample& sample : all) counts.push_back(count_of(sample.read));
   layout.read = expected(counts, static_cast<double>(tags_.front().size()));
   for (const std::string& zone : problem_.zones) {

@@ -16,9 +16,9 @@ namespace {
 
 /// A file, or the name of a shipped profile. A file of that name comes first.
 std::string profile_file(const YamlValue& value, const std::vector<ProfileKind>& kinds) {
-  const std::string path = resolve_path(value);
+  std::string path = resolve_path(value);
   if (std::filesystem::is_regular_file(path)) return path;
-  const std::string shipped = shipped_profile(value.text(), kinds);
+  std::string shipped = shipped_profile(value.text(), kinds);
   if (!shipped.empty()) return shipped;
   std::vector<std::string> known;
   for (const ProfileKind kind : kinds) {

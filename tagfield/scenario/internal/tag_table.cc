@@ -46,7 +46,7 @@ std::string file_of_profile(const CsvTable& table, const CsvRow& row, const std:
   const fs::path beside = fs::path(table.file).parent_path() / name;
   std::error_code error;
   if (fs::is_regular_file(beside, error)) return beside.string();
-  const std::string shipped = shipped_profile(name, {ProfileKind::kTag});
+  std::string shipped = shipped_profile(name, {ProfileKind::kTag});
   if (!shipped.empty()) return shipped;
   fail({table.file, row.line},
        fmt::format("profile '{}': there is no such file, and no such profile is shipped{}", name,
