@@ -11,6 +11,7 @@
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/map/top_view.h"
+#include "tagfield/scenario/orientations.h"
 #include "tagfield/scenario/profile.h"
 #include "tagfield/settings/radio_settings.h"
 
@@ -44,24 +45,10 @@ std::vector<double> numbers_in(const std::string& option, const std::string& tex
                           numbers.size(), expected));
 }
 
-/// The tag's face along each axis, and its wire upright and lying.
-std::vector<Eigen::Quaterniond> all_orientations() {
-  std::vector<Eigen::Quaterniond> all;
-  for (const double roll : {0.0, 0.5 * kPi}) {
-    for (const double yaw : {0.0, 0.5 * kPi, kPi, 1.5 * kPi}) {
-      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, 0.0, yaw}).rotation);
-    }
-    for (const double pitch : {-0.5 * kPi, 0.5 * kPi}) {
-      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, pitch, 0.0}).rotation);
-    }
-  }
-  return all;
-}
-
 void set_orientation(const std::string& text, WordedRequest& worded) {
   Orientations& orientations = worded.request.orientations;
   if (text == "any" || text == "worst") {
-    orientations.R_WT = all_orientations();
+    orientations.R_WT = orientations_along_axes();
     orientations.worst = text == "worst";
     worded.orientation =
         fmt::format("{} {} orientations", orientations.worst ? "worst of" : "mean of",

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 
 #include "tagfield/experiment/bench/suite_yaml.h"
 #include "tagfield/experiment/internal/statistics.h"
+#include "tagfield/experiment/internal/sweep_target.h"
 #include "tagfield/experiment/store/method_runs_json.h"
 
 namespace tagfield {
@@ -199,34 +199,10 @@ std::vector<RunKey> missing_of(const std::vector<RunKey>& runs, const RunIndex& 
 }
 
 double score_of(const PointResults& results, const Halving& halving) {
-  constexpr double kLast = std::numeric_limits<double>::infinity();
   const auto entry = std::find_if(results.entries.begin(), results.entries.end(),
                                   [&](const BenchEntry& of) { return of.name == halving.method; });
-  if (entry == results.entries.end() || !results.failed.empty()) return kLast;
-  const EntryStatistics all = statistics_of(*entry);
-  const auto share = [&](std::size_t count) {
-    return all.tags == 0 ? kLast : static_cast<double>(count) / static_cast<double>(all.tags);
-  };
-  const auto error = [&](double ErrorStatistics::*of) {
-    return all.error_m ? (*all.error_m).*of : kLast;
-  };
-  switch (halving.target) {
-    case SweepTarget::kMean:
-      return error(&ErrorStatistics::mean);
-    case SweepTarget::kMedian:
-      return error(&ErrorStatistics::median);
-    case SweepTarget::kP95:
-      return error(&ErrorStatistics::p95);
-    case SweepTarget::kMax:
-      return error(&ErrorStatistics::max);
-    case SweepTarget::kLocated:
-      return all.tags == 0 ? kLast : -share(all.located);
-    case SweepTarget::kWrong:
-      return share(all.wrong);
-    case SweepTarget::kFalseClaims:
-      return share(all.false_claims);
-  }
-  return kLast;
+  if (entry == results.entries.end() || !results.failed.empty()) return kLastTargetValue;
+  return target_value(statistics_of(*entry), halving.target);
 }
 
 namespace {

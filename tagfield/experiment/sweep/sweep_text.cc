@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
+#include "tagfield/experiment/internal/sweep_target.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -13,34 +13,6 @@ namespace {
 
 constexpr std::size_t kMostTextRows = 20;
 constexpr std::size_t kMostPointName = 60;
-
-/// What the rows are ordered by; less is better.
-double rank_value(const SweepRow& row, SweepTarget target) {
-  constexpr double kLast = std::numeric_limits<double>::infinity();
-  const auto error = [&](double ErrorStatistics::*of) {
-    return row.error_m ? (*row.error_m).*of : kLast;
-  };
-  const auto share = [&](std::size_t count) {
-    return row.tags == 0 ? kLast : static_cast<double>(count) / static_cast<double>(row.tags);
-  };
-  switch (target) {
-    case SweepTarget::kMean:
-      return error(&ErrorStatistics::mean);
-    case SweepTarget::kMedian:
-      return error(&ErrorStatistics::median);
-    case SweepTarget::kP95:
-      return error(&ErrorStatistics::p95);
-    case SweepTarget::kMax:
-      return error(&ErrorStatistics::max);
-    case SweepTarget::kLocated:
-      return row.tags == 0 ? kLast : -share(row.located);
-    case SweepTarget::kWrong:
-      return share(row.wrong);
-    case SweepTarget::kFalseClaims:
-      return share(row.false_claims);
-  }
-  return kLast;
-}
 
 std::string in_mm(const std::optional<ErrorStatistics>& errors, double ErrorStatistics::*of) {
   return errors ? fmt::format("{:.1f}", 1e3 * (*errors).*of) : "-";
@@ -74,8 +46,8 @@ std::vector<const SweepRow*> best_first(const SweepResults& results) {
   std::vector<std::tuple<bool, std::size_t, double, const SweepRow*>> order;
   for (const SweepRow& row : results.rows) {
     const bool other = adaptive && row.name != adaptive->method;
-    order.emplace_back(other, results.rungs - rung_of(results, row.point), rank_value(row, target),
-                       &row);
+    order.emplace_back(other, results.rungs - rung_of(results, row.point),
+                       target_value(row, target), &row);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
     return std::tie(std::get<0>(a), std::get<1>(a), std::get<2>(a)) <

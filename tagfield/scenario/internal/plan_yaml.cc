@@ -8,6 +8,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/scenario/internal/zones_yaml.h"
+#include "tagfield/scenario/orientations.h"
 #include "tagfield/scenario/yaml_values.h"
 #include "tagfield/settings/radio_settings.h"
 
@@ -77,26 +78,12 @@ std::vector<Eigen::Vector3d> tag_places(YamlMap& map) {
   }
 }
 
-/// The face along each axis, and the wire upright and lying.
-std::vector<Eigen::Quaterniond> any_orientation() {
-  std::vector<Eigen::Quaterniond> all;
-  for (const double roll : {0.0, 0.5 * kPi}) {
-    for (const double yaw : {0.0, 0.5 * kPi, kPi, 1.5 * kPi}) {
-      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, 0.0, yaw}).rotation);
-    }
-    for (const double pitch : {-0.5 * kPi, 0.5 * kPi}) {
-      all.push_back(from_xyz_rpy({0, 0, 0}, {roll, pitch, 0.0}).rotation);
-    }
-  }
-  return all;
-}
-
 std::vector<Eigen::Quaterniond> orientations_of(YamlMap& map) {
   if (!map.has("orientations")) return {Eigen::Quaterniond::Identity()};
   const YamlValue value = map.at("orientations");
   if (value.node().IsScalar()) {
     static_cast<void>(choice(value, {"any"}));
-    return any_orientation();
+    return orientations_along_axes();
   }
   std::vector<Eigen::Quaterniond> all;
   for (const YamlValue& one : value.list()) {

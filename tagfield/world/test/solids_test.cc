@@ -6,19 +6,11 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/world/test/mesh_volume.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {
 namespace {
-
-/// By the divergence theorem: positive only where faces look outward.
-double volume_of(const TriangleMesh& mesh) {
-  double volume = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6.0;
-  }
-  return volume;
-}
 
 /// Of a closed surface the areas with their directions add up to nothing.
 void expect_closed(const TriangleMesh& mesh) {
@@ -41,7 +33,7 @@ const double kPolygon = kCircleEdges / kTwoPi * std::sin(kTwoPi / kCircleEdges);
 TEST(Solids, ConeHoldsAThirdOfItsPrism) {
   const TriangleMesh cone = cone_mesh(2.0, 3.0);
   expect_closed(cone);
-  EXPECT_NEAR(volume_of(cone), kPolygon * kPi * 4.0, 1e-9);
+  EXPECT_NEAR(volume(cone), kPolygon * kPi * 4.0, 1e-9);
   EXPECT_EQ(bounds_of(cone).min().z(), -1.5);
   EXPECT_EQ(bounds_of(cone).max().z(), 1.5);
 }
@@ -49,15 +41,15 @@ TEST(Solids, ConeHoldsAThirdOfItsPrism) {
 TEST(Solids, CapsuleIsACylinderAndABall) {
   const TriangleMesh capsule = capsule_mesh(0.5, 2.0);
   expect_closed(capsule);
-  const double ball = volume_of(triangulate(Sphere{0.5}));
-  EXPECT_NEAR(volume_of(capsule), ball + kPolygon * kPi * 0.25 * 2.0, 1e-12);
+  const double ball = volume(triangulate(Sphere{0.5}));
+  EXPECT_NEAR(volume(capsule), ball + kPolygon * kPi * 0.25 * 2.0, 1e-12);
   EXPECT_TRUE(bounds_of(capsule).max().isApprox(Eigen::Vector3d(0.5, 0.5, 1.5)));
 }
 
 TEST(Solids, EllipsoidIsAStretchedBall) {
   const TriangleMesh ellipsoid = ellipsoid_mesh({1.0, 2.0, 3.0});
   expect_closed(ellipsoid);
-  EXPECT_NEAR(volume_of(ellipsoid), 6.0 * volume_of(triangulate(Sphere{1.0})), 1e-12);
+  EXPECT_NEAR(volume(ellipsoid), 6.0 * volume(triangulate(Sphere{1.0})), 1e-12);
   for (const Eigen::Vector3d& p : ellipsoid.vertices) {
     EXPECT_NEAR(p.cwiseQuotient(Eigen::Vector3d(1.0, 2.0, 3.0)).norm(), 1.0, 1e-12);
   }
@@ -73,7 +65,7 @@ TEST(Solids, PrismsOfEitherSenseAndWithTheFirstCornerAgain) {
   for (const Outline& outline : {ell, reversed, closed}) {
     const TriangleMesh prism = prism_mesh({outline}, 2.0);
     expect_closed(prism);
-    EXPECT_NEAR(volume_of(prism), 2.0 * 4.0, 1e-12);
+    EXPECT_NEAR(volume(prism), 2.0 * 4.0, 1e-12);
     EXPECT_EQ(bounds_of(prism).min(), Eigen::Vector3d(0, 0, 0));
     EXPECT_EQ(bounds_of(prism).max(), Eigen::Vector3d(3, 2, 2));
   }
@@ -84,10 +76,10 @@ TEST(Solids, OutlinesInOutlinesAreHolesAndIslands) {
   const Outline island = {{1.5, 1.5}, {2.5, 1.75}, {2.0, 2.5}};
   const double island_area = 0.5 * (1.0 * 1.0 - 0.25 * 0.5);
   expect_closed(prism_mesh({kSquare, hole}, 1.0));
-  EXPECT_NEAR(volume_of(prism_mesh({kSquare, hole}, 1.0)), 16.0 - 4.0, 1e-12);
+  EXPECT_NEAR(volume(prism_mesh({kSquare, hole}, 1.0)), 16.0 - 4.0, 1e-12);
   const TriangleMesh all = prism_mesh({island, kSquare, hole}, 1.0);
   expect_closed(all);
-  EXPECT_NEAR(volume_of(all), 12.0 + island_area, 1e-12);
+  EXPECT_NEAR(volume(all), 12.0 + island_area, 1e-12);
 }
 
 TEST(Solids, NothingIsAPrismOverNothing) {

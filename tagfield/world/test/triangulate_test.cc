@@ -8,18 +8,10 @@
 #include <utility>
 
 #include "tagfield/base/units.h"
+#include "tagfield/world/test/mesh_volume.h"
 
 namespace tagfield {
 namespace {
-
-/// By the divergence theorem: the sum of the tetrahedra from the origin to each triangle.
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6.0;
-  }
-  return sum;
-}
 
 /// Closed and consistently oriented: each directed edge once, and its opposite once.
 bool is_closed(const TriangleMesh& mesh) {

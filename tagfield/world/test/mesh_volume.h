@@ -1,0 +1,21 @@
+/// @file
+/// A measure of meshes that does not depend on how they were made.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "tagfield/world/scene.h"
+
+namespace tagfield {
+
+/// By the divergence theorem, the sum of the tetrahedra from the origin to each triangle: positive
+/// only where faces look outward.
+inline double volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6.0;
+  }
+  return sum;
+}
+
+}  // namespace tagfield
