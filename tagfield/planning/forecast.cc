@@ -10,6 +10,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/time.h"
+#include "tagfield/base/units.h"
 #include "tagfield/field/port_turns.h"
 #include "tagfield/gen2/inventory.h"
 #include "tagfield/planning/local_link.h"
