@@ -303,7 +303,7 @@ std::string controls(const AntennaPlan& plan) {
         bands.colors[i].empty() ? "#8a949e" : bands.colors[i],
         i == 0 ? fmt::format("read by under {:.0f} %", 100.0 * to)
         : i + 1 == bands.colors.size()
-            ? fmt::format(from >= 0.995 ? "{:.0f} %" : "{:.0f} % and more", 100.0 * from)
+            ? fmt::format("{:.0f} %{}", 100.0 * from, from >= 0.995 ? "" : " and more")
             : fmt::format("{:.0f} to {:.0f} %", 100.0 * from, 100.0 * to));
   }
   html += swatches("plan-legend", colors, false);
