@@ -7,7 +7,7 @@ constexpr PageScript kTables = {R"js((()=>{
 const number=text=>{const n=parseFloat(text.replace(/[,\s]/g,"").replace("−","-"));return isNaN(n)?null:n};
 for(const box of document.querySelectorAll(".table")){
  const table=box.querySelector("table"),body=table&&table.tBodies[0];
- if(!body||body.rows.length<2||body.querySelector("[colspan],[rowspan]")||table.tHead.rows.length>1)continue;
+ if(!body||body.rows.length<2||body.querySelector("[colspan],[rowspan]")||!table.tHead||table.tHead.rows.length>1)continue;
  const rows=[...body.rows];
  [...table.tHead.rows[0].cells].forEach((head,column)=>{
   let rising=false;
@@ -35,7 +35,7 @@ for(const box of document.querySelectorAll(".table")){
  box.before(filter);
 }
 })();)js",
-                                "sha256-8/fpplGLm2bqHCvxYYBAukFke4c2tXSCmWj9ieiM06w="};
+                                "sha256-n6JsRp95gn0wOuwH5KanHkagI4Iwtlali81EpcSFzAg="};
 
 constexpr PageScript kPlan = {R"js((()=>{
 const data=JSON.parse(document.getElementById("plan-data").textContent);
