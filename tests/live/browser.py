@@ -107,7 +107,7 @@ class Browser:
     def do(self, statements, *arguments):
         self.driver.execute_script(f"{PAGE} {statements}", *arguments)
 
-    def wait(self, expression, what, seconds=30):
+    def wait(self, expression, what, seconds=90):
         end = time.monotonic() + seconds
         asked = f"return !!({expression});"
         if not expression.startswith("!!document"):
