@@ -1,5 +1,6 @@
 #include "tagfield/sdf/internal/collada.h"
 
+#include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "tagfield/base/error.h"
 #include "tagfield/files/files.h"
 
 namespace tagfield {
@@ -35,7 +37,24 @@ bool is_other(const XMLElement& element) {
   return std::find(kOthers.begin(), kOthers.end(), element.Name()) != kOthers.end();
 }
 
-void drop_others(XMLElement& element) {
+/// Lists of whole numbers: on another character in one, assimp (5.2.5) reads without an end.
+constexpr std::array<std::string_view, 4> kWholeNumbers = {"p", "h", "v", "vcount"};
+
+void require_whole_numbers(const std::string& path, const XMLElement& element) {
+  const bool is_list =
+      std::find(kWholeNumbers.begin(), kWholeNumbers.end(), element.Name()) != kWholeNumbers.end();
+  if (!is_list) return;
+  for (const auto* part = element.FirstChild(); part != nullptr; part = part->NextSibling()) {
+    const std::string_view text = part->ToText() == nullptr ? "" : part->Value();
+    const std::size_t wrong = text.find_first_not_of(" \t\r\n+-0123456789");
+    if (wrong == std::string_view::npos) continue;
+    fail({path, element.GetLineNum()}, fmt::format("<{}> holds '{}', expected whole numbers",
+                                                   element.Name(), text.substr(wrong, 1)));
+  }
+}
+
+void drop_others(const std::string& path, XMLElement& element) {
+  require_whole_numbers(path, element);
   XMLElement* child = element.FirstChildElement();
   while (child != nullptr) {
     XMLElement* const next = child->NextSiblingElement();
@@ -45,7 +64,7 @@ void drop_others(XMLElement& element) {
     } else if (std::string_view(child->Name()) == "profile_COMMON") {
       child->DeleteChildren();
     } else {
-      drop_others(*child);
+      drop_others(path, *child);
     }
     child = next;
   }
@@ -63,10 +82,16 @@ bool is_collada(const std::string& path) {
 std::string collada_geometry(const std::string& path) {
   const std::string text = read_text_file(path, kMostBytes);
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return "";
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    fail({path, document.ErrorLineNum()},
+         fmt::format("can't be read as a mesh: not well-formed XML ({})", document.ErrorName()));
+  }
   XMLElement* const root = document.RootElement();
-  if (root == nullptr || std::string_view(root->Name()) != "COLLADA") return "";
-  drop_others(*root);
+  if (root == nullptr || std::string_view(root->Name()) != "COLLADA") {
+    fail({path, root == nullptr ? 0 : root->GetLineNum()},
+         "can't be read as a mesh: expected an element <COLLADA>");
+  }
+  drop_others(path, *root);
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
   return {printer.CStr(), static_cast<std::size_t>(printer.CStrSize() - 1)};

@@ -12,8 +12,8 @@ bool is_collada(const std::string& path);
 /// The Collada file at `path` without its looks, lights, cameras and movements: what is odd in them
 /// keeps assimp from reading the geometry, which Gazebo reads all the same. Names of materials
 /// stay.
-/// "" where the file is no XML that can be understood, so that assimp may say what is wrong with
-/// it.
+/// Throws Error where the file is no Collada, or a list of indices holds anything but whole
+/// numbers.
 std::string collada_geometry(const std::string& path);
 
 }  // namespace tagfield

@@ -46,10 +46,9 @@ void require_readable(const std::string& path) {
 const aiScene* read_file(Assimp::Importer& importer, const std::string& path) {
   constexpr unsigned kSteps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure;
-  const std::string geometry = is_collada(path) ? collada_geometry(path) : "";
-  return geometry.empty()
-             ? importer.ReadFile(path, kSteps)
-             : importer.ReadFileFromMemory(geometry.data(), geometry.size(), kSteps, "dae");
+  if (!is_collada(path)) return importer.ReadFile(path, kSteps);
+  const std::string geometry = collada_geometry(path);
+  return importer.ReadFileFromMemory(geometry.data(), geometry.size(), kSteps, "dae");
 }
 
 const aiScene& import_file(Assimp::Importer& importer, const std::string& path) {

@@ -201,6 +201,16 @@ TEST_F(MeshFileTest, LooksCamerasAndLightsOfAColladaFileMayBeOdd) {
   }
 }
 
+TEST_F(MeshFileTest, IndicesOfAColladaFileAreWholeNumbers) {
+  std::string text = as_collada(brick(), "1", "Z_UP");
+  const std::size_t indices = text.find("<p>");
+  text.insert(indices + 3, "0~ ");  // On which assimp goes on for ever.
+  const std::string path = write("endless.dae", text);
+  const auto line = 1 + std::count(text.data(), text.data() + indices, '\n');
+  EXPECT_EQ(error_of(path),
+            path + ":" + std::to_string(line) + ": <p> holds '~', expected whole numbers");
+}
+
 TEST_F(MeshFileTest, SubmeshPicksAColladaNode) {
   const std::string path = write("brick.dae", as_collada(brick(), "1", "Z_UP"));
   expect_brick(read_mesh(path, Eigen::Vector3d::Ones(), "second").mesh, {10.0, 0.0, 0.0},
@@ -239,7 +249,7 @@ TEST_F(MeshFileTest, BadFilesAreErrorsOnOneLineThatNameTheFile) {
       {write("inf.obj", "v inf 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ""}};
   for (const auto& [path, expected] : cases) {
     const std::string error = error_of(path);
-    EXPECT_EQ(error.rfind(path + ": ", 0), 0U) << path << " gave: " << error;
+    EXPECT_EQ(error.rfind(path + ":", 0), 0U) << path << " gave: " << error;
     EXPECT_NE(error.find(expected), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }

@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""Tags come and go by the thousand in the real gzserver: it lives, and its memory grows no more than with as
+many models without sensors.
+
+    spawn_campaign.py --plugins build/gazebo/lib --tagfield … --source … --build …   as the tests in Gazebo
+
+TAGFIELD_SPAWNS is how many (default 10,000: half an hour).
+"""
+
+import os
+import pathlib
+
+from gazebo import (
+    Run, antenna, case, check, check_between, check_equal, insert, main, model, read_if_there, remove, schedule, tag, world)
+
+COUNT = int(os.environ.get("TAGFIELD_SPAWNS", "10000"))
+EACH_S = 0.02  # between two that come
+LIFE_S = 0.5
+
+
+def server_memory(world_file):
+    """Of the gzserver with this world, resident [MB]; None where it runs no more."""
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            if words[0].endswith(b"gzserver") and world_file.encode() in words:
+                return int((folder / "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+        except OSError:
+            pass
+    return None
+
+
+def went(log):
+    return sum(1 for line in read_if_there(log).splitlines() if line.split()[1] == "-")
+
+
+def growth(context, name, of_name):
+    """Memory that each model leaves behind [kB]; of models that come and go, `of_name(NAME, X, Y)` each."""
+    events = "".join(insert(1.0 + EACH_S * i, of_name(f"tag{i}", i % 10, i // 10 % 10))
+                     + remove(1.0 + EACH_S * i + LIFE_S, f"tag{i}") for i in range(COUNT))
+    log = context.folder / f"{name}.log"
+    text = world(antenna("gate", 5, 5, 3), schedule(log, events, stop=1.0 + EACH_S * COUNT + 2.0), factor=0)
+    memory = []
+    with Run(context, text, name=name, master=False) as running:
+        for share in (0.2, 0.4, 0.6, 0.8, 1.0):
+            running.wait_for(f"{share:.0%} of the models", lambda s=share: went(log) >= s * COUNT, 3000.0)
+            memory.append(server_memory(str(running.world)))
+            check(memory[-1] is not None, f"Gazebo has ended after {went(log)} models")
+            print(f"{name}: {went(log)} went, {memory[-1]:.1f} MB", flush=True)
+        running.wait_for("the end", lambda: "stopped" in read_if_there(log), 600.0)
+        check(running.is_alive(), "Gazebo has ended")
+    check_equal(went(log), COUNT, "models that went")
+    return (memory[-1] - memory[0]) * 1000 / (0.8 * COUNT)
+
+
+@case
+def tags_come_and_go_by_the_thousand(context):
+    with_sensors = growth(context, "tags", lambda name, x, y: tag(name, x, y, 1))
+    without = growth(context, "models", lambda name, x, y: model(name, f"{x} {y} 1 0 0 0", ""))
+    print(f"each leaves {with_sensors:.2f} kB behind, and {without:.2f} kB without a sensor", flush=True)
+    # Gazebo itself keeps something of each model and of each sensor.
+    check_between(with_sensors - without, -10.0, 10.0, "growth by tags [kB each]")
+
+
+if __name__ == "__main__":
+    main()
