@@ -10,7 +10,7 @@ SOURCES = {
     "tagfield/settings/*.cc": ["radio_settings"],
     "tagfield/localization/*/*.cc": ["methods"],
     "tagfield/localization/*.cc": ["methods"],
-    "tagfield/experiment/bench/*.cc": ["bench"],
+    "tagfield/experiment/bench/*.cc": ["bench", "sweep"],
     "tagfield/experiment/sweep/*.cc": ["sweep"],
     "tagfield/events/*.cc": ["events"],
 }
@@ -45,8 +45,9 @@ def describes(text, key):
 
 
 def pages_of(top, entry, key):
-    return [page for page in entry["pages"]
-            if describes((pathlib.Path(top) / f"docs/{page}.md").read_text(encoding="utf-8"), key)]
+    paths = {page: pathlib.Path(top) / f"docs/{page}.md" for page in entry["pages"]}
+    return [page for page, path in paths.items()
+            if path.exists() and describes(path.read_text(encoding="utf-8"), key)]
 
 
 if __name__ == "__main__":
