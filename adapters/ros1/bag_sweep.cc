@@ -125,7 +125,7 @@ class Sweep {
       of_topic_[connection->topic] = *kind;
     }
     if (!has_reads && !frequency_hz_) {
-      diagnostics_.warn({path_, 0}, fmt::format("rfid_sensor/TagArray tells no frequency: {:g} MHz "
+      diagnostics_.warn({path_, 0}, fmt::format("rfid_sensor/TagArray has no frequency: {:g} MHz "
                                                 "is assumed (--frequency)",
                                                 kAssumedFrequency * 1e-6));
     }

@@ -102,7 +102,7 @@ Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics&
   if (!carried.antennas.empty()) return carried;
   print_warnings(diagnostics);
   throw Error(fmt::format(
-      "calibrate: nothing that these {} experiments tell carries over from one to another: a "
+      "calibrate: nothing that these {} experiments yield carries over from one to another: a "
       "calibration by them would not improve the next, and no profile is written",
       experiments.size()));
 }
@@ -110,7 +110,7 @@ Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics&
 int calibrate_command(const CalibrateArguments& arguments) {
   if (arguments.reads.size() == 2) {
     throw Error(
-        "calibrate: of two experiments nobody can tell what carries over: expected one READS, "
+        "calibrate: two experiments do not show what carries over: expected one READS, "
         "or three or more");
   }
   Diagnostics diagnostics;
@@ -130,12 +130,13 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand(
       "calibrate",
-      "Find antennas' phase centres, lateness, offsets, noise from tags at known "
+      "Find antennas' phase centres, latency, phase offsets, noise from tags at known "
       "places");
   command
-      ->add_option("READS", arguments->reads,
-                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm. Of several "
-                   "experiments (three or more) what carries over from each to the others is told")
+      ->add_option(
+          "READS", arguments->reads,
+          "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm. Of several "
+          "experiments (three or more) what carries over from each to the others is reported")
       ->required();
   command
       ->add_option(
@@ -167,7 +168,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   command->footer(
       "Drive past five tags or more whose places are measured, along curves and at an uneven "
       "pace:\n"
-      "what such a drive does not tell is left as it was and said so. Then\n"
+      "what such a drive does not determine is left as it was, with a warning. Then\n"
       "  tagfield localize reads.csv --poses poses.csv --calibration PROFILE.yaml");
   command->callback(
       [arguments, &chosen] { chosen = [arguments] { return calibrate_command(*arguments); }; });

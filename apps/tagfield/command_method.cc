@@ -183,7 +183,7 @@ std::vector<TagEstimate> locate(const std::string& command, const LocalizationPr
     if (reference != problem.reference_tags.end()) {
       estimates.push_back(reference_estimate(tag, reference->second));
     } else if (of_tag == found.end()) {
-      estimates.push_back(not_located(begun(tag, samples), "the command told no place"));
+      estimates.push_back(not_located(begun(tag, samples), "the command gave no position"));
     } else {
       of_tag->second.reads = count_reads(samples);
       estimates.push_back(std::move(of_tag->second));

@@ -179,7 +179,7 @@ void add_coverage_command(CLI::App& app, Action& chosen) {
       "coverage", "Draw where in the hall a tag would be read, and list tags that never are");
   add_options(*command, *arguments);
   command->footer(
-      "Antennas that move are looked at every 0.25 m of their way, and the best place counts.\n"
+      "Antennas that move are looked at every 0.25 m of their path, and the best place counts.\n"
       "The folder then holds coverage.html with a map of read probability, margin, power and best\n"
       "antenna for each height, the same as figures/*.svg and coverage_HEIGHTm.csv, "
       "coverage.json,\n"

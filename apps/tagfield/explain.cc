@@ -74,7 +74,7 @@ void add_explain_command(CLI::App& app, Action& chosen) {
       "each line means. With the paper's model it is distance against range; for all else:\n"
       "  tagfield explain scenarios/paper_warehouse.yaml --set model=multipath --tag tag3 --time "
       "20\n"
-      "Robots that find their way by laser are taken to drive straight over their waypoints.");
+      "Robots that navigate by laser are taken to drive straight over their waypoints.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return explain(*arguments); }; });
 }
 

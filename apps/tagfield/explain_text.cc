@@ -131,7 +131,7 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
   const auto blocked = static_cast<std::size_t>(
       std::count_if(paths.begin(), paths.end(), [](const auto& path) { return path.blocked; }));
   std::string text = fmt::format("\npaths: {}, and {} blocked\n", paths.size() - blocked, blocked);
-  text += "  bounces   length    excess  strength  by way of\n";
+  text += "  bounces   length    excess  strength  via\n";
   std::size_t shown = 0;
   std::size_t left = 0;
   for (const PathExplanation& path : paths) {
@@ -148,7 +148,7 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
                         path.excess_m, right(strength, 9), met(path));
   }
   if (left > 0) text += fmt::format("  … and {} weaker ones (--json has all)\n", left);
-  return text + "  (strength: against the direct way with nothing in between)\n";
+  return text + "  (strength: against the direct path with nothing in between)\n";
 }
 
 std::string materials_text(const PhysicalLink& link) {

@@ -91,9 +91,10 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->check(CLI::IsMember({"above", "below"}))
       ->excludes(of_all);
   command
-      .add_option("--side", arguments.side,
-                  "Side of the antennas' way on which tags are: left or right as one goes, or +x, "
-                  "-x, +y, -y")
+      .add_option(
+          "--side", arguments.side,
+          "Side of the antennas' path on which tags are: left or right of the motion, or +x, "
+          "-x, +y, -y")
       ->check(CLI::IsMember({"left", "right", "+x", "-x", "+y", "-y"}));
   command
       .add_option("--box", arguments.box,

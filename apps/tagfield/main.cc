@@ -28,7 +28,7 @@ constexpr const char* kDescription =
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kDescription, "tagfield");
   app.set_version_flag("--version", std::string("tagfield ") + TAGFIELD_VERSION);
-  app.footer("'tagfield COMMAND --help' tells more. Exit code 2 means that an input is wrong.");
+  app.footer("'tagfield COMMAND --help' says more. Exit code 2 means that an input is wrong.");
   tagfield::Action chosen;
   tagfield::add_run_command(app, chosen);
   tagfield::add_localize_command(app, chosen);

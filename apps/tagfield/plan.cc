@@ -128,7 +128,7 @@ void print_chosen(const AntennaPlan& plan) {
   }
   fmt::print("no layout of {} antennas within the limits is better by more than {:.4f}{}\n",
              layout.antennas.size(), std::max(0.0, layout.bound - layout.score),
-             plan.guaranteed ? fmt::format("; greed has {:.0f} % of the best for sure",
+             plan.guaranteed ? fmt::format("; the greedy algorithm guarantees {:.0f} % of the best",
                                            std::floor(100.0 * *plan.guaranteed))
                              : std::string());
 }

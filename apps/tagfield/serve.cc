@@ -203,7 +203,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
   command
       ->add_option("--llrp", arguments->llrp,
                    "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
-                   "Readers then read when a client tells them to")
+                   "Readers then read when a client starts them")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   add_middleware_options(*command, arguments->middleware);
   add_start_option(*command, arguments->start);

@@ -92,7 +92,7 @@ void refuse_options_of_reads(const TrackArguments& arguments) {
   }
   if (arguments.tag_height_m || !arguments.heights_file.empty()) {
     throw Error(
-        "track: a scenario tells heights by localization.tag_height_m "
+        "track: a scenario gives heights by localization.tag_height_m "
         "(--set localization.tag_height_m=NUMBER)");
   }
 }
@@ -256,8 +256,9 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
       ->expected(3, 4);
   command.add_flag("--both-ways", arguments.both_ways, "On the lane tags may also run backwards");
   command
-      .add_option("--line", arguments.line,
-                  "Line across which the tags' order is told: X Y of a point [m], HEADING [deg]")
+      .add_option(
+          "--line", arguments.line,
+          "Line across which the tags' order is reported: X Y of a point [m], HEADING [deg]")
       ->expected(3);
   command.add_option("--speed", arguments.speed, "Least and greatest speed [m/s] (default 0.05 3)")
       ->expected(2);

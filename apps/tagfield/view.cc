@@ -69,7 +69,7 @@ std::string run_in_recording(const ViewArguments& arguments, Diagnostics& diagno
   around.robot_poses = bag.truth.robot_poses;
   if (bag.truth.tag_positions.empty()) {
     diagnostics.warn({arguments.run, 0},
-                     "tells no tag's place, so that no tag is drawn: 'tagfield localize' finds "
+                     "has no tag's position, so that no tag is drawn: 'tagfield localize' finds "
                      "places, and 'tagfield view' shows its folder");
   }
   const std::string name = std::filesystem::path(arguments.run).filename().string();

@@ -356,7 +356,7 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
   Calibration calibration;
   calibration.half_turns = has_half_turns(samples);
   if (calibration.half_turns) {
-    diagnostics.warn("phases jump by half turns: they are taken as known but for π");
+    diagnostics.warn("phases jump by π: they are taken as ambiguous (φ or φ + π)");
     double_phases(samples);
   }
   merge_stops(samples);

@@ -79,7 +79,7 @@ std::vector<Figure> figures() {
          [i](AntennaCalibration& a) -> CalibratedValue& { return a.place_m[i]; }});
   }
   all.push_back(
-      {"lateness", "ms",
+      {"latency", "ms",
        [](const AntennaCalibration& a) -> const CalibratedValue& { return a.time_offset_s; },
        [](AntennaCalibration& a) -> CalibratedValue& { return a.time_offset_s; }});
   return all;

@@ -57,7 +57,7 @@ void take_antennas_away(const std::vector<std::string>& patterns, Scenario& scen
 std::vector<InventoryWithout> leave_one_out(const Scenario& scenario, std::uint64_t first,
                                             std::size_t count, const RunControl& control) {
   if (scenario.pose.source == PoseSource::kSlam) {
-    throw Error("--leave-one-out: not with robots that find their way by themselves");
+    throw Error("--leave-one-out: not with robots that navigate by themselves");
   }
   const std::size_t antennas = scenario.antennas.size();
   if (antennas < 2) return {};

@@ -45,7 +45,7 @@ std::vector<TrackingRun> track_seeds(const Scenario& scenario, std::uint64_t fir
                                      Diagnostics& diagnostics) {
   if (scenario.pose.source == PoseSource::kSlam) {
     throw Error(
-        "track: robots that find their way by themselves can't be run here; "
+        "track: robots that navigate by themselves can't be run here; "
         "tagfield run, then track its reads.csv");
   }
   const KnownBeforehand known = known_beforehand(scenario);

@@ -50,7 +50,7 @@ void CsvOutlet::on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) { begi
 void CsvOutlet::on_antenna_added(const AntennaInfo& antenna) {
   if (has_begun_ && antenna.tells_doppler && !has_doppler_) {
     throw Error(
-        fmt::format("reads.csv: antenna '{}' tells Doppler, but comes after reads that were "
+        fmt::format("reads.csv: antenna '{}' reports Doppler, but comes after reads that were "
                     "written without it",
                     antenna.name));
   }

@@ -270,7 +270,7 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   }
   if (!traits.antennas_move) {
     return {"fixed",
-            "the antennas stand still: strengths tell distances, and phases over channels "
+            "the antennas stand still: strengths give distances, and phases over channels "
             "where their offsets are known"};
   }
   if (!traits.has_phases) return {"trilateration", "the reads have no phases"};
@@ -302,7 +302,7 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
 Method automatic_method(const std::vector<Method>& methods) {
   std::vector<Method> chosen;
   for (const char* const name : kChosen) chosen.push_back(find_method(methods, name));
-  Method automatic{"auto", "one of the others, chosen by the data, which is told with the reason",
+  Method automatic{"auto", "one of the others, chosen by the data, and named with the reason",
                    among(chosen)};
   for (const Method& method : chosen) {
     for (const SettingHelp& help : method.settings) {

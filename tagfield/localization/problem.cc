@@ -135,7 +135,7 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
       problem.has_phases && known.half_turns.value_or(has_half_turns(problem.samples));
   if (problem.half_turns) {
     if (!known.half_turns) {
-      diagnostics.warn("phases jump by half turns: they are taken as known but for π");
+      diagnostics.warn("phases jump by π: they are taken as ambiguous (φ or φ + π)");
     }
     double_phases(problem.samples);
   }

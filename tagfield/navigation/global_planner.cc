@@ -206,8 +206,8 @@ Plan plan(const OccupancyGrid& map, const std::vector<Eigen::Vector2d>& seen,
   const FloorRoom floor = floor_room(map, seen, start, size);
   const std::optional<Eigen::Vector2i> from = allowed_cell(floor, start);
   const std::optional<Eigen::Vector2i> to = allowed_cell(floor, end);
-  const std::string no_way =
-      fmt::format("{}: no way there from ({:.2f}, {:.2f})", at("goal", goal_M), pose_M.x, pose_M.y);
+  const std::string no_way = fmt::format("{}: no path there from ({:.2f}, {:.2f})",
+                                         at("goal", goal_M), pose_M.x, pose_M.y);
   if (!from || !to) return {{}, no_way};
   const Spread ways = spread(floor, *to, from);
   if (ways.costs[floor.grid.index(from->x(), from->y())] < 0) return {{}, no_way};

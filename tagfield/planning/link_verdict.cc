@@ -53,7 +53,7 @@ std::string cause(const RadioModel& model, const TagModel& tag, const LinkExplan
     const char* words;
   };
   const Cause all[] = {{beam_db, "off the antenna's beam"},
-                       {tag_db, "as the tag hardly sends that way"},
+                       {tag_db, "as the tag hardly radiates in that direction"},
                        {line(physical.to_tag, "polarization"), "by crossed polarization"},
                        {others_db, "in a fade"},
                        {line(physical.to_tag, "coupling"), "by tags nearby"},

@@ -14,7 +14,7 @@ void plan(RobotSpec& robot, Diagnostics& diagnostics) {
   robot.random_goals = 0;
   robot.carried.clear();
   diagnostics.warn(robot.location,
-                   fmt::format("robot '{}' finds its way by laser; it is taken to {}", robot.name,
+                   fmt::format("robot '{}' navigates by laser; it is taken to {}", robot.name,
                                robot.waypoints.empty() ? "stand at its start"
                                : is_unknown ? "follow its waypoints, without being carried"
                                             : "drive straight over its waypoints or goals"));

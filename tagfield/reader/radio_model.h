@@ -60,7 +60,7 @@ constexpr std::array<EffectSwitch, 15> kEffectSwitches = {{
     {"quantization", "steps of phase and RSSI", &RadioEffects::quantization},
     {"hopping", "channel hopping", &RadioEffects::hopping},
     {"phase_offsets", "phase offsets of channels and ports", &RadioEffects::phase_offsets},
-    {"half_turns", "half turns of the phase", &RadioEffects::half_turns},
+    {"half_turns", "π ambiguity of the phase", &RadioEffects::half_turns},
     {"inventory", "Gen2 inventory", &RadioEffects::inventory},
     {"interference", "interference of readers", &RadioEffects::interference},
     {"coupling", "coupling of tags", &RadioEffects::coupling},

@@ -58,7 +58,7 @@ std::string antennas_text(const Coverage& coverage) {
   for (const CoverageAntenna& antenna : coverage.antennas) {
     text += (text.empty() ? "" : ", ") + clean_text(antenna.name);
     if (antenna.places_W.size() > 1) {
-      text += fmt::format(" ({} places of its way)", antenna.places_W.size());
+      text += fmt::format(" ({} places of its path)", antenna.places_W.size());
     }
   }
   return text;

@@ -193,7 +193,7 @@ std::vector<LegendEntry> legend_of(const Findings& found) {
   if (found.beliefs) entries.push_back({Symbol::kLine, "believed", "as the robot believed"});
   if (found.fixed) entries.push_back({Symbol::kSquare, "ink", "fixed antenna"});
   if (found.truth) entries.push_back({Symbol::kDiamond, "truth", "tag, true"});
-  if (found.moved) entries.push_back({Symbol::kLine, "true-line", "way of a tag"});
+  if (found.moved) entries.push_back({Symbol::kLine, "true-line", "path of a tag"});
   if (found.estimates) entries.push_back({Symbol::kCross, "estimate", "tag, estimated"});
   return entries;
 }
@@ -207,7 +207,7 @@ std::string caption_of(const RunFiles& run, const Outcomes& outcomes, const Find
         " An estimate that lies within its diamond is off by less than the map can show;"
         " the errors themselves are in the next figure and the table.";
   }
-  if (found.pairs) text += " A dashed blue line joins places that the data can't tell apart.";
+  if (found.pairs) text += " A dashed blue line joins places that the data can't distinguish.";
   if (found.outside > 0) {
     text += fmt::format(
         " {} beyond the edge of the map.",

@@ -108,7 +108,7 @@ std::string navigation_table(const Summary& summary) {
   if (!summary.navigation) return "";
   const NavigationSummary& navigation = *summary.navigation;
   std::string html =
-      "<h2>Navigation</h2>\n<p>How the robot found its way by laser, wheels and its map.</p>\n";
+      "<h2>Navigation</h2>\n<p>How the robot navigated by laser, wheels and its map.</p>\n";
   html += "<div class=\"table told\"><table>\n<tbody>\n" + map_rows(navigation) +
           mapping_row(navigation) + pose_rows(navigation) + driving_rows(navigation) +
           "</tbody></table></div>\n";

@@ -159,7 +159,7 @@ Figure pose_error_figure(const RunFiles& run) {
   const Panel position = panel_of(run, "horizontal error", "mm", start, horizontal_error_mm);
   const Panel yaw = panel_of(run, "error of the heading", "°", start, yaw_error_deg);
   if (position.numbers.count == 0) {
-    figure.missing = "no antenna moves whose true way is known.";
+    figure.missing = "no antenna moves whose true path is known.";
     return figure;
   }
   draw_panel(figure.svg, position);

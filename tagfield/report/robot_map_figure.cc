@@ -60,9 +60,9 @@ void draw_way(Svg& svg, MapView& map, const MappingWay& way) {
 std::vector<LegendEntry> legend_of(const MappingWay& way) {
   std::vector<LegendEntry> entries;
   if (!way.believed.empty()) {
-    entries.push_back({Symbol::kLine, "mapping", "way while mapping, as believed"});
+    entries.push_back({Symbol::kLine, "mapping", "path while mapping, as believed"});
   }
-  if (!way.truth.empty()) entries.push_back({Symbol::kLine, "mapping-true", "true way"});
+  if (!way.truth.empty()) entries.push_back({Symbol::kLine, "mapping-true", "true path"});
   return entries;
 }
 
@@ -86,7 +86,7 @@ std::string caption_of(const RunFiles& run, std::size_t step) {
       spoken_length(run.map->resolution_m));
   if (const auto distance = mean_distance(run.mapping_way)) {
     text +=
-        fmt::format(" Believed and true way are {} apart in the mean.", spoken_length(*distance));
+        fmt::format(" Believed and true path are {} apart in the mean.", spoken_length(*distance));
   }
   if (run.summary.seeds.size() > 1) {
     text += fmt::format(" Shown is the first of {} seeds.", run.summary.seeds.size());

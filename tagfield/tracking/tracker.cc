@@ -132,16 +132,16 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
                                            best.coherence, options.min_coherence));
   }
   if (!(best.log_evidence >= kLeastEvidence)) {
-    return not_tracked(
-        result, fmt::format("random phases would look like a track as well: {} reads "
-                            "in {} groups of one antenna and channel are too few; longer "
-                            "stays on a channel, or offsets by a calibration, would tell more",
-                            pass.reads.size(), pass.groups));
+    return not_tracked(result,
+                       fmt::format("random phases would look like a track as well: {} reads "
+                                   "in {} groups of one antenna and channel are too few; longer "
+                                   "stays on a channel, or offsets by a calibration, would help",
+                                   pass.reads.size(), pass.groups));
   }
   if (best.expected_error_m > options.max_expected_error_m) {
     return not_tracked(
         result, fmt::format("the expected error is {:.2f} m, over {} m: more antennas, or a lane, "
-                            "would tell more",
+                            "would help",
                             best.expected_error_m, options.max_expected_error_m));
   }
   if (stillness(pass) > best.coherence - kAsStill) {

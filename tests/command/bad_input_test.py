@@ -935,7 +935,7 @@ def goals_that_cannot_be_reached(context):
     """Each is refused with a reason, and the robot goes on to the next."""
     write_hall(context)
     goals = {"off the map": (9, 0), "on an obstacle": (1.9, 1.5), "to an obstacle": (-3.8, 0),
-             "no way there": (3, 1.5)}
+             "no path there": (3, 1.5)}
     text = replaced(NAVIGATION, "[[0.4, 0, 0]]",
                     str([[x, y, 0] for x, y in goals.values()] + [[0.4, 0, 0]]))
     context.write("far.yaml", text)
@@ -949,7 +949,7 @@ def goals_that_cannot_be_reached(context):
         check_in(goal["reason"], result.out, "the table")
         check_equal(goal["seed"], 1, "seed")
     page = (context.folder / "out/report.html").read_text(encoding="utf-8")
-    check_in("no way there", page, "the page")
+    check_in("no path there", page, "the page")
 
 
 # --- Reads, poses and heights ---------------------------------------------------------------------

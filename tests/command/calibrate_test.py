@@ -93,7 +93,7 @@ def several_experiments_tell_what_carries_over(context):
     check_in("place x         30.", told.out.replace("29.", "30."), "what is the same in all")
     two = context.run("calibrate", reads, reads, *common)
     check_equal(two.code, 2, "exit code of two")
-    check_in("of two experiments nobody can tell what carries over", two.err, "stderr of two")
+    check_in("two experiments do not show what carries over", two.err, "stderr of two")
     wrong = context.run("calibrate", reads, reads, reads, "--poses", poses, *common)
     check_equal(wrong.code, 2, "exit code of two tables of poses for three experiments")
     check_in("--poses is given 2 times", wrong.err, "stderr")

@@ -345,7 +345,7 @@ def warehouse_physics(context):
     for tag in summary["tags"]:
         if tag["verdict"] == "located":
             check(tag["error_m"] < 0.3, f"{tag['id']} is said to be located, {tag['error_m']} m off")
-    check_in("half turns", "".join(summary["warnings"]), "warnings")
+    check_in("jump by π", "".join(summary["warnings"]), "warnings")
 
 
 @case

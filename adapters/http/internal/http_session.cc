@@ -118,8 +118,8 @@ std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
   const std::string bearer = "Bearer " + context_.options.token;
   if (!is_get && !context_.options.token.empty() &&
       !is_same_secret(field(http::field::authorization), bearer)) {
-    return api_error(401,
-                     "commands need 'Authorization: Bearer TOKEN', with the token told at start");
+    return api_error(
+        401, "commands need 'Authorization: Bearer TOKEN', with the token printed at start");
   }
   if (!request.body().empty() &&
       field(http::field::content_type).substr(0, 16) != "application/json") {

@@ -170,15 +170,15 @@ Figure ratio_figure(const Bench& bench) {
 }
 
 Figure nees_figure(const Bench& bench) {
-  Figure figure{"nees", "", "Are errors as large as was told?", "", {}, ""};
+  Figure figure{"nees", "", "Are stated covariances right? (NEES)", "", {}, ""};
   const std::vector<MarkGroup> groups = groups_of(bench, nees_mark);
   if (groups.empty()) {
-    figure.missing = "no method told a covariance.";
+    figure.missing = "no method states a covariance.";
     return figure;
   }
   draw_groups(figure.svg, bench, groups, "mean NEES / degrees of freedom");
   figure.caption =
-      "Squared errors over the covariances that the methods told of them. 1 is right; within the "
+      "Squared errors over the covariances that the methods state. 1 is right; within the "
       "grey band, chance explains the rest (95 %). Right of it a method is too bold, left of it "
       "too "
       "cautious.";

@@ -195,7 +195,7 @@ std::string legend(const Columns& columns) {
       "error over the error that the method expected. Times bound: the "
       "mean error over that of an efficient estimator (the "
       "Cramér-Rao "
-      "bound). NEES/dof: squared errors over the covariances that were told of them; 1 is right, ▲ "
+      "bound). NEES/dof: squared errors over the stated covariances; 1 is right, ▲ "
       "beyond chance too bold, ▼ too cautious.";
   if (columns.aligned) {
     html +=

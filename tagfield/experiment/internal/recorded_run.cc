@@ -44,8 +44,9 @@ Away away_of(const SuiteRecording& recording) {
         break;
     }
   }
-  throw Error(recording.truth +
-              ": range_m is a distance from the antennas' way, so it needs side: +x, -x, +y or -y");
+  throw Error(
+      recording.truth +
+      ": range_m is a distance from the antennas' path, so it needs side: +x, -x, +y or -y");
 }
 
 /// Where the way lies on that axis [m].
@@ -57,9 +58,10 @@ double line_of(const SuiteRecording& recording, const std::vector<AntennaPose>& 
   for (const AntennaPose& pose : poses) {
     const double off = std::abs(pose.X_WA.translation[axis] - line);
     if (off <= kLineWidth_m) continue;
-    throw Error(fmt::format(
-        "{}: range_m is a distance from a straight way, but the antennas are up to {:.2f} m off it",
-        recording.truth, off));
+    throw Error(
+        fmt::format("{}: range_m is a distance from a straight path, but the antennas are up to "
+                    "{:.2f} m off it",
+                    recording.truth, off));
   }
   return line;
 }

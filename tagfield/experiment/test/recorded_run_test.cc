@@ -87,15 +87,17 @@ TEST_F(RecordedRun, TruthOfOneExperiment) {
 TEST_F(RecordedRun, ComplainsOfTheTruth) {
   EXPECT_EQ(complaint_of("tag,x_m,y_m\na,1,2\na,1,2\n"), "truth.csv:3: tag 'a' stands here twice");
   EXPECT_EQ(complaint_of("tag,x_m,y_m\n"), "truth.csv: has no tags");
-  EXPECT_EQ(complaint_of("tag,x_m,range_m\na,1,2\n"),
-            "truth.csv: range_m is a distance from the antennas' way, so it needs side: +x, -x, +y "
-            "or -y");
+  EXPECT_EQ(
+      complaint_of("tag,x_m,range_m\na,1,2\n"),
+      "truth.csv: range_m is a distance from the antennas' path, so it needs side: +x, -x, +y "
+      "or -y");
   recording_.area.side = TagSide::kLeft;
   EXPECT_NE(complaint_of("tag,x_m,range_m\na,1,2\n"), "");
   recording_.area.side = TagSide::kPlusX;
-  EXPECT_EQ(complaint_of("tag,y_m,range_m\na,1,2\n"),
-            "truth.csv: range_m is a distance from a straight way, but the antennas are up to 0.50 "
-            "m off it");
+  EXPECT_EQ(
+      complaint_of("tag,y_m,range_m\na,1,2\n"),
+      "truth.csv: range_m is a distance from a straight path, but the antennas are up to 0.50 "
+      "m off it");
   recording_.experiment = "three";
   EXPECT_EQ(complaint_of("experiment,tag,x_m,y_m\none,a,1,1\n"),
             "truth.csv: has no tags of the experiment 'three'");

@@ -83,7 +83,7 @@ LocalizationResult locate_from_fixed(const LocalizationProblem& problem, int thr
     diagnostics.warn(
         "the phases are not used: every channel of every port has an offset of its own, which "
         "only a tag at a known place that all antennas read (--reference) or a calibration "
-        "(--calibration) would tell; places are by strength alone");
+        "(--calibration) would give; places are by strength alone");
   }
   LocalizationResult result;
   result.method = "fixed";

@@ -202,7 +202,7 @@ const OptionTable<RobustOptions>& robust_options() {
 
 Method robust_method(const RobustOptions& options) {
   return one_by_one("robust",
-                    "amid reflections: stretches of the way, each as far as its waves add up",
+                    "for reflections: stretches of the path, each as far as its waves add up",
                     robust_options(), options, locate_robustly);
 }
 

@@ -80,7 +80,7 @@ std::string why_other_poses(const PoseCheck& check, double lambda) {
   }
   if (check.explained > kExplained && check.rms_m > kLeast) {
     return fmt::format(
-        "the poses' error goes along the way, as if stamps of reads were {:.2f} s "
+        "the poses' error goes along the path, as if stamps of reads were {:.2f} s "
         "{} against those of poses",
         std::abs(check.late_s), check.late_s > 0.0 ? "late" : "early");
   }

@@ -148,8 +148,8 @@ void judge(const ScanOptions& options, TagEstimate& estimate) {
   estimate.verdict = estimate.candidates.size() == 1 ? Verdict::kLocated : Verdict::kAmbiguous;
   if (estimate.verdict == Verdict::kAmbiguous) {
     estimate.reason =
-        "the tag may be on either side of the straight way; a side that is told, or a turn of the "
-        "path, would tell them apart";
+        "the tag may be on either side of the straight path; a known side, or a turn of the "
+        "path, would distinguish them";
   }
 }
 

@@ -202,14 +202,14 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
   }
   const double strays = straying(scan.line, series);
   if (strays > kStraight * lambda) {
-    scan.why_not = fmt::format("the antenna's way is not straight: it strays by {:.2f} m", strays);
+    scan.why_not = fmt::format("the antenna's path is not straight: it strays by {:.2f} m", strays);
     return scan;
   }
   const ScanChannel together = in_agreement(channels_of(scan.line, kPlace * lambda, series));
   const std::vector<Cell> cells = longest_stretch(together, kGap * lambda);
   if (cells.size() < kFewestReads ||
       cells.back().along_m - cells.front().along_m < kShortest * lambda) {
-    scan.why_not = "the phase could not be followed over a wavelength of the antenna's way";
+    scan.why_not = "the phase could not be followed over a wavelength of the antenna's path";
     return scan;
   }
   fill(cells, problem.half_turns, scan);

@@ -167,7 +167,7 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
   if (!references.go_by_place) {
     return not_located(std::move(estimate),
                        fmt::format("the strengths of the {} reference tags do not go by their "
-                                   "places, or these are too few to tell (five at least)",
+                                   "places, or these are too few to judge (five at least)",
                                    references.tags.size()));
   }
   if (estimate.reads == 0)

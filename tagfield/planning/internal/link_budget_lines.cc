@@ -61,10 +61,10 @@ void add_direct(const RadioView& view, const TagEnd& tag, bool receiver, const R
 }
 
 std::string others_line(const OneWay& way, std::size_t count) {
-  if (way.blocked && count == 0) return blockers(way.between) + " blocks the only way";
+  if (way.blocked && count == 0) return blockers(way.between) + " blocks the only path";
   const std::string others = count == 1 ? "1 other path" : fmt::format("{} other paths", count);
   if (way.blocked) {
-    return fmt::format("{} blocks the direct way; {} instead", blockers(way.between), others);
+    return fmt::format("{} blocks the direct path; {} instead", blockers(way.between), others);
   }
   return count == 0 ? "what remains of it" : fmt::format("{} with it", others);
 }
@@ -173,7 +173,7 @@ void add_budget(const RadioView& view, const TagEnd& tag, const RadioLink& of_li
     add_coupling(tag, of_link.backward, alone.backward, link.to_reader);
     link.between_return = std::move(back.between);
   } else {
-    add(link.to_reader, "the same way back", back_db);
+    add(link.to_reader, "the same path back", back_db);
   }
   add(link.to_reader, "cable", -model.cable_loss_db);
 }

@@ -56,7 +56,7 @@ std::string way_csv(double aside_m) {
   return poses_to_csv(poses);
 }
 
-/// A run whose robot mapped 20 mm beside its true way.
+/// A run whose robot mapped 20 mm beside its true path.
 void put_navigation(const RunFolder& folder) {
   folder.put("summary.json", to_json(navigated_summary()));
   folder.put("map.yaml", map_to_yaml(small_map(), "map.pgm"));
@@ -132,7 +132,7 @@ TEST(PoseErrorFigure, NeedsTheTruth) {
   plan.truth = false;
   const RunFolder folder(plan);
   EXPECT_EQ(pose_error_figure(read_run_files(folder.path())).missing,
-            "no antenna moves whose true way is known.");
+            "no antenna moves whose true path is known.");
 }
 
 TEST(NavigationTable, SaysInWords) {

@@ -1,0 +1,131 @@
+"""Sphinx's settings. scripts/docs builds the site; stage.py has gathered its pages beforehand."""
+
+import os
+import pathlib
+import re
+import sys
+
+from docutils import nodes
+from sphinx.transforms import SphinxTransform
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(TOP / "build/release/lib/python"))
+
+project = "Tagfield"
+copyright = "the Tagfield authors, Apache-2.0"  # Sphinx's name for it.
+html_title = "Tagfield"
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
+try:
+    import sphinx_copybutton  # noqa: F401
+
+    extensions.append("sphinx_copybutton")
+except ImportError:
+    pass
+
+exclude_patterns = ["files"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+suppress_warnings = ["myst.header"]  # Generated pages begin sections at the level that reads best.
+
+breathe_projects = {"tagfield": str(TOP / "build/docs/doxygen/xml")}
+breathe_default_project = "tagfield"
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+
+html_theme = "furo"
+html_static_path = ["static"]
+html_css_files = ["tagfield.css", "katex.min.css"]
+html_js_files = ["katex.js", "formulas.js"]
+# Debian's KaTeX, so that pages need no network. TAGFIELD_KATEX names another copy.
+KATEX = pathlib.Path(os.environ.get("TAGFIELD_KATEX", "/usr/share/javascript/katex"))
+html_static_path += [str((KATEX / name).resolve()) for name in ("katex.js", "katex.min.css", "fonts") if (KATEX / name).exists()]
+html_show_sphinx = False
+html_copy_source = False
+html_theme_options = {"navigation_with_keys": True}
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+pygments_style = "default"
+pygments_dark_style = "monokai"
+
+# What a code block without a language is in, by how it begins.
+LANGUAGES = [
+    (r"\s*<", "xml"),
+    (r">>> ", "pycon"),
+    (r"(import|from|@|run|runs|reads|link|sim|scenario|hall)\b.*[=(.]", "python"),
+    (r"\$ ", "console"),
+    (r"(tagfield|build/|scripts/|examples/|benchmarks/|cmake|cd|curl|export|sudo|rviz|roslaunch|rosbag|ros2|gz|ln|for"
+     r"|source|pip|python3|mosquitto_sub|git|sqlite3|PYTHONPATH=|ctest|/usr/bin|roscore|mpirun)\b", "bash"),
+    (r"- \{?[a-z_]+:|[a-z_]+:( |$)", "yaml"),
+    (r"SELECT|--", "sql"),
+]
+
+
+class BlockLanguages(SphinxTransform):
+    """Indented blocks have no language in Markdown."""
+
+    default_priority = 450
+
+    def apply(self):
+        for block in self.document.findall(nodes.literal_block):
+            if block.get("language", "none") in ("none", "default", ""):
+                first = block.astext().split("\n", 1)[0]
+                matches = (name for begin, name in LANGUAGES if re.match(begin, first))
+                block["language"] = next(matches, "text")
+            block["force"] = True
+
+
+class WideTables(SphinxTransform):
+    """Tables scroll by themselves, not the page."""
+
+    default_priority = 460
+
+    def apply(self):
+        for table in list(self.document.findall(nodes.table)):
+            box = nodes.container(classes=["table-box"])
+            table.replace_self(box)
+            box += table
+
+
+FIELD = re.compile(r"(\w[\w, .]*): +(\S.*)")
+
+
+def docstring(_app, _what, _name, _object, _options, lines):
+    """Lists of fields ("name: what it is") as lists; code as code."""
+    written = []
+    in_list = False
+    for line in lines:
+        match = FIELD.fullmatch(line)
+        if match:
+            if not in_list:
+                written.append("")
+            in_list = True
+            names = ", ".join(f"**{name}**" for name in match[1].split(", "))
+            written.append(f"- {names}: {match[2]}")
+        elif in_list and line.startswith("    "):
+            written.append(f"  {line.strip()}")
+        elif line.startswith("    ") and written and not written[-1].strip():
+            written += ["::", "", line]
+        else:
+            if in_list and line.strip():
+                written.append("")
+            in_list = False
+            written.append(line)
+    lines[:] = written
+
+
+def setup(app):
+    def inline(writer, node):
+        writer.body.append(f'<span class="formula">{writer.encode(node.astext())}</span>')
+        raise nodes.SkipNode
+
+    def block(writer, node):
+        writer.body.append(f'<div class="formula">{writer.encode(node.astext())}</div>')
+        raise nodes.SkipNode
+
+    app.add_html_math_renderer("katex", (inline, None), (block, None))
+    app.connect("autodoc-process-docstring", docstring)
+    app.add_transform(BlockLanguages)
+    app.add_transform(WideTables)
+
+
+html_math_renderer = "katex"
