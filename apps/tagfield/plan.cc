@@ -126,8 +126,9 @@ void print_chosen(const AntennaPlan& plan) {
     fmt::print("  zone {}: {:.1f} of {} tags read, {:.1f} by others (up to {:.0f})\n", zone.zone,
                zone.read.mean, zone.tags, zone.cross.mean, std::floor(zone.cross.high));
   }
-  fmt::print("no layout of {} antennas within the limits is better by more than {:.4f}{}\n",
-             layout.antennas.size(), std::max(0.0, layout.bound - layout.score),
+  const double gap = std::max(0.0, layout.bound - layout.score);
+  fmt::print("no layout of {} antennas within the limits scores {}{}\n", layout.antennas.size(),
+             gap < 5e-5 ? "more" : fmt::format("over {:.4f} more", gap),
              plan.guaranteed ? fmt::format("; the greedy algorithm guarantees {:.0f} % of the best",
                                            std::floor(100.0 * *plan.guaranteed))
                              : std::string());
