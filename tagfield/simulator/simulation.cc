@@ -3,40 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "tagfield/channel/moving_body.h"
 #include "tagfield/channel/radio_world.h"
 #include "tagfield/scenario/recorded_motion.h"
+#include "tagfield/simulator/internal/bodies.h"
+#include "tagfield/simulator/internal/mounts.h"
 #include "tagfield/simulator/internal/robots.h"
 #include "tagfield/simulator/internal/tag_schedule.h"
 #include "tagfield/simulator/robot.h"
 
 namespace tagfield {
 namespace {
-
-bool is_fixed(const AntennaSpec& antenna) {
-  return antenna.on.empty() && !(antenna.lift.travel_m > 0.0) && antenna.recorded.empty();
-}
-
-/// The row that holds at `stamp`; the first one before them all.
-const StampedPose& row_at(const Trajectory& rows, Time stamp) {
-  const auto after = std::upper_bound(rows.begin(), rows.end(), stamp,
-                                      [](Time t, const StampedPose& row) { return t < row.stamp; });
-  return after == rows.begin() ? *after : *std::prev(after);
-}
-
-std::vector<Time> stamps_of(const Trajectory& rows) {
-  std::vector<Time> stamps;
-  stamps.reserve(rows.size());
-  for (const StampedPose& row : rows) stamps.push_back(row.stamp);
-  return stamps;
-}
-
-/// X_PA at `stamp`, the lift's height included.
-RigidTransform mount_at(const AntennaSpec& antenna, Time stamp) {
-  return from_translation({0.0, 0.0, lift_height(antenna.lift, stamp)}) * antenna.X_PA;
-}
 
 std::optional<Time> end_of(const Scenario& scenario, bool is_remote) {
   if (scenario.duration_s) return time_from_seconds(*scenario.duration_s);
@@ -71,25 +48,13 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, Outlets out
     if (obstacle.body) obstacles_.push_back(obstacle);
   }
   for (const AntennaSpec& antenna : scenario.antennas) add_antenna(antenna);
-  for (const TagSpec& tag : scenario.tags) require_robot(tag.on, tag.location);
+  for (const TagSpec& tag : scenario.tags) require_robot(robots_, tag.on, tag.location);
   handle_events(Time{});
 }
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
-
-const Robot* Simulation::robot_named(const std::string& name) const {
-  const auto found = std::find_if(robots_.begin(), robots_.end(),
-                                  [&](const Robot& robot) { return robot.name() == name; });
-  return found == robots_.end() ? nullptr : &*found;
-}
-
-void Simulation::require_robot(const std::string& name, const Location& location) const {
-  if (!name.empty() && robot_named(name) == nullptr) {
-    fail(location, fmt::format("there is no robot '{}' to be on", name));
-  }
-}
 
 bool Simulation::finished() const {
   if (end_) return now_ >= *end_;
@@ -99,19 +64,13 @@ bool Simulation::finished() const {
 
 double Simulation::progress() const {
   if (end_) return std::clamp(to_seconds(now_) / std::max(to_seconds(*end_), 1e-9), 0.0, 1.0);
-  double slowest = 1.0;
-  for (const Robot& robot : robots_) slowest = std::min(slowest, robot.progress());
-  return slowest;
+  return progress_of(robots_);
 }
 
-double Simulation::travelled_m() const {
-  double travelled = 0.0;
-  for (const Robot& robot : robots_) travelled += robot.travelled_m();
-  return travelled;
-}
+double Simulation::travelled_m() const { return travelled_by(robots_); }
 
 void Simulation::add_tag(const TagSpec& tag) {
-  require_robot(tag.on, tag.location);
+  require_robot(robots_, tag.on, tag.location);
   if (tag.motion.empty()) fail(tag.location, fmt::format("tag '{}' has no position", tag.id));
   require_rising_stamps(tag.motion);
   try {
@@ -133,24 +92,24 @@ void Simulation::remove_tag(const std::string& id) {
   const std::uint32_t number = found->second;
   tags_.erase(found);
   driver_.remove_tag(number);
-  moving_tags_.erase(std::remove_if(moving_tags_.begin(), moving_tags_.end(),
-                                    [&](const auto& tag) { return tag.first == number; }),
-                     moving_tags_.end());
+  hold_tag(number);
+}
+
+/// It moves no more by itself.
+void Simulation::hold_tag(std::uint32_t number) {
+  std::erase_if(moving_tags_, [&](const auto& tag) { return tag.first == number; });
 }
 
 void Simulation::move_tag(const std::string& id, const RigidTransform& X_WT) {
   const auto found = tags_.find(id);
   if (found == tags_.end()) throw Error(fmt::format("there is no tag with the ID '{}'", id));
-  const std::uint32_t number = found->second;
-  moving_tags_.erase(std::remove_if(moving_tags_.begin(), moving_tags_.end(),
-                                    [&](const auto& tag) { return tag.first == number; }),
-                     moving_tags_.end());
-  driver_.place_tag(number, X_WT, now_);
+  hold_tag(found->second);
+  driver_.place_tag(found->second, X_WT, now_);
 }
 
 void Simulation::add_antenna(const AntennaSpec& antenna) {
   const std::string& name = antenna.parameters.name;
-  require_robot(antenna.on, antenna.location);
+  require_robot(robots_, antenna.on, antenna.location);
   auto added = std::make_shared<FieldAntenna>();
   added->parameters = antenna.parameters;
   added->seed = seed_;
@@ -190,10 +149,7 @@ void Simulation::add_obstacle(const ObstacleSpec& obstacle) {
 }
 
 void Simulation::remove_obstacle(const std::string& name) {
-  obstacles_.erase(
-      std::remove_if(obstacles_.begin(), obstacles_.end(),
-                     [&](const ObstacleSpec& obstacle) { return obstacle.name == name; }),
-      obstacles_.end());
+  std::erase_if(obstacles_, [&](const ObstacleSpec& obstacle) { return obstacle.name == name; });
 }
 
 void Simulation::begin_step() {
@@ -233,38 +189,24 @@ RigidTransform Simulation::tag_pose(const TagSpec& tag, Time stamp) const {
   RigidTransform X_PT =
       tag.in_steps ? row_at(tag.motion, stamp).X_WB : held_pose_at(tag.motion, stamp);
   if (tag.on.empty()) return X_PT;
-  return robot_named(tag.on)->true_pose(seconds_into_step(stamp)) * X_PT;
+  return robot_named(robots_, tag.on)->true_pose(seconds_into_step(stamp)) * X_PT;
 }
 
 RigidTransform Simulation::antenna_pose(const AntennaSpec& antenna, Time stamp) const {
   if (!antenna.recorded.empty()) return row_at(antenna.recorded, stamp).X_WB;
   RigidTransform X_PA = mount_at(antenna, stamp);
   if (antenna.on.empty()) return X_PA;
-  return robot_named(antenna.on)->true_pose(seconds_into_step(stamp)) * X_PA;
+  return robot_named(robots_, antenna.on)->true_pose(seconds_into_step(stamp)) * X_PA;
 }
 
 std::vector<MovingBody> Simulation::bodies_at(Time stamp) const {
   std::vector<MovingBody> bodies;
-  for (const auto& [name, robot] : robot_bodies_) {
-    const RigidTransform X_WB = robot_named(name)->true_pose(seconds_into_step(stamp));
-    const Eigen::Vector3d ahead = X_WB.rotation * Eigen::Vector3d::UnitX();
-    MovingBody body{name, robot.material, X_WB.translation, 0.5 * robot.size_m};
-    body.p_W.z() += body.half_m.z();
-    body.yaw_rad = std::atan2(ahead.y(), ahead.x());
-    bodies.push_back(body);
+  for (const auto& [name, body] : robot_bodies_) {
+    bodies.push_back(
+        body_of(name, body, robot_named(robots_, name)->true_pose(seconds_into_step(stamp))));
   }
-  for (const ObstacleSpec& obstacle : obstacles_) {
-    if (!is_there(obstacle, stamp)) continue;
-    MovingBody body{obstacle.name, obstacle.body->material,
-                    held_pose_at(obstacle.motion, stamp).translation};
-    body.is_round = obstacle.radius_m > 0.0;
-    const Eigen::Vector2d half = body.is_round ? Eigen::Vector2d::Constant(obstacle.radius_m)
-                                               : Eigen::Vector2d(0.5 * obstacle.size_m);
-    body.half_m = {half.x(), half.y(), 0.5 * obstacle.body->height_m};
-    body.p_W.z() = body.half_m.z();
-    body.yaw_rad = obstacle.yaw_rad;
-    bodies.push_back(body);
-  }
+  const std::vector<MovingBody> others = bodies_of(obstacles_, stamp);
+  bodies.insert(bodies.end(), others.begin(), others.end());
   return bodies;
 }
 
@@ -274,7 +216,7 @@ void Simulation::place(AntennaDue& due, Time stamp) const {
   due.X_WA = antenna_pose(antenna, stamp);
   due.X_PA = due.X_WA;
   if (!antenna.recorded.empty() || antenna.on.empty()) return;
-  const Robot& robot = *robot_named(antenna.on);
+  const Robot& robot = *robot_named(robots_, antenna.on);
   due.X_PA = robot.believed_pose(seconds_into_step(stamp)) * mount_at(antenna, stamp);
 }
 

@@ -87,11 +87,10 @@ class Simulation {
  private:
   void begin_step();
   void handle_events(Time until);
+  void hold_tag(std::uint32_t number);
   void update_at(Time stamp);
   void update(std::vector<AntennaDue> due, Time stamp);
   void place(AntennaDue& due, Time stamp) const;
-  [[nodiscard]] const Robot* robot_named(const std::string& name) const;
-  void require_robot(const std::string& name, const Location& location) const;
   [[nodiscard]] double seconds_into_step(Time stamp) const;
 
   std::uint64_t seed_;

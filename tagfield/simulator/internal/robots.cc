@@ -47,4 +47,29 @@ std::vector<Robot> robots_of(const Scenario& scenario, std::uint64_t seed,
   return robots;
 }
 
+const Robot* robot_named(const std::vector<Robot>& robots, const std::string& name) {
+  const auto found = std::find_if(robots.begin(), robots.end(),
+                                  [&](const Robot& robot) { return robot.name() == name; });
+  return found == robots.end() ? nullptr : &*found;
+}
+
+void require_robot(const std::vector<Robot>& robots, const std::string& name,
+                   const Location& location) {
+  if (!name.empty() && robot_named(robots, name) == nullptr) {
+    fail(location, fmt::format("there is no robot '{}' to be on", name));
+  }
+}
+
+double progress_of(const std::vector<Robot>& robots) {
+  double slowest = 1.0;
+  for (const Robot& robot : robots) slowest = std::min(slowest, robot.progress());
+  return slowest;
+}
+
+double travelled_by(const std::vector<Robot>& robots) {
+  double travelled = 0.0;
+  for (const Robot& robot : robots) travelled += robot.travelled_m();
+  return travelled;
+}
+
 }  // namespace tagfield
