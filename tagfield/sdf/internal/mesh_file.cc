@@ -9,12 +9,15 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "tagfield/sdf/internal/collada.h"
+#include "tagfield/sdf/internal/own_process.h"
 
 namespace tagfield {
 namespace {
@@ -175,11 +178,8 @@ void require_finite(const TriangleMesh& mesh, const std::string& path) {
   }
 }
 
-}  // namespace
-
-MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale,
+MeshFile read_here(const std::string& path, const Eigen::Vector3d& scale,
                    const std::string& submesh, bool center) {
-  require_readable(path);
   Assimp::Importer importer;
   const aiScene& scene = import_file(importer, path);
   MeshGatherer gatherer(scene, path, submesh);
@@ -190,6 +190,65 @@ MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale,
   if (center) move_to_centre(file.mesh);
   require_finite(file.mesh, path);
   return file;
+}
+
+/// Numbers, their count in front.
+template <typename Row>
+void append(const std::vector<Row>& rows, std::string& bytes) {
+  const std::uint64_t count = rows.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  bytes.append(reinterpret_cast<const char*>(rows.data()), count * sizeof(Row));
+}
+
+template <typename Row>
+std::vector<Row> take(std::string_view& bytes) {
+  std::uint64_t count = 0;
+  if (bytes.size() < sizeof(count)) throw Error("a mesh came cut off");
+  std::memcpy(&count, bytes.data(), sizeof(count));
+  bytes.remove_prefix(sizeof(count));
+  if (count > bytes.size() / sizeof(Row)) throw Error("a mesh came cut off");
+  std::vector<Row> rows(count);
+  std::memcpy(static_cast<void*>(rows.data()), bytes.data(), count * sizeof(Row));
+  bytes.remove_prefix(count * sizeof(Row));
+  return rows;
+}
+
+std::string bytes_of(const MeshFile& file) {
+  std::string bytes;
+  append(file.mesh.vertices, bytes);
+  append(file.mesh.triangles, bytes);
+  for (const std::string& material : file.materials) {
+    append(std::vector<char>(material.begin(), material.end()), bytes);
+  }
+  return bytes;
+}
+
+MeshFile mesh_in(std::string_view bytes) {
+  MeshFile file;
+  file.mesh.vertices = take<Eigen::Vector3d>(bytes);
+  file.mesh.triangles = take<std::array<std::uint32_t, 3>>(bytes);
+  while (!bytes.empty()) {
+    const std::vector<char> name = take<char>(bytes);
+    file.materials.emplace_back(name.begin(), name.end());
+  }
+  return file;
+}
+
+/// Far more than assimp takes of what is a mesh.
+ProcessLimits limits_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  const std::uint64_t size = error ? 0 : bytes;
+  return {2 + static_cast<unsigned>(size / 1'000'000), 256'000'000 + 200 * size};
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale,
+                   const std::string& submesh, bool center) {
+  require_readable(path);
+  return mesh_in(from_own_process(
+      path, limits_of(path), [&] { return bytes_of(read_here(path, scale, submesh, center)); }));
 }
 
 }  // namespace tagfield

@@ -211,6 +211,14 @@ TEST_F(MeshFileTest, IndicesOfAColladaFileAreWholeNumbers) {
             path + ":" + std::to_string(line) + ": <p> holds '~', expected whole numbers");
 }
 
+TEST_F(MeshFileTest, AFileThatBreaksTheLibraryIsAnError) {
+  std::string text = as_collada(brick(), "1", "Z_UP");
+  text.replace(text.find(" count="), 7,
+               " c0unt=");  // Of a float_array: assimp 5.2.5 follows a null pointer.
+  const std::string error = error_of(write("breaks.dae", text));
+  EXPECT_NE(error.find("breaks.dae: "), std::string::npos) << error;
+}
+
 TEST_F(MeshFileTest, SubmeshPicksAColladaNode) {
   const std::string path = write("brick.dae", as_collada(brick(), "1", "Z_UP"));
   expect_brick(read_mesh(path, Eigen::Vector3d::Ones(), "second").mesh, {10.0, 0.0, 0.0},
