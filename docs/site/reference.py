@@ -140,7 +140,7 @@ def cpp_pages(top):
                            "```\n")
         yield name, "\n".join(written)
     listed = "\n".join(f"- [{name.removeprefix('cpp_')}]({name}.md)" for name in names)
-    yield "cpp_api", ("# C++ API\n\nMade from the docstrings of the installed headers; [Headers](api.md) says what each "
+    yield "cpp_api", ("# C++ API\n\nMade from the docstrings of the installed headers; all is in namespace `tagfield`. [Headers](api.md) says what each "
                       f"is for and how to link them.\n\n{listed}\n\n```{{toctree}}\n:hidden:\n\n"
                       + "\n".join(names) + "\n```\n")
 
