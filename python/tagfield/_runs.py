@@ -138,6 +138,8 @@ class Simulation:
         while not sim.finished:
             sim.drive(0.3, 0.1)
             reads = sim.step()
+
+    Between steps tags can be added, moved and removed.
     """
 
     def __init__(self, scenario: Scenario, seed: int, robot: str, policy: Callable | None,
