@@ -214,7 +214,7 @@ int events(const EventsArguments& arguments) {
 void add_events_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<EventsArguments>();
   CLI::App* command = app.add_subcommand(
-      "events", "Make of reads what a middleware makes: who came and went, and reports");
+      "events", "Turn reads into events as middleware does: who came and went, reports, EPCIS");
   command
       ->add_option("READS", arguments->recording,
                    "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; the folder of "

@@ -194,7 +194,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ServeArguments>();
   CLI::App* command = app.add_subcommand(
       "serve",
-      "Let a scenario live: a page to watch it in, an API to change it, readers over LLRP");
+      "Run a scenario live: a page to watch it in, an API to change it, readers over LLRP");
   add_scenario_options(*command, arguments->of_scenario);
   command
       ->add_option("--http", arguments->http,

@@ -38,10 +38,33 @@ html_css_files = ["tagfield.css", "katex.min.css"]
 html_js_files = ["katex.js", "formulas.js"]
 # Debian's KaTeX, so that pages need no network. TAGFIELD_KATEX names another copy.
 KATEX = pathlib.Path(os.environ.get("TAGFIELD_KATEX", "/usr/share/javascript/katex"))
-html_static_path += [str((KATEX / name).resolve()) for name in ("katex.js", "katex.min.css", "fonts") if (KATEX / name).exists()]
+html_static_path.append(str(KATEX))
 html_show_sphinx = False
 html_copy_source = False
-html_theme_options = {"navigation_with_keys": True}
+# Debian's build of furo has lost its dark colours, and the looks of its switch (static/tagfield.css).
+html_theme_options = {
+    "navigation_with_keys": True,
+    "dark_css_variables": {
+        "color-foreground-primary": "#ffffffcc",
+        "color-foreground-secondary": "#9ca0a5",
+        "color-foreground-muted": "#81868d",
+        "color-foreground-border": "#666666",
+        "color-background-primary": "#131416",
+        "color-background-secondary": "#1a1c1e",
+        "color-background-hover": "#1e2124ff",
+        "color-background-hover--transparent": "#1e212400",
+        "color-background-border": "#303335",
+        "color-background-item": "#444444",
+        "color-card-background": "#18181a",
+        "color-card-marginals-background": "#1e2124ff",
+        "color-brand-primary": "#2b8cee",
+        "color-brand-content": "#58a6ff",
+        "color-highlighted-background": "#083563",
+        "color-highlight-on-target": "#333300",
+        "color-api-keyword": "#9ca0a5",
+        "color-problematic": "#ee5151",
+    },
+}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 pygments_style = "default"
@@ -86,7 +109,7 @@ class WideTables(SphinxTransform):
             box += table
 
 
-FIELD = re.compile(r"(\w[\w, .]*): +(\S.*)")
+FIELD = re.compile(r"(\w+(?:, \w+)*): +(\S.*)")
 
 
 def docstring(_app, _what, _name, _object, _options, lines):

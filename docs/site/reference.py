@@ -46,7 +46,7 @@ def kind_of(words):
 
 def cell(text):
     """A table's cell; what looks like markup stays text."""
-    text = re.sub(r"(--[a-z][a-z-]*)", r"`\1`", text)
+    text = re.sub(r"(--[a-z][a-z0-9-]*)", r"`\1`", text)
     return text.replace("|", "\\|").replace("*", "\\*").replace("<", "\\<").replace("$", "\\$") or " "
 
 
@@ -137,10 +137,10 @@ def cpp_pages(top):
         written = [f"# C++: {title}\n"]
         for header, does in headers:
             written.append(f"## {header}\n\n{does[0].upper()}{does[1:]}.\n\n```{{doxygenfile}} {header}\n"
-                           f":sections: briefdescription detaileddescription innerclass public* func enum typedef var\n```\n")
+                           "```\n")
         yield name, "\n".join(written)
     listed = "\n".join(f"- [{name.removeprefix('cpp_')}]({name}.md)" for name in names)
-    yield "cpp_api", ("# C++ API\n\nMade from the docstrings of the installed headers; [Headers](api.md) says what each "
+    yield "cpp_api", ("# C++ API\n\nMade from the docstrings of the installed headers; all is in namespace `tagfield`. [Headers](api.md) says what each "
                       f"is for and how to link them.\n\n{listed}\n\n```{{toctree}}\n:hidden:\n\n"
                       + "\n".join(names) + "\n```\n")
 
@@ -155,12 +155,12 @@ def python_page():
         if name == "plot":
             continue
         if isinstance(thing, type):
-            groups["Classes"].append(f"```{{autoclass}} tagfield.{name}\n:members:\n```\n")
+            groups["Classes"].append(f"```{{eval-rst}}\n.. autoclass:: tagfield.{name}\n   :members:\n```\n")
         else:
-            groups["Functions"].append(f"```{{autofunction}} tagfield.{name}\n```\n")
+            groups["Functions"].append(f"```{{eval-rst}}\n.. autofunction:: tagfield.{name}\n```\n")
     for title, items in groups.items():
         written += [f"## {title}\n", *items]
-    written += ["## Plots\n", "```{automodule} tagfield.plot\n:members:\n```\n"]
+    written += ["## Plots\n", "```{eval-rst}\n.. automodule:: tagfield.plot\n   :members:\n```\n"]
     return "\n".join(written)
 
 

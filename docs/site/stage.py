@@ -82,12 +82,10 @@ def menu(index):
     """Tables of contents from the links of docs/index.md, a section each."""
     for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
         title = section.split("\n", 1)[0]
-        pages = list(dict.fromkeys(
-            name for _, _, name in LINK.findall(section)
-            if name.endswith(".md") and "/" not in name))
+        pages = [f"{text} <{name.removesuffix('.md')}>" for mark, text, name in LINK.findall(section)
+                 if not mark and name.endswith(".md") and "/" not in name]
         if pages:
-            yield "\n".join(["", "```{toctree}", ":hidden:", f":caption: {title}", "",
-                             *(name.removesuffix(".md") for name in pages), "```", ""])
+            yield "\n".join(["", "```{toctree}", ":hidden:", f":caption: {title}", "", *pages, "```", ""])
 
 
 def main():

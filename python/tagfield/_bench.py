@@ -60,7 +60,7 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
     methods: names, methods of your own, or (label, name, {setting: value}).
     conditions: label and what is different there, as of Scenario.with_(), or a Scenario of its own.
     seeds: so many in each condition, from first_seed on. phase_noise_rad: for the bound, where the model
-    tells none. progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
+    states none. progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
     """
     own = [entry for entry in methods if isinstance(entry, _core.Method)]
     own += [entry[1] for entry in methods if isinstance(entry, tuple) and isinstance(entry[1], _core.Method)]

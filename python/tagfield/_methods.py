@@ -17,7 +17,7 @@ Problem = _core.Problem
 
 @dataclass
 class Estimate:
-    """A place where a tag may be, as a method of one's own says it.
+    """A place where a tag may be, as a method of your own returns it.
 
     position_m: x, y [m, world], or x, y, z; without z the tag's height is taken as known.
     covariance_m2: (3, 3) or (2, 2) covariance of it [m²], if the method knows it.

@@ -92,13 +92,13 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
         chooses by the data and says why.
     settings: of the method, as {"stride_m": 1} (docs/methods.md).
     truth: places (3,) [m, world] by tag, for the errors alone.
-    scenario: whose knowledge of heights, poses, world is used where nothing else is told.
+    scenario: whose knowledge of heights, poses, world is used where nothing else is given.
 
     What is known beforehand, as keywords: tag_height_m; tag_heights_m {tag: m}; height "above" or "below":
     heights are estimated, on that side of the antennas; side ("left", "right", "+x", "-x", "+y", "-y") and
     box_m (x0, y0, x1, y1): where tags can be; reference_tags {tag: (3,) m}; offset_rad, or offsets_rad
     {antenna: rad}; pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: the error of the poses;
-    max_expected_error_m: a worse place is none; half_turns: whether phases are known but for π.
+    max_expected_error_m: a worse place is none; half_turns: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
     own = method if isinstance(method, _core.Method) else None
@@ -117,9 +117,9 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
     """Follows moving tags past antennas; see docs/tracking.md.
 
     Keywords: method ("ekf", "ukf", "particle"); lane (x, y [m], heading [deg], sigma [m]): where tags run;
-    both_ways; line (x, y [m], heading [deg]): across which the order is told; speed_m_s (least, greatest);
+    both_ways; line (x, y [m], heading [deg]): across which the order is reported; speed_m_s (least, greatest);
     acceleration_noise [m/s²/√Hz]; tag_height_m, tag_heights_m, offset_rad, offsets_rad as of
-    :func:`localize`. What is not told is the scenario's, if there is one.
+    :func:`localize`. What is not given is the scenario's, if there is one.
     """
     _refuse_unknown("track", known, _TRACK)
     return Tracks(_core.track(_reads_argument(reads), _poses_argument(poses),

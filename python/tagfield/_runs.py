@@ -41,7 +41,7 @@ class Localization:
     """Estimates of the tags' places.
 
     estimates: a row a tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
-        position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not told),
+        position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not stated),
         expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown) and error_m
         (NaN where there is none).
     candidates: all places that a tag may be in: tag, number (1 is best), position_m, covariance_m2,
@@ -86,9 +86,9 @@ class Run(Localization):
     """One seed of a scenario, in memory.
 
     reads: stamp_ns, reader, antenna, tag, frequency_hz, phase_rad in [0, 2π), rssi_dbm, doppler_hz (NaN
-        where it is not told); a row a read, in order of time.
+        where it is not reported); a row a read, in order of time.
     poses: the antennas' poses as believed: stamp_ns, name, position_m (3,) [m, world],
-        quaternion_xyzw (4,), covariance (3, 3) of x, y, yaw (NaN where not told); a fixed antenna has
+        quaternion_xyzw (4,), covariance (3, 3) of x, y, yaw (NaN where not stated); a fixed antenna has
         one row.
     truth: see :class:`Truth`.
     And what :class:`Localization` has.
@@ -138,6 +138,8 @@ class Simulation:
         while not sim.finished:
             sim.drive(0.3, 0.1)
             reads = sim.step()
+
+    Between steps tags can be added, moved and removed.
     """
 
     def __init__(self, scenario: Scenario, seed: int, robot: str, policy: Callable | None,
@@ -162,12 +164,12 @@ class Simulation:
 
     @property
     def poses(self) -> Table:
-        """The antennas' believed poses that the last step() told, as Run.poses."""
+        """The antennas' believed poses of the last step(), as Run.poses."""
         return self._told["poses"]
 
     @property
     def truth(self) -> Truth:
-        """What the last step() told of the truth."""
+        """The truth of the last step()."""
         told = self._told
         return Truth(told["true_antennas"], told["true_robots"], told["true_tags"], told["true_distances"])
 

@@ -95,7 +95,7 @@ class World:
 
 
 class Outlet:
-    """What an object may do to be told of a run while it goes on; give it as ``outlets=[…]``.
+    """What an object may do to follow a run while it goes on; give it as ``outlets=[…]``.
 
     Any object with some of these methods will do, and so will a function, which gets each read. Stamps
     never fall. What a method raises ends the run and is raised there.
@@ -265,7 +265,7 @@ class Scenario:
         seed: instead of the scenario's. The same seed gives the same bytes, whatever `threads`.
         method: instead of the scenario's, by name or one of your own (:func:`method`).
         locate: False for reads alone.
-        outlets: who is told while it goes on; see :class:`Outlet`.
+        outlets: who gets reads while it goes on; see :class:`Outlet`.
         progress: called with 0 … 1 now and then. Ctrl-C ends the run with KeyboardInterrupt.
         """
         scenario, own = self._by(method)

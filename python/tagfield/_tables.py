@@ -13,7 +13,7 @@ class Table(np.ndarray):
     """A NumPy structured array whose columns of names hold numbers.
 
     A table is an ordinary array: ``reads["phase_rad"]`` is a view of the column, slices and masks are
-    tables again, and nothing is copied on the way from the simulation. A column of names (``tag``,
+    tables again, and nothing is copied from the simulation. A column of names (``tag``,
     ``antenna``, ``reader``, ``verdict``, …) holds the index into ``categories[column]``;
     ``names(column)`` spells it out, and ``where(tag="tag3")`` selects by name.
 

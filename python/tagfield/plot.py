@@ -33,7 +33,7 @@ def _axes(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
 
 
 def _plan(ax: Axes) -> None:
-    """A floor plan: as long one way as the other."""
+    """A floor plan: with equal scales."""
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
@@ -55,7 +55,7 @@ def world(scenario: Scenario, ax: Axes | None = None, low_m: float = 0.2, high_m
 
 
 def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The hall from above: the antennas' way, true places, estimates and candidates."""
+    """The hall from above: the antennas' path, true places, estimates and candidates."""
     ax = world(run.scenario, _axes(ax))
     for antenna in dict.fromkeys(run.poses.names("name")):
         track = run.poses.where(name=antenna)["position_m"]

@@ -17,7 +17,7 @@ struct WorldOptions {
 };
 
 /// Reads a `.sdf` or `.world` file of SDF 1.2 or later: models in models, includes (merged ones
-/// too), poses relative to frames, a saved <state>, collisions of all shapes, names of materials,
+/// too), poses relative to frames, a saved `<state>`, collisions of all shapes, names of materials,
 /// and sensors of type `rfid` (antennas) and `rfidtag` (tags) with the parameters of their
 /// `<plugin>`. A file of one model is a world of it alone.
 ///

@@ -26,7 +26,7 @@ MADE = {"gallery.md", "commands.md", "all_keys.md", "messages.md", "cpp_api.md",
     stage.ELSEWHERE.values())
 README_WORDS = 700
 COMMAND = re.compile(r"(?:^|[\s;&|(])(?:\S*bin/)?tagfield ([a-z]\w*)\b([^|&;#`)\n]*)")
-OPTION = re.compile(r"(?<![\w-])(--[a-z][a-z-]*)")
+OPTION = re.compile(r"(?<![\w-])(--[a-z][a-z0-9-]*)")
 # Options of all commands, and words after `tagfield` that are no commands.
 ALWAYS = {"--help"}
 
