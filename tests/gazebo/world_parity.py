@@ -11,6 +11,7 @@ and rad, how many differ, how many one of the two does not have. The exit code i
 
 import argparse
 import collections
+import itertools
 import math
 import os
 import pathlib
@@ -69,10 +70,12 @@ def apart(one, other):
     return max(math.dist(one[:3], other[:3]), turn)
 
 
-def take_nearest(pose, others):
-    nearest = min(others, key=lambda other: apart(pose, other))
-    others.remove(nearest)
-    return apart(pose, nearest)
+def take_nearest_pair(ours, theirs):
+    """The distance of the two poses nearest each other, which are taken out of the lists."""
+    one, other = min(itertools.product(ours, theirs), key=lambda pair: apart(*pair))
+    ours.remove(one)
+    theirs.remove(other)
+    return apart(one, other)
 
 
 def compare(ours, theirs):
@@ -81,7 +84,7 @@ def compare(ours, theirs):
     for name in sorted({*ours, *theirs}):
         mine, gazebos = list(ours.get(name, [])), list(theirs.get(name, []))
         while mine and gazebos:
-            distance = take_nearest(mine.pop(), gazebos)
+            distance = take_nearest_pair(mine, gazebos)
             if distance <= TOLERANCE:
                 agree += 1
             else:

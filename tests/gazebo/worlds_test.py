@@ -10,7 +10,7 @@ from world_parity import parity
 GAZEBOS = ("nested_model", "heightmap", "polyline")
 ROOT = TOP / "build/gazebo-root"
 
-# Poses in other frames, included models renamed and moved, and a saved state, which goes before all that. The
+# Poses in other frames, included models renamed and moved, one twice, and a saved state, which goes before that. The
 # nested model has no relative_to: there Gazebo 11 says that it can't, and takes the pose as it stands.
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.7">
@@ -43,6 +43,7 @@ WORLD = """<?xml version="1.0"?>
     <include><uri>model://crate</uri><name>crate_1</name><pose>-3 1 0 0 0 0.5</pose></include>
     <include><uri>model://crate</uri><name>crate_2</name><pose relative_to="dock">1 1 0 0 0 0</pose></include>
     <include><uri>model://crate</uri></include>
+    <include><uri>model://crate</uri><pose>3 3 3 0 0 0</pose></include>
     <model name="moved"><static>true</static><pose>9 9 9 0 0 0</pose>
       <link name="link"><collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision></link>
     </model>

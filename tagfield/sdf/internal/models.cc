@@ -101,6 +101,13 @@ class ModelReader {
 
   template <typename Around>
   void add(Around& around, std::unique_ptr<Model> model) {
+    // Gazebo 11 has but the first of two in a world, and both in a model.
+    if (std::is_same_v<Around, World> && around.scope.models.count(model->name) > 0) {
+      context_.diagnostics.warn(
+          location_of(*model->frame.element),
+          fmt::format("there is a model '{}' already: this one is left out", model->name));
+      return;
+    }
     name_frame(around.scope, model->name, model->frame);
     around.scope.models.try_emplace(model->name, &model->scope);
     around.models.push_back(std::move(model));

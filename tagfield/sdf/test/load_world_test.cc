@@ -229,18 +229,28 @@ TEST_F(LoadWorld, SizesThatAreLeftOutAreGazebos) {
       << warnings()[0];
 }
 
-TEST_F(LoadWorld, NamesTwiceAreWarningsAndBothStand) {
+TEST_F(LoadWorld, NamesTwiceAreWarningsAndInModelsBothStand) {
   const std::string collision =
       "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>\n";
   EXPECT_EQ(load("<model name='m'><link name='l'>\n" + collision + collision + "</link></model>")
                 .collisions.size(),
             2U);
   EXPECT_EQ(warnings().size(), 1U);
-  const Scene scene = load(
-      "<model name='m'><link name='l'/></model>\n<model name='m'><pose>1 0 0 0 0 0</pose>"
-      "<link name='l'/></model>");
-  EXPECT_EQ(scene.models, (std::vector<std::string>{"m", "m"}));
-  EXPECT_EQ(warnings().size(), 2U);
+  const std::string part = "<model name='m'><link name='l'/></model>\n";
+  EXPECT_EQ(load("<model name='around'><link name='l'/>\n" + part + part + "</model>").models,
+            (std::vector<std::string>{"around", "around::m", "around::m"}));
+}
+
+TEST_F(LoadWorld, OfTwoModelsOfOneNameTheWorldHasTheFirst) {
+  const std::string shape =
+      "<link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry>"
+      "</collision></link></model>\n";
+  const Scene scene = load("<model name='m'><pose>1 0 0 0 0 0</pose>" + shape +
+                           "<model name='m'><pose>2 0 0 0 0 0</pose>" + shape);
+  EXPECT_EQ(scene.models, std::vector<std::string>{"m"});
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_EQ(scene.collisions[0].X_WC.translation.x(), 1.0);
+  EXPECT_NE(warnings().back().find("there is a model 'm' already"), std::string::npos);
 }
 
 TEST_F(LoadWorld, RelativeUrisAreOfTheFileThatTheyStandIn) {
