@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <thread>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "adapters/ros2/dds_types.h"
+#include "adapters/ros2/discovery.h"
 #include "adapters/ros2/ros2_topics.h"
 #include "tagfield/base/error.h"
 
@@ -91,20 +93,49 @@ class Overheard {
   std::string text_;
 };
 
-/// With what shows it as a part of ROS 2.
-Entity join(std::uint32_t domain) {
+/// A domain that this process has set up. It goes with the last that takes part in it, which may
+/// be somebody else.
+class Domain {
+ public:
+  Domain(std::uint32_t id, dds_entity_t handle) : id_(id), handle_(handle) {}
+  ~Domain() {
+    if (handle_ > 0 && dds_lookup_participant(id_, nullptr, 0) == 0) dds_delete(handle_);
+  }
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+
+ private:
+  std::uint32_t id_;
+  dds_entity_t handle_;  // Not positive where others have set it up.
+};
+
+Error no_network(std::uint32_t domain, const Overheard& overheard) {
+  return Error(fmt::format(
+      "ROS 2: can't join domain {} ({}); CYCLONEDDS_URI says which network interface to use",
+      domain, overheard.line()));
+}
+
+/// As the environment says. Cyclone's own CYCLONEDDS_URI goes before ROS 2's variables.
+std::unique_ptr<Domain> set_up(std::uint32_t domain) {
   if (domain > kLastDomain) {
     throw Error(fmt::format("ROS 2: domain {}: expected 0 to {}", domain, kLastDomain));
   }
+  std::string settings = cyclone_settings(discovery_of_environment());
+  if (const char* const own = std::getenv("CYCLONEDDS_URI"))
+    settings.append(settings.empty() ? "" : ",").append(own);
+  const Overheard overheard;
+  const dds_entity_t handle = dds_create_domain(domain, settings.c_str());
+  // A process has a domain once: who was there before us has set it up.
+  if (handle < 0 && handle != DDS_RETCODE_PRECONDITION_NOT_MET) throw no_network(domain, overheard);
+  return std::make_unique<Domain>(domain, handle);
+}
+
+/// With what shows it as a part of ROS 2.
+Entity join(std::uint32_t domain) {
   const Overheard overheard;
   const dds_entity_t participant =
       dds_create_participant(domain, with_user_data("enclave=/;").get(), nullptr);
-  if (participant < 0) {
-    throw Error(
-        fmt::format("ROS 2: can't join domain {} ({}); CYCLONEDDS_URI says which network "
-                    "interface to use",
-                    domain, overheard.line()));
-  }
+  if (participant < 0) throw no_network(domain, overheard);
   return {participant, "participant"};
 }
 
@@ -124,8 +155,8 @@ struct Writer {
 const bool kHasDds = true;
 
 struct DdsSink::Impl {
-  Impl(std::uint32_t domain, std::string name)
-      : node_name(std::move(name)), participant(join(domain)) {
+  Impl(std::uint32_t id, std::string name)
+      : node_name(std::move(name)), domain(set_up(id)), participant(join(id)) {
     // Without the prefix that topics of nodes have.
     discovery.emplace(make_writer("ros_discovery_info", Delivery::kLatched,
                                   type_of(rmw_dds_common::ParticipantEntitiesInfo{})));
@@ -165,6 +196,7 @@ struct DdsSink::Impl {
   }
 
   std::string node_name;
+  std::unique_ptr<Domain> domain;
   Entity participant;
   std::optional<Writer> discovery;
   std::vector<Writer> writers;
@@ -187,8 +219,9 @@ void DdsSink::publish(std::size_t topic, Time /*stamp*/, const void* message) {
 }
 
 void DdsSink::finish() {
+  const dds_time_t until = dds_time() + kMostWaitAtEnd;
   for (const Writer& writer : impl_->writers) {
-    dds_wait_for_acks(writer.writer.get(), kMostWaitAtEnd);
+    dds_wait_for_acks(writer.writer.get(), std::max<dds_duration_t>(until - dds_time(), 0));
   }
 }
 

@@ -136,6 +136,26 @@ def launch_files_name_files_that_are_installed(context):
 
 
 @case
+def launch_files_hand_on_what_has_no_default(context):
+    """ROS 2 refuses an included file whose arguments without default are not given to it by name."""
+    files = {path.name: launched(path) for path in launch_files(context)}
+    needed = {name: {thing.words[0] for thing in things if thing.kind == "DeclareLaunchArgument"
+                     and "default_value" not in thing.options} for name, things in files.items()}
+    count = 0
+    for name, things in files.items():
+        for thing in things:
+            if thing.kind != "IncludeLaunchDescription":
+                continue
+            included = next(part.words[0][-1] for part in things_in(thing)
+                            if part.kind == "PathJoinSubstitution")
+            given = set(dict(thing.options.get("launch_arguments", {})))
+            missing = needed.get(included, set()) - given
+            check(not missing, f"{name} includes {included} without {', '.join(sorted(missing))}")
+            count += included in needed
+    check_equal(count, 3, "files that are included")
+
+
+@case
 def launch_files_give_options_that_the_program_has(context):
     told = context.run("run", "--help").out
     for path in launch_files(context):

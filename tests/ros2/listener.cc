@@ -1,12 +1,14 @@
 // A program of another DDS (Fast DDS) that listens to topics as ROS 2's nodes do: the test's
 // witness that what is sent arrives elsewhere too.
 //
-//     ros2_listener DOMAIN SECONDS_WITHOUT_NEWS TOPIC=TYPE[:transient_local|:best_effort] …
+//     ros2_listener DOMAIN[:local] SECONDS_WITHOUT_NEWS TOPIC=TYPE[:transient_local|:best_effort] …
 //
+// With ":local" it knows no multicast, and looks for others on this machine alone.
 // Prints a JSON line for each participant, writer and message: kind, name, what it tells of itself,
 // and the bytes of messages in hexadecimal. Ends once nothing has come for so long.
 #include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
 
 #include <atomic>
 #include <chrono>
@@ -118,17 +120,31 @@ fast::DataReaderQos qos_of(const std::string& delivery) {
   return qos;
 }
 
+fast::DomainParticipantQos participant_qos(bool local) {
+  fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
+  if (!local) return qos;
+  rtps::Locator_t here;
+  rtps::IPLocator::setIPv4(here, "127.0.0.1");
+  auto& builtin = qos.wire_protocol().builtin;
+  // Where an address of one's own is named there is no multicast.
+  builtin.metatrafficUnicastLocatorList.push_back(here);
+  builtin.initialPeersList.push_back(here);
+  return qos;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   if (count < 4) return 2;
+  const std::string domain = words[1];
   const std::chrono::duration<double> patience(std::stod(words[2]));
   Discovery discovery;
   Messages messages;
   fast::DomainParticipant* const participant =
       fast::DomainParticipantFactory::get_instance()->create_participant(
-          static_cast<std::uint32_t>(std::stoul(words[1])), fast::PARTICIPANT_QOS_DEFAULT,
-          &discovery, fast::StatusMask::none());
+          static_cast<std::uint32_t>(std::stoul(domain)),
+          participant_qos(domain.find(":local") != std::string::npos), &discovery,
+          fast::StatusMask::none());
   if (participant == nullptr) return 1;
   fast::Subscriber* const subscriber =
       participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT, nullptr);

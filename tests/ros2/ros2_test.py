@@ -90,10 +90,10 @@ def listener(context):
     return path
 
 
-def heard(context, topics, run, before_s=1.0, patience_s=4):
+def heard(context, topics, run, before_s=1.0, patience_s=4, domain=DOMAIN, variables=""):
     """What a listener hears of a run that begins so long after it (before it, where negative)."""
-    listen = f"{listener(context)} {DOMAIN} {patience_s} {' '.join(topics)} > heard.txt"
-    play = f"{context.tagfield} run {run} --ros2 --domain {DOMAIN} --no-page --out out > said.txt 2>&1"
+    listen = f"{listener(context)} {domain} {patience_s} {' '.join(topics)} > heard.txt"
+    play = f"{variables} {context.tagfield} run {run} --ros2 --domain {DOMAIN} --no-page --out out > said.txt 2>&1"
     if before_s > 0:
         script = f"({listen}) & sleep {before_s}; {play}; code=$?; wait; exit $code"
     else:
@@ -181,6 +181,47 @@ def it_is_a_node_of_the_graph(context):
     check_equal((cdr.text(), cdr.text()), ("/", "tagfield"), "namespace and name")
     check_equal(cdr.number("I"), 0, "readers")
     check_equal(cdr.number("I"), len(writers) - 1, "writers, but for the graph's own")
+
+
+@case
+def listeners_without_multicast_are_found_on_this_machine(context):
+    for variables in ("", "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST", "ROS_LOCALHOST_ONLY=1"):
+        lines = heard(context, [READS], f"{context.shipped('two_antennas')} --speed 15 --set duration_s=15",
+                      domain=f"{DOMAIN}:local", variables=variables)
+        got = [read for cdr in messages(lines, "rt/rfid/reads") for read in tag_reads(cdr)]
+        told = len(read_csv(context.folder / "out/reads.csv"))
+        # Where only the listener asks on this machine, it is heard when it does so next.
+        check(len(got) == told if variables else 0 < len(got) <= told,
+              f"{len(got)} of {told} reads with '{variables}'")
+
+
+@case
+def on_this_machine_alone_nothing_goes_to_the_network(context):
+    sent = {}
+    for name, variables in (("subnet", ""), ("local", "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST")):
+        # A network that nobody is in: what is sent there is counted.
+        done = in_own_network(
+            context, "ip route del 224.0.0.0/4 dev lo && ip link add far type veth peer name near && "
+            "ip link set near up && ip link set far addrgenmode none multicast on up && "
+            "ip address add 10.1.2.3/24 dev far && "
+            f"{variables} {context.tagfield} run {context.shipped('two_antennas')} --ros2 --domain {DOMAIN} "
+            "--speed 0 --set duration_s=2 --no-page --out out > /dev/null && cat /proc/self/net/dev")
+        check_equal(done.returncode, 0, f"exit code ({done.stderr})")
+        row = next(line for line in done.stdout.splitlines() if line.strip().startswith("far:"))
+        sent[name] = int(row.split(":")[1].split()[9])
+    check(sent["subnet"] > 0, "nothing was sent to the subnet")
+    check_equal(sent["local"], 0, "packets sent to the network")
+
+
+@case
+def ranges_that_ros2_does_not_know_are_refused(context):
+    for value, says in (("EVERYWHERE", "SUBNET, LOCALHOST"), ("OFF", "no node would find")):
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = value
+        result = context.run("run", context.shipped("two_antennas"), "--ros2", "--no-page", "--out", "out")
+        del os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"]
+        check_equal(result.code, 2, f"exit code of {value}")
+        check_in(says, result.err, "complaint")
+        check_equal(len(result.err.splitlines()), 1, "lines of complaint")
 
 
 @case

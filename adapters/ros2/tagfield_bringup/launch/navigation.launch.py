@@ -21,7 +21,10 @@ def share(*path):
 
 
 def include(name):
-    return IncludeLaunchDescription(PythonLaunchDescriptionSource(share("launch", name)))
+    # What has no default has to be handed on by name.
+    arguments = {"scenario": LaunchConfiguration("scenario")}
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(share("launch", name)),
+                                    launch_arguments=arguments.items())
 
 
 def managed(manager, nodes, *parameters):
@@ -53,5 +56,6 @@ def generate_launch_description():
                           ("nav2_behaviors", "behavior_server"),
                           ("nav2_bt_navigator", "bt_navigator")])
     return LaunchDescription([
+        DeclareLaunchArgument("scenario", description="Scenario file (YAML)"),
         DeclareLaunchArgument("map", default_value="", description="Map's YAML file, or none"),
         on_map, mapping, *navigation])

@@ -6,9 +6,9 @@ The arguments of drive.launch.py go with it, too.
 """
 
 from launch import LaunchDescription
-from launch.actions import IncludeLaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch.substitutions import PathJoinSubstitution
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.substitutions import FindPackageShare
 
 
@@ -25,4 +25,7 @@ def generate_launch_description():
     # slam_toolbox's own launch file knows whether its node has a life cycle, as from Jazzy on.
     slam = include("slam_toolbox", "online_async_launch.py", use_sim_time="true",
                    slam_params_file=share("tagfield_bringup", "params", "slam_toolbox.yaml"))
-    return LaunchDescription([include("tagfield_bringup", "drive.launch.py"), slam])
+    # What has no default has to be handed on by name.
+    drive = include("tagfield_bringup", "drive.launch.py", scenario=LaunchConfiguration("scenario"))
+    return LaunchDescription([
+        DeclareLaunchArgument("scenario", description="Scenario file (YAML)"), drive, slam])
