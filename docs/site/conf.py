@@ -3,13 +3,12 @@
 import os
 import pathlib
 import re
-import sys
 
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(TOP / "build/release/lib/python"))
+OUT = pathlib.Path(os.environ.get("TAGFIELD_DOCS_OUT", TOP / "build/docs"))
 
 project = "Tagfield"
 copyright = "the Tagfield authors, Apache-2.0"  # Sphinx's name for it.
@@ -27,7 +26,7 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]  # Generated pages begin sections at the level that reads best.
 
-breathe_projects = {"tagfield": str(TOP / "build/docs/doxygen/xml")}
+breathe_projects = {"tagfield": str(OUT / "doxygen/xml")}
 breathe_default_project = "tagfield"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
