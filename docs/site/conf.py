@@ -88,7 +88,11 @@ class BlockLanguages(SphinxTransform):
     default_priority = 450
 
     def apply(self):
-        for block in self.document.findall(nodes.literal_block):
+        for block in list(self.document.findall(nodes.literal_block)):
+            if block.get("language") == "math":  # The form of a formula that GitHub takes, too.
+                formula = nodes.math_block(block.astext(), block.astext(), nowrap=False, number=None)
+                block.replace_self(formula)
+                continue
             if block.get("language", "none") in ("none", "default", ""):
                 first = block.astext().split("\n", 1)[0]
                 matches = (name for begin, name in LANGUAGES if re.match(begin, first))
