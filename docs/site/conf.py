@@ -120,6 +120,7 @@ def docstring(_app, _what, _name, _object, _options, lines):
     written = []
     in_list = False
     for line in lines:
+        line = re.sub(r'"(FILE:LINE[^"]*)"', r"``\1``", line)  # It is no address.
         match = FIELD.fullmatch(line)
         if match:
             if not in_list:
@@ -127,13 +128,11 @@ def docstring(_app, _what, _name, _object, _options, lines):
             in_list = True
             names = ", ".join(f"**{name}**" for name in match[1].split(", "))
             written.append(f"- {names}: {match[2]}")
-        elif in_list and line.startswith("    "):
+        elif in_list and line.strip():
             written.append(f"  {line.strip()}")
         elif line.startswith("    ") and written and not written[-1].strip():
             written += ["::", "", line]
         else:
-            if in_list and line.strip():
-                written.append("")
             in_list = False
             written.append(line)
     lines[:] = written
