@@ -6,7 +6,7 @@
 
 Halls are drawn at random, from their number alone: size, materials, rows of racks with goods on their shelves,
 pillars, cabinets. A robot with an antenna to each side drives round all rows, past tags on the racks' faces;
-the reader hops between channels, and phases are known but for half a turn. The real command simulates and locates
+the reader hops between channels, and phases have the π ambiguity. The real command simulates and locates
 (`tagfield bench`). For each method: tags that are located, those of them that are off by over 0.3 m, the
 median and 95 % of errors, the rms of error over expected error, and the mean NEES a degree of freedom.
 """

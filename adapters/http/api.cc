@@ -104,8 +104,7 @@ ObstacleSpec obstacle_of(JsonArguments& body, const LiveWorld& world) {
     obstacle.radius_m = body.number("radius", 1e-3, 1e3);
   } else {
     const std::vector<double> size = body.numbers("size", 2, 1e3);
-    if (!(size[0] >= 1e-3 && size[1] >= 1e-3))
-      throw Error("'size' must be 1 mm or more in each direction");
+    if (!(size[0] >= 1e-3 && size[1] >= 1e-3)) throw Error("both of 'size' must be 1 mm or more");
     obstacle.size_m = {size[0], size[1]};
   }
   obstacle.yaw_rad = radians(body.number("yaw_deg", -360.0, 360.0, 0.0));

@@ -55,7 +55,8 @@ int explain(const ExplainArguments& arguments) {
 void add_explain_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command = app.add_subcommand(
-      "explain", "Explain why an antenna reads a tag or not: the link budget line by line, the paths");
+      "explain",
+      "Explain why an antenna reads a tag or not: the link budget line by line, the paths");
   add_scenario_options(*command, arguments->of_scenario);
   command->add_option("--antenna", arguments->antenna,
                       "Name of the antenna (default: the only one)");

@@ -83,7 +83,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                       "Height of the tags [m, world]; without it, that of the antenna in the mean")
           ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
-                     "CSV: tag,height_m; goes before --tag-height");
+                     "CSV: tag,height_m; takes precedence over --tag-height");
   command
       .add_option("--height", arguments.height_side,
                   "above or below: heights that are not known are estimated, on that side of the "

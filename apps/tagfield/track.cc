@@ -273,7 +273,7 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
                   "Height of the tags [m, world]; without it, it is estimated about the antennas'")
       ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
-                     "CSV: tag,height_m; goes before --tag-height");
+                     "CSV: tag,height_m; takes precedence over --tag-height");
   command.add_option("--calibration", arguments.calibration,
                      "With reads, a profile by 'tagfield calibrate'");
 }

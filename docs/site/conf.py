@@ -3,13 +3,12 @@
 import os
 import pathlib
 import re
-import sys
 
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(TOP / "build/release/lib/python"))
+OUT = pathlib.Path(os.environ.get("TAGFIELD_DOCS_OUT", TOP / "build/docs"))
 
 project = "Tagfield"
 copyright = "the Tagfield authors, Apache-2.0"  # Sphinx's name for it.
@@ -27,7 +26,7 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]  # Generated pages begin sections at the level that reads best.
 
-breathe_projects = {"tagfield": str(TOP / "build/docs/doxygen/xml")}
+breathe_projects = {"tagfield": str(OUT / "doxygen/xml")}
 breathe_default_project = "tagfield"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
@@ -89,7 +88,11 @@ class BlockLanguages(SphinxTransform):
     default_priority = 450
 
     def apply(self):
-        for block in self.document.findall(nodes.literal_block):
+        for block in list(self.document.findall(nodes.literal_block)):
+            if block.get("language") == "math":  # The form of a formula that GitHub takes, too.
+                formula = nodes.math_block(block.astext(), block.astext(), nowrap=False, number=None)
+                block.replace_self(formula)
+                continue
             if block.get("language", "none") in ("none", "default", ""):
                 first = block.astext().split("\n", 1)[0]
                 matches = (name for begin, name in LANGUAGES if re.match(begin, first))
@@ -117,6 +120,7 @@ def docstring(_app, _what, _name, _object, _options, lines):
     written = []
     in_list = False
     for line in lines:
+        line = re.sub(r'"(FILE:LINE[^"]*)"', r"``\1``", line)  # It is no address.
         match = FIELD.fullmatch(line)
         if match:
             if not in_list:
@@ -124,13 +128,11 @@ def docstring(_app, _what, _name, _object, _options, lines):
             in_list = True
             names = ", ".join(f"**{name}**" for name in match[1].split(", "))
             written.append(f"- {names}: {match[2]}")
-        elif in_list and line.startswith("    "):
+        elif in_list and line.strip():
             written.append(f"  {line.strip()}")
         elif line.startswith("    ") and written and not written[-1].strip():
             written += ["::", "", line]
         else:
-            if in_list and line.strip():
-                written.append("")
             in_list = False
             written.append(line)
     lines[:] = written

@@ -12,33 +12,33 @@ PICTURES = [
      "Ten tags are located from the phases that one antenna on a robot reads "
      "([the paper's model](paper_model.md), [localization](localization.md)).",
      "run scenarios/paper_warehouse.yaml --out DIR",
-     [("fig09_map.svg", "path of the antenna, true places (diamonds) and estimates (crosses)"),
-      ("fig12_phase_distance.svg", "unwrapped phase of one tag against its true distance"),
-      ("fig10_errors.svg", "error of each tag")]),
+     [("figures/fig09_map.svg", "path of the antenna, true places (diamonds) and estimates (crosses)"),
+      ("figures/fig12_phase_distance.svg", "unwrapped phase of one tag against its true distance"),
+      ("figures/fig10_errors.svg", "error of each tag")]),
     ("A robot that maps the hall itself",
      "It maps by laser, localizes on its map and drives to its goals; its pose error is estimated with the tags "
      "([mapping](mapping.md), [estimators](estimators.md)).",
      "run scenarios/paper_warehouse_slam.yaml --out DIR",
-     [("fig06_robot_map.svg", "the occupancy grid and the path"),
-      ("pose_error.svg", "error of the pose that the robot believes")]),
+     [("figures/fig06_robot_map.svg", "the occupancy grid and the path"),
+      ("figures/pose_error.svg", "error of the pose that the robot believes")]),
     ("Where tags are read",
      "Read probability and margin of a tag in every cell, over all antennas ([coverage](coverage.md)).",
      "coverage scenarios/two_antennas.yaml --set model=link_budget --height 1 --step 0.2 --out DIR",
-     [("probability_1.00m.svg", "read probability at 1 m height"), ("margin_1.00m.svg", "margin in dB")]),
+     [("figures/probability_1.00m.svg", "read probability at 1 m height"), ("figures/margin_1.00m.svg", "margin in dB")]),
     ("Antenna placement",
      "How many tags a fashion store's ceiling reads with one antenna, two, and so on ([plan](plan.md)).",
      "plan scenarios/plan/store.yaml --out DIR",
-     [("plan_curve.svg", "tags read over the number of antennas"),
-      ("plan_level_1.svg", "read probability of each place with the chosen layout")]),
+     [("figures/plan_curve.svg", "tags read over the number of antennas"),
+      ("figures/plan_level_1.svg", "read probability of each place with the chosen layout")]),
     ("Tags on a conveyor",
      "Twelve parcels followed past two fixed antennas ([tracking](tracking.md)).",
      "track scenarios/conveyor.yaml --out DIR",
-     [("../tracks.svg", "tracks from above")]),
+     [("tracks.svg", "tracks from above")]),
     ("Methods compared",
      "Errors of three methods with exact poses and with a pose error of 1 cm ([benchmarks](bench.md)).",
      "bench scenarios/bench/paper_warehouse.yaml --seeds 3 --methods hyperbola,ml,joint "
      "--conditions 'true pose,pose 1 cm' --out DIR",
-     [("ratio_to_bound.svg", "mean error over the Cramér-Rao bound"), ("errors_1.svg", "distribution of errors")]),
+     [("figures/ratio_to_bound.svg", "mean error over the Cramér-Rao bound"), ("figures/errors_1.svg", "distribution of errors")]),
 ]
 
 
@@ -65,6 +65,6 @@ def write_page(top, tagfield, folder, draw_pictures=True):
             draw(top, tagfield, command, results)
             for name, caption in figures:
                 picture = f"gallery_{number}_{pathlib.Path(name).name}"
-                shutil.copyfile(results / "figures" / name, images / picture)
+                shutil.copyfile(results / name, images / picture)
                 written.append(f"![{caption}](images/{picture})\n\n*{caption[0].upper()}{caption[1:]}.*\n")
     (pathlib.Path(folder) / "gallery.md").write_text("\n".join(written), encoding="utf-8")

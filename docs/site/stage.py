@@ -64,10 +64,18 @@ class Stage:
         shutil.copyfile(self.top / path, copy)
         return f"files/{path}"
 
+    def title(self, target):
+        """Of a page, where a link's text is the name of its file."""
+        name = target.partition("#")[0]
+        sources = {page: self.top / path for path, page in ELSEWHERE.items()}
+        source = sources.get(name, self.top / "docs" / name)
+        return source.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ") if source.exists() else name
+
     def page(self, page, name):
         def replaced(match):
             target = self.target(page, match[3])
-            return match[2] if target is None else f"{match[1]}[{match[2]}]({target})"
+            text = self.title(target) if match[2].endswith(".md") and target else match[2]
+            return text if target is None else f"{match[1]}[{text}]({target})"
 
         text = page.read_text(encoding="utf-8")
         parts = itertools.groupby(zip(text.split("\n"), in_code(text)), key=lambda pair: pair[1])

@@ -31,7 +31,7 @@ std::string outcome_sentence(const Summary& summary) {
   const bool truth_known =
       std::any_of(summary.tags.begin(), summary.tags.end(),
                   [](const TagOutcome& tag) { return tag.truth_m || tag.moved; });
-  if (!errors && truth_known) return text + ". Without a tag at rest located there is no error.";
+  if (!errors && truth_known) return text + ". No located tag at rest, so no error to report.";
   if (!errors) return text + ". The true places are not known, so neither are the errors.";
   return text + fmt::format(". The estimates are off by {} in the mean and by {} at most.",
                             spoken_length(errors->mean), spoken_length(errors->max));

@@ -121,7 +121,7 @@ function physical(link) {
                              null,
     pathTable(link.paths), h("p", {
       class: "note",
-      text: "Lines in the world are the free paths, the stronger the darker, and the direct way; " +
+      text: "Lines in the world are the free paths, the stronger the darker, and the direct path; " +
         "it is dashed where it is blocked."
     })
   ];

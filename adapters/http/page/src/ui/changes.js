@@ -89,7 +89,7 @@ export class Changes {
         name.value = name.value.replace(/\d+$/, (digits) => String(Number(digits) + 1));
       });
     return this.#form(
-      "Put a pallet in the way",
+      "Add a pallet as an obstacle",
       [
         ["name", name], ["x [m]", x], ["y [m]", y], ["width [m]", width], ["depth [m]", depth],
         ["height [m]", height], ["material", material]
