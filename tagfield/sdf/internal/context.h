@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/sdf/internal/mesh_file.h"
 #include "tagfield/sdf/internal/xml_file.h"
 #include "tagfield/sdf/resource_path.h"
 #include "tagfield/world/scene.h"
@@ -31,7 +32,8 @@ struct Context {
   ResourcePaths resources;
   bool skip_missing = false;
   Diagnostics& diagnostics;
-  std::map<std::string, std::unique_ptr<XmlFile>> files{};           ///< By path.
+  std::map<std::string, std::unique_ptr<XmlFile>> files{};  ///< By path.
+  MeshReader mesh_reader{};
   std::map<MeshKey, MeshPtr> meshes{};                               ///< Null where broken.
   std::map<std::string, std::vector<std::string>> mesh_materials{};  ///< By path.
   std::vector<Missing> missing{};

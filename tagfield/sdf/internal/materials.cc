@@ -45,7 +45,7 @@ std::string written_material(const XMLElement& visual) {
 /// Of the mesh file at `path`, read once.
 const std::vector<std::string>& materials_of(Context& context, const std::string& path) {
   const auto [entry, is_new] = context.mesh_materials.try_emplace(path);
-  if (is_new) entry->second = read_mesh(path).materials;
+  if (is_new) entry->second = context.mesh_reader.read(path).materials;
   return entry->second;
 }
 

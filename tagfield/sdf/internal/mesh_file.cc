@@ -17,7 +17,6 @@
 #include <system_error>
 
 #include "tagfield/sdf/internal/collada.h"
-#include "tagfield/sdf/internal/own_process.h"
 
 namespace tagfield {
 namespace {
@@ -192,50 +191,69 @@ MeshFile read_here(const std::string& path, const Eigen::Vector3d& scale,
   return file;
 }
 
-/// Numbers, their count in front.
+/// Rows, their count in front.
 template <typename Row>
-void append(const std::vector<Row>& rows, std::string& bytes) {
-  const std::uint64_t count = rows.size();
+void append(const Row* rows, std::uint64_t count, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
-  bytes.append(reinterpret_cast<const char*>(rows.data()), count * sizeof(Row));
+  bytes.append(reinterpret_cast<const char*>(rows), count * sizeof(Row));
 }
 
-template <typename Row>
-std::vector<Row> take(std::string_view& bytes) {
+template <typename Rows>
+Rows take(std::string_view& bytes) {
+  using Row = typename Rows::value_type;
   std::uint64_t count = 0;
   if (bytes.size() < sizeof(count)) throw Error("a mesh came cut off");
   std::memcpy(&count, bytes.data(), sizeof(count));
   bytes.remove_prefix(sizeof(count));
   if (count > bytes.size() / sizeof(Row)) throw Error("a mesh came cut off");
-  std::vector<Row> rows(count);
+  Rows rows;
+  rows.resize(count);
   std::memcpy(static_cast<void*>(rows.data()), bytes.data(), count * sizeof(Row));
   bytes.remove_prefix(count * sizeof(Row));
   return rows;
 }
 
+void append(const std::string& text, std::string& bytes) {
+  append(text.data(), text.size(), bytes);
+}
+
 std::string bytes_of(const MeshFile& file) {
   std::string bytes;
-  append(file.mesh.vertices, bytes);
-  append(file.mesh.triangles, bytes);
-  for (const std::string& material : file.materials) {
-    append(std::vector<char>(material.begin(), material.end()), bytes);
-  }
+  append(file.mesh.vertices.data(), file.mesh.vertices.size(), bytes);
+  append(file.mesh.triangles.data(), file.mesh.triangles.size(), bytes);
+  for (const std::string& material : file.materials) append(material, bytes);
   return bytes;
 }
 
 MeshFile mesh_in(std::string_view bytes) {
   MeshFile file;
-  file.mesh.vertices = take<Eigen::Vector3d>(bytes);
-  file.mesh.triangles = take<std::array<std::uint32_t, 3>>(bytes);
-  while (!bytes.empty()) {
-    const std::vector<char> name = take<char>(bytes);
-    file.materials.emplace_back(name.begin(), name.end());
-  }
+  file.mesh.vertices = take<std::vector<Eigen::Vector3d>>(bytes);
+  file.mesh.triangles = take<std::vector<std::array<std::uint32_t, 3>>>(bytes);
+  while (!bytes.empty()) file.materials.push_back(take<std::string>(bytes));
   return file;
 }
 
+std::string request_of(const std::string& path, const Eigen::Vector3d& scale,
+                       const std::string& submesh, bool center) {
+  std::string bytes;
+  append(path, bytes);
+  append(scale.data(), 3, bytes);
+  append(submesh, bytes);
+  bytes += center ? '1' : '0';
+  return bytes;
+}
+
+/// In the reader's process.
+std::string answer_to(const std::string& request) {
+  std::string_view bytes = request;
+  const auto path = take<std::string>(bytes);
+  const auto scale = take<std::vector<double>>(bytes);
+  const auto submesh = take<std::string>(bytes);
+  return bytes_of(read_here(path, {scale[0], scale[1], scale[2]}, submesh, bytes == "1"));
+}
+
 /// Far more than assimp takes of what is a mesh.
-ProcessLimits limits_of(const std::string& path) {
+WorkLimits limits_of(const std::string& path) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   const std::uint64_t size = error ? 0 : bytes;
@@ -244,11 +262,12 @@ ProcessLimits limits_of(const std::string& path) {
 
 }  // namespace
 
-MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale,
-                   const std::string& submesh, bool center) {
+MeshReader::MeshReader() : process_(answer_to) {}
+
+MeshFile MeshReader::read(const std::string& path, const Eigen::Vector3d& scale,
+                          const std::string& submesh, bool center) {
   require_readable(path);
-  return mesh_in(from_own_process(
-      path, limits_of(path), [&] { return bytes_of(read_here(path, scale, submesh, center)); }));
+  return mesh_in(process_.ask(path, limits_of(path), request_of(path, scale, submesh, center)));
 }
 
 }  // namespace tagfield

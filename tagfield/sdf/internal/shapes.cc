@@ -168,7 +168,7 @@ MeshPtr read_mesh_once(Context& context, const MeshKey& key) {
   const auto known = context.meshes.find(key);
   if (known != context.meshes.end()) return known->second;
   const auto& [path, s, submesh, is_centred] = key;
-  MeshFile file = read_mesh(path, {s[0], s[1], s[2]}, submesh, is_centred);
+  MeshFile file = context.mesh_reader.read(path, {s[0], s[1], s[2]}, submesh, is_centred);
   return context.meshes[key] = std::make_shared<const TriangleMesh>(std::move(file.mesh));
 }
 

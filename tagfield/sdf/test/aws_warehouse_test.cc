@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "tagfield/sdf/internal/mesh_file.h"
 #include "tagfield/sdf/load_world.h"
+#include "tagfield/sdf/test/read_mesh.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {

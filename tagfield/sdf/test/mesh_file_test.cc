@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/sdf/test/read_mesh.h"
 #include "tagfield/world/triangulate.h"
 
 namespace tagfield {

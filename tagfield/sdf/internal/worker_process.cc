@@ -1,0 +1,198 @@
+#include "tagfield/sdf/internal/worker_process.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "tagfield/base/error.h"
+
+// Sanitizers reserve memory by the terabyte.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define TAGFIELD_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TAGFIELD_SANITIZED 1
+#endif
+#endif
+
+namespace tagfield {
+namespace {
+
+/// What goes in front of a request and of an answer.
+struct Head {
+  std::uint64_t size = 0;  ///< Of what follows.
+  WorkLimits limits{};     ///< Of a request.
+  bool is_complaint = false;
+};
+
+bool send_all(int socket, const void* data, std::size_t size) {
+  const char* left = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t count = ::send(socket, left, size, MSG_NOSIGNAL);
+    if (count < 0 && errno != EINTR) return false;
+    if (count <= 0) continue;
+    left += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool receive_all(int socket, void* data, std::size_t size) {
+  char* left = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t count = ::recv(socket, left, size, 0);
+    if (count == 0 || (count < 0 && errno != EINTR)) return false;
+    if (count < 0) continue;
+    left += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool send_message(int socket, Head head, const std::string& text) {
+  head.size = text.size();
+  return send_all(socket, &head, sizeof(head)) && send_all(socket, text.data(), text.size());
+}
+
+bool receive_message(int socket, Head& head, std::string& text) {
+  if (!receive_all(socket, &head, sizeof(head))) return false;
+  text.resize(head.size);
+  return receive_all(socket, text.data(), text.size());
+}
+
+/// Writable memory that this process has taken [bytes].
+std::optional<std::uint64_t> taken_memory() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return std::nullopt;
+  unsigned long long pages = 0;
+  const int read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages);
+  (void)std::fclose(file);
+  if (read != 1) return std::nullopt;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+rlim_t taken_seconds() {
+  rusage usage{};
+  (void)::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<rlim_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1;
+}
+
+/// `most` or what the process may take anyway, whichever is less.
+void set_limit(__rlimit_resource resource, rlimit limit, rlim_t most) {
+  limit.rlim_cur = std::min(limit.rlim_cur, most);
+  (void)::setrlimit(resource, &limit);
+}
+
+rlimit limit_of(__rlimit_resource resource) {
+  rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
+  (void)::getrlimit(resource, &limit);
+  return limit;
+}
+
+[[noreturn]] void throw_system_error(const std::string& what) {
+  throw Error(fmt::format("{}: no process of its own to read it: {}", what, std::strerror(errno)));
+}
+
+}  // namespace
+
+WorkerProcess::~WorkerProcess() {
+  if (child_ < 0) return;
+  ::close(socket_);
+  while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void WorkerProcess::start(const std::string& what) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    throw_system_error(what);
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    answer_all(ends[1]);
+  }
+  const int error = errno;
+  ::close(ends[1]);
+  if (child < 0) {
+    ::close(ends[0]);
+    errno = error;
+    throw_system_error(what);
+  }
+  child_ = child;
+  socket_ = ends[0];
+}
+
+void WorkerProcess::answer_all(int socket) const {
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGXCPU}) {
+    (void)std::signal(number, SIG_DFL);
+  }
+  set_limit(RLIMIT_CORE, limit_of(RLIMIT_CORE), 0);
+  const rlimit seconds = limit_of(RLIMIT_CPU);
+  const rlimit memory = limit_of(RLIMIT_DATA);
+  Head head;
+  std::string text;
+  while (receive_message(socket, head, text)) {
+    set_limit(RLIMIT_CPU, seconds, taken_seconds() + head.limits.seconds);
+#ifndef TAGFIELD_SANITIZED
+    if (const auto taken = taken_memory()) {
+      set_limit(RLIMIT_DATA, memory, *taken + head.limits.memory_bytes);
+    }
+#endif
+    head.is_complaint = false;
+    try {
+      text = work_(text);
+    } catch (const std::bad_alloc&) {
+      text.clear();  // Which says so.
+      head.is_complaint = true;
+    } catch (const std::exception& error) {
+      text = error.what();
+      head.is_complaint = true;
+    }
+    set_limit(RLIMIT_DATA, memory, memory.rlim_cur);
+    if (!send_message(socket, head, text)) break;
+  }
+  ::_exit(0);
+}
+
+std::string WorkerProcess::how_it_ended(const WorkLimits& limits) {
+  int status = 0;
+  pid_t ended = 0;
+  ::close(socket_);
+  do {
+    ended = ::waitpid(child_, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  child_ = -1;
+  if (ended < 0 || !WIFSIGNALED(status)) return "the library that reads it ended";
+  if (WTERMSIG(status) == SIGXCPU) {
+    return fmt::format("takes more than {} s of processor time", limits.seconds);
+  }
+  return fmt::format("the library that reads it broke down ({})", ::strsignal(WTERMSIG(status)));
+}
+
+std::string WorkerProcess::ask(const std::string& what, const WorkLimits& limits,
+                               const std::string& request) {
+  if (child_ < 0) start(what);
+  Head head;
+  head.limits = limits;
+  std::string answer;
+  if (!send_message(socket_, head, request) || !receive_message(socket_, head, answer)) {
+    throw Error(what + ": " + how_it_ended(limits));
+  }
+  if (!head.is_complaint) return answer;
+  throw Error(!answer.empty() ? answer
+                              : fmt::format("{}: takes more than {} MB of memory", what,
+                                            limits.memory_bytes / 1'000'000));
+}
+
+}  // namespace tagfield

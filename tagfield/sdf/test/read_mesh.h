@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "tagfield/sdf/internal/mesh_file.h"
+
+namespace tagfield {
+
+/// By a reader of its own.
+inline MeshFile read_mesh(const std::string& path,
+                          const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
+                          const std::string& submesh = "", bool center = false) {
+  MeshReader reader;
+  return reader.read(path, scale, submesh, center);
+}
+
+}  // namespace tagfield
