@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the site; scripts/docs and its test call this. From the top of the checkout:
+# Builds the site, for scripts/docs. From the top of the checkout:
 #
 #   docs/site/build.sh TAGFIELD PYTHON_FOLDER OUT [yes|no]
 #

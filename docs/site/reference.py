@@ -1,5 +1,6 @@
 """Pages of reference, made from the program and the sources."""
 
+import functools
 import pathlib
 import re
 import subprocess
@@ -11,6 +12,7 @@ KINDS = {"TEXT": "text", "UINT": "whole number", "INT": "whole number", "FLOAT":
 ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(\S.*))?$")
 
 
+@functools.lru_cache(maxsize=None)
 def help_of(tagfield, *command):
     return subprocess.run([tagfield, *command, "--help"], check=True, stdout=subprocess.PIPE,
                           encoding="utf-8").stdout

@@ -4,8 +4,8 @@
     docs_test.py --tagfield PROGRAM --source SOURCE_DIR
 
 Links and their anchors lead somewhere; docs/index.md, which the site's menu is made of, has every page;
-commands and options in code exist; every key that the sources read from a file is described. Then the test
-looks whether it would notice each.
+commands and options in code exist, and the site's reference has all of them; every key that the sources
+read from a file is described. Then the test looks whether it would notice each.
 """
 
 import argparse
@@ -138,6 +138,21 @@ def options_of(tagfield):
     return {name: ALWAYS | set(OPTION.findall(reference.help_of(tagfield, name))) for name in listed}
 
 
+def reference_faults(tagfield, options):
+    """The page of commands that the site has is made of help texts: it has each option."""
+    page = reference.commands_page(tagfield)
+    sections = dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL))
+    for command, names in options.items():
+        rows = set(re.findall(r"^\| `(--[\w-]+)` ", sections.get(command, ""), re.MULTILINE))
+        if command not in sections:
+            yield f"docs/site/reference.py: leaves out the command {command}"
+        for name in sorted(rows - names):
+            yield f"docs/site/reference.py: {command} has no option {name}"
+        listed = re.search(r"\nOptions:\n(.*?)(?:\n\n|\Z)", reference.help_of(tagfield, command), re.DOTALL)[1]
+        for name in sorted(set(re.findall(r"^  (--[a-z][\w-]*)", listed, re.MULTILINE)) - rows):
+            yield f"docs/site/reference.py: {command} --help has {name}, the page has not"
+
+
 def faults(top, options):
     return [*link_faults(top), *menu_faults(top), *command_faults(top, options), *script_faults(top),
             *readme_faults(top), *key_faults(top)]
@@ -195,7 +210,8 @@ def main():
     parser.add_argument("--build")
     arguments = parser.parse_args()
     top = arguments.source.resolve()
-    found = [*faults(top, options_of(arguments.tagfield)), *missed()]
+    options = options_of(arguments.tagfield)
+    found = [*faults(top, options), *reference_faults(arguments.tagfield, options), *missed()]
     for fault in found:
         print(fault)
     if found:
