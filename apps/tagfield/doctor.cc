@@ -237,7 +237,7 @@ Finding mpi(const BuildInfo& build) {
 Finding python() {
   constexpr const char* kAsk =
       "import importlib, sys\n"
-      "print(\"Python\", sys.version.split()[0])\n"
+      "print(sys.executable, sys.version.split()[0])\n"
       "for name in (\"tagfield\", \"numpy\", \"pandas\", \"matplotlib\"):\n"
       "    try:\n"
       "        print(name, importlib.import_module(name).__version__)\n"

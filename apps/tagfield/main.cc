@@ -31,6 +31,7 @@ constexpr const char* kDescription =
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kDescription, "tagfield");
   app.footer("'tagfield COMMAND --help' tells more. Exit code 2 means that an input is wrong.");
+  app.require_subcommand(0, 1);  // Or 'man run' would be two commands.
   bool version = false;
   bool as_json = false;
   CLI::Option* version_flag =

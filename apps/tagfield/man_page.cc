@@ -48,7 +48,7 @@ bool is_as_it_stands(const std::string& line) {
   return line.rfind(' ', 0) == 0 || line.find("  ") != std::string::npos;
 }
 
-/// Paragraphs of a description or footer.
+/// Paragraphs of a section.
 std::string paragraphs(const std::string& text) {
   std::string page;
   bool example = false;
@@ -63,7 +63,8 @@ std::string paragraphs(const std::string& text) {
     if (is_as_it_stands(line) != example || fresh) {
       if (example) page += ".EE\n";
       example = is_as_it_stands(line);
-      page += example ? ".PP\n.EX\n" : ".PP\n";
+      if (!page.empty()) page += ".PP\n";
+      if (example) page += ".EX\n";
     }
     fresh = false;
     page += escaped(line) + "\n";
@@ -147,6 +148,13 @@ std::string first_line(const std::string& text) {
   return line.substr(0, line.find(": "));
 }
 
+/// Commands without a footer have that of the program.
+std::string own_footer(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  const std::string footer = command.get_footer();
+  return parent != nullptr && parent->get_footer() == footer ? "" : footer;
+}
+
 std::string options_section(const CLI::App& command) {
   std::string page;
   if (!arguments_of(command).empty()) page += ".SH ARGUMENTS\n";
@@ -198,7 +206,7 @@ std::string man_page(const CLI::App& command, const std::string& version, const 
   page += fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}", escaped(name),
                       escaped(first_line(command.get_description())), synopsis(command));
   page +=
-      ".SH DESCRIPTION\n" + paragraphs(command.get_description() + "\n\n" + command.get_footer());
+      ".SH DESCRIPTION\n" + paragraphs(command.get_description() + "\n\n" + own_footer(command));
   return page + commands_section(command) + options_section(command) + kExitStatus +
          see_also(command);
 }
