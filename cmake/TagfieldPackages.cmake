@@ -9,6 +9,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tagfield)
 set(CPACK_PACKAGE_VENDOR "Tagfield")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # Each has its own.
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Tagfield authors <tagfield@example.org>" CACHE STRING
   "Who answers for the packages")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -61,8 +62,8 @@ set(CPACK_COMPONENTS_ALL "")
 if(TAGFIELD_COMMAND)
   tagfield_package(data tagfield-common SECTION science
     SUMMARY "simulator of UHF RFID: scenarios, worlds, profiles"
-    DESCRIPTION "Scenarios, worlds, profiles of readers, antennas and tags, models for Gazebo and\n\
-templates, which the command tagfield and the Python package use.")
+    DESCRIPTION "Scenarios, worlds, profiles of readers, antennas and tags, models for Gazebo\n\
+and templates, which the command tagfield and the Python package use.")
   set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
   tagfield_package(command tagfield SECTION science
     SUMMARY "simulator of UHF RFID: tags, readers, phase and RSSI"
@@ -76,8 +77,8 @@ over HTTP, LLRP, MQTT and ROS 2."
   if(TARGET tagfield_sweep_mpi)
     tagfield_package(mpi tagfield-mpi SECTION science
       SUMMARY "simulator of UHF RFID: sweeps under mpirun"
-      DESCRIPTION "The program tagfield_sweep_mpi, which does the sweeps of 'tagfield sweep' with\n\
-all ranks of an MPI program."
+      DESCRIPTION "The program tagfield_sweep_mpi, which does the sweeps of 'tagfield sweep'\n\
+with all ranks of an MPI program."
       DEPENDS openmpi-bin "tagfield (= ${PROJECT_VERSION})")
   endif()
   tagfield_package(dev libtagfield-dev SECTION libdevel
@@ -96,8 +97,8 @@ if(TARGET tagfield_python)
   math(EXPR next_minor "${CMAKE_MATCH_2} + 1")
   tagfield_package(python python3-tagfield SECTION python
     SUMMARY "simulator of UHF RFID: Python package"
-    DESCRIPTION "The package tagfield for Python: runs as NumPy arrays, worlds and scenarios made\n\
-in Python, localization methods and outlets as functions, plots."
+    DESCRIPTION "The package tagfield for Python: runs as NumPy arrays, worlds and scenarios\n\
+made in Python, localization methods and outlets as functions, plots."
     DEPENDS "python3 (>= ${python_version})"
       "python3 (<< ${CMAKE_MATCH_1}.${next_minor})" python3-numpy
       "tagfield-common (= ${PROJECT_VERSION})"
