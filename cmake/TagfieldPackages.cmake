@@ -72,7 +72,7 @@ with the phase and RSSI of each read, and locates the tags from them; plans\n\
 where antennas go, compares localization methods, and serves a live world\n\
 over HTTP, LLRP, MQTT and ROS 2."
     DEPENDS "tagfield-common (= ${PROJECT_VERSION})"
-    RECOMMENDS bash-completion man-db
+    RECOMMENDS bash-completion libcurl4 man-db
     SUGGESTS python3-tagfield tagfield-mpi chromium mosquitto)
   if(TARGET tagfield_sweep_mpi)
     tagfield_package(mpi tagfield-mpi SECTION science
