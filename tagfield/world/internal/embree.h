@@ -13,9 +13,14 @@ namespace tagfield::embree {
 /// Whether rays that are traced together run alike.
 enum class Coherence { kIncoherent, kCoherent };
 
+using Context =
 #if TAGFIELD_EMBREE >= 4
+    RTCRayQueryContext;
+#else
+    RTCIntersectContext;
+#endif
 
-using Context = RTCRayQueryContext;
+#if TAGFIELD_EMBREE >= 4
 
 inline void init(Context& context) { rtcInitRayQueryContext(&context); }
 
@@ -47,8 +52,6 @@ inline void occluded(RTCScene scene, Context& context, RTCRay& ray) {
 }
 
 #else
-
-using Context = RTCIntersectContext;
 
 inline void init(Context& context) { rtcInitIntersectContext(&context); }
 
