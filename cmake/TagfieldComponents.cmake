@@ -5,6 +5,14 @@
 #
 # A component is some rooms, the packages that a program needs to link them (PACKAGES of CMake, MODULES of
 # pkg-config), and the components above it that they stand on.
+
+# Embree 3 or, where that is missing, 4: its own files for CMake may refuse a call without a version.
+find_package(embree 3 QUIET)
+set(tagfield_embree "embree 4")
+if(embree_FOUND)
+  set(tagfield_embree "embree 3")
+endif()
+
 set(tagfield_components "")
 macro(tagfield_component name)
   list(APPEND tagfield_components ${name})
@@ -16,7 +24,7 @@ tagfield_component(files NEEDS core ROOMS files)
 tagfield_component(motion NEEDS core ROOMS motion)
 tagfield_component(localization NEEDS core ROOMS fit localization tracking calibration)
 tagfield_component(field NEEDS core
-  ROOMS world link propagation channel gen2 reader settings field PACKAGES "embree 3")
+  ROOMS world link propagation channel gen2 reader settings field PACKAGES "${tagfield_embree}")
 tagfield_component(sdf NEEDS files field ROOMS sdf PACKAGES assimp PNG MODULES tinyxml2)
 tagfield_component(navigation NEEDS files motion field ROOMS map laser navigation
   PACKAGES yaml-cpp MODULES polyclipping)

@@ -7,8 +7,8 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/tagfield)
 foreach(component IN LISTS tagfield_built)
   set(rooms ${tagfield_${component}_ROOMS})
   list(TRANSFORM rooms PREPEND tagfield_)
-  install(TARGETS ${rooms} EXPORT tagfield-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT tagfield-${component} NAMESPACE tagfield:: DESTINATION ${package})
+  install(TARGETS ${rooms} EXPORT tagfield-${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(EXPORT tagfield-${component} NAMESPACE tagfield:: DESTINATION ${package} COMPONENT dev)
 endforeach()
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/tagfieldConfig.cmake.in ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
@@ -18,7 +18,9 @@ write_basic_package_version_file(
 install(FILES ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
               ${PROJECT_BINARY_DIR}/tagfieldConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/TagfieldComponents.cmake
-        DESTINATION ${package})
+        DESTINATION ${package} COMPONENT dev)
 if(TAGFIELD_COMMAND)
-  install(DIRECTORY models profiles scenarios worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield)
+  install(DIRECTORY models profiles scenarios templates worlds
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield COMPONENT data)
 endif()
+include(TagfieldPackages)

@@ -40,7 +40,7 @@ endfunction()
 function(tagfield_public_headers room)
   foreach(header IN LISTS ARGN)
     get_filename_component(folder tagfield/${room}/${header} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT dev)
   endforeach()
 endfunction()
 

@@ -1,16 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/tagfield/checked_file.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/field/antenna_facts.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/placements.h"
+#include "tagfield/scenario/plan_spec.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/sdf/load_world.h"
 #include "tagfield/simulator/navigation_world.h"
@@ -52,9 +55,20 @@ Json describe(const Scene& scene) {
   return json;
 }
 
+/// As the key `model` has it: "paper", "link_budget", "multipath".
+std::string model_of(const AntennaParameters& antenna) {
+  const RadioModel* const model = physical(antenna);
+  if (model == nullptr) return "paper";
+  for (const RawParameter& setting : model->settings) {
+    if (setting.key == "model") return setting.value;
+  }
+  return "physical";
+}
+
 Json describe(const AntennaSpec& antenna) {
   const AntennaParameters& parameters = antenna.parameters;
   return {{"name", parameters.name},
+          {"model", model_of(parameters)},
           {"on", antenna.on.empty() ? "world" : antenna.on},
           {"position_m", to_list(antenna.X_PA.translation)},
           {"frequency_hz", nominal_frequency_hz(parameters)},
@@ -81,36 +95,100 @@ void add_scenario(const Scenario& scenario, Json& json) {
   for (const TagSpec& tag : scenario.tags) json["tags"].push_back(describe(tag));
 }
 
-Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
-  const std::string extension = std::filesystem::path(arguments.file).extension().string();
-  if (extension == ".yaml" || extension == ".yml") {
-    std::vector<Override> overrides;
-    for (const std::string& setting : arguments.settings) {
-      overrides.push_back(parse_override(setting));
-    }
-    const ScenarioWithWorld loaded =
-        load_scenario_with_world(arguments.file, overrides, diagnostics, arguments.world);
-    // Whatever would stop the run stops the check.
-    const Simulation simulation(loaded.scenario, loaded.scenario.seed);
-    if (loaded.scenario.pose.source == PoseSource::kSlam) {
-      navigation_world(loaded.scenario, loaded.scene, diagnostics);
-    }
-    warn_of_long_run(loaded.scenario, true, diagnostics);
-    Json json = {{"scenario", loaded.scenario.name}};
-    json.update(describe(loaded.scene));
-    add_scenario(loaded.scenario, json);
-    return json;
+std::vector<Override> overrides_of(const CheckArguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : arguments.settings) {
+    overrides.push_back(parse_override(setting));
   }
-  if (extension != ".sdf" && extension != ".world") {
-    fail({arguments.file, 0}, "expected a .yaml scenario or an .sdf or .world file");
+  return overrides;
+}
+
+Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics) {
+  const ScenarioWithWorld loaded = load_scenario_with_world(arguments.file, overrides_of(arguments),
+                                                            diagnostics, arguments.world);
+  // Whatever would stop the run stops the check.
+  const Simulation simulation(loaded.scenario, loaded.scenario.seed);
+  if (loaded.scenario.pose.source == PoseSource::kSlam) {
+    navigation_world(loaded.scenario, loaded.scene, diagnostics);
   }
+  warn_of_long_run(loaded.scenario, true, diagnostics);
+  Json json = {{"kind", "scenario"}, {"scenario", loaded.scenario.name}};
+  json.update(describe(loaded.scene));
+  add_scenario(loaded.scenario, json);
+  return json;
+}
+
+Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
+  const ScenarioToPlan to_plan =
+      load_scenario_to_plan(arguments.file, overrides_of(arguments), diagnostics);
+  Json json = {{"kind", "plan"}, {"scenario", to_plan.loaded.scenario.name}};
+  std::size_t places = 0;
+  for (const PlanTags& tags : to_plan.plan.tags) places += tags.places.size();
+  json["groups_of_tags"] = to_plan.plan.tags.size();
+  json["places_of_tags"] = places;
+  json["mounts"] = to_plan.plan.mounts.size();
+  json["most_antennas"] = to_plan.plan.limits.antennas;
+  std::map<std::string, std::size_t> models;
+  for (const PlanMount& mount : to_plan.plan.mounts) ++models[model_of(mount.antenna)];
+  json["models_of_antennas"] = models;
+  json.update(describe(to_plan.loaded.scene));
+  add_scenario(to_plan.loaded.scenario, json);
+  return json;
+}
+
+Json describe_world(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const Scene scene =
       load_world(arguments.file, arguments.model_paths, diagnostics, arguments.world);
   Scenario scenario;
   add_placements(scene, scenario, diagnostics);
-  Json json = describe(scene);
+  Json json = {{"kind", "world"}};
+  json.update(describe(scene));
   add_scenario(scenario, json);
   return json;
+}
+
+Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
+  const std::string kind = kind_of_file(arguments.file);
+  if (kind == "scenario") return describe_scenario(arguments, diagnostics);
+  if (kind == "plan") return describe_plan(arguments, diagnostics);
+  if (!arguments.settings.empty()) {
+    throw Error("check: --set changes a scenario, and this is none: " + arguments.file);
+  }
+  if (kind == "world") return describe_world(arguments, diagnostics);
+  return describe_checked_file(arguments.file, kind, diagnostics);
+}
+
+/// What there is in a file, one fact a line.
+void print_facts(const Json& json) {
+  constexpr std::size_t kMostNames = 12;
+  for (const auto& [key, value] : json.items()) {
+    std::string words = key;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    if (!value.is_array()) {
+      fmt::print("{}: {}\n", words, value.is_string() ? value.get<std::string>() : value.dump());
+      continue;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < value.size() && i < kMostNames; ++i) {
+      const Json& name = value[i];
+      names += (i == 0 ? "" : ", ") + (name.is_string() ? name.get<std::string>() : name.dump());
+    }
+    fmt::print("{}: {}{}{}\n", words, value.size(), value.empty() ? "" : ": " + names,
+               value.size() > kMostNames ? ", …" : "");
+  }
+}
+
+/// Models of antennas in force: "multipath", or with several "paper (1 antenna), multipath (3)".
+std::string models_in_force(const Json& antennas) {
+  std::map<std::string, std::size_t> counts;
+  for (const Json& antenna : antennas) ++counts[antenna["model"].get<std::string>()];
+  if (counts.size() == 1) return counts.begin()->first;
+  std::string text;
+  for (const auto& [model, count] : counts) {
+    text += fmt::format("{}{} ({} antenna{})", text.empty() ? "" : ", ", model, count,
+                        count == 1 ? "" : "s");
+  }
+  return text;
 }
 
 void print_collisions(const Json& json) {
@@ -130,7 +208,20 @@ std::string place_of(const Json& body) {
 
 void print_text(const std::string& file, const Json& json) {
   fmt::print("{}: good\n", file);
+  if (!json.contains("world")) {
+    print_facts(json);
+    return;
+  }
   if (json.contains("scenario")) fmt::print("scenario: {}\n", json["scenario"].get<std::string>());
+  if (!json["antennas"].empty()) fmt::print("model: {}\n", models_in_force(json["antennas"]));
+  if (json["kind"] == "plan") {
+    for (const auto& [model, count] : json["models_of_antennas"].items()) {
+      fmt::print("model: {}, of {} mounts\n", model, count.get<std::size_t>());
+    }
+    fmt::print("plan: {} places of tags in {} groups, {} mounts, at most {} antennas\n",
+               json["places_of_tags"].get<std::size_t>(), json["groups_of_tags"].get<std::size_t>(),
+               json["mounts"].get<std::size_t>(), json["most_antennas"].get<std::size_t>());
+  }
   fmt::print("world: {}\n", json["world"].get<std::string>().empty()
                                 ? "none (empty space)"
                                 : json["world"].get<std::string>());
@@ -179,8 +270,14 @@ int check_file(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
-      "check", "Say what is in a scenario or world file, or what is wrong and in which line");
-  command->add_option("FILE", arguments->file, "FILE.yaml, FILE.sdf or FILE.world")->required();
+      "check", "Say what is in a file of any kind, or what is wrong and in which line");
+  command
+      ->add_option(
+          "FILE", arguments->file,
+          "Scenario, plan, suite, sweep, events, profile, calibration or map (YAML), world "
+          "(.sdf, .world), table (CSV), recording of ROS (.bag, .mcap, .db3), or the "
+          "folder of a run")
+      ->required();
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()
       ->allow_extra_args(false);

@@ -10,6 +10,10 @@ namespace tagfield {
 /// What a chosen subcommand does; returns the exit code.
 using Action = std::function<int()>;
 
+/// All of those below.
+void add_commands(CLI::App& app, Action& chosen);
+
+void add_new_command(CLI::App& app, Action& chosen);
 void add_run_command(CLI::App& app, Action& chosen);
 void add_localize_command(CLI::App& app, Action& chosen);
 void add_report_command(CLI::App& app, Action& chosen);
@@ -27,5 +31,8 @@ void add_stream_command(CLI::App& app, Action& chosen);
 void add_serve_command(CLI::App& app, Action& chosen);
 void add_view_command(CLI::App& app, Action& chosen);
 void add_gazebo_command(CLI::App& app, Action& chosen);
+void add_doctor_command(CLI::App& app, Action& chosen);
+void add_completion_command(CLI::App& app, Action& chosen);
+void add_man_command(CLI::App& app, Action& chosen);
 
 }  // namespace tagfield

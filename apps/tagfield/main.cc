@@ -15,7 +15,10 @@
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/first_steps.h"
 #include "apps/tagfield/memory_limit.h"
+#include "apps/tagfield/usage_fault.h"
+#include "apps/tagfield/version.h"
 #include "tagfield/base/error.h"
 
 namespace {
@@ -27,41 +30,32 @@ constexpr const char* kDescription =
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app(kDescription, "tagfield");
-  app.set_version_flag("--version", std::string("tagfield ") + TAGFIELD_VERSION);
   app.footer("'tagfield COMMAND --help' says more. Exit code 2 means that an input is wrong.");
+  app.require_subcommand(0, 1);  // Or 'man run' would be two commands.
+  bool version = false;
+  bool as_json = false;
+  CLI::Option* version_flag =
+      app.add_flag("--version", version, "Print the version, its commit, and what was compiled in");
+  app.add_flag("--json", as_json, "With --version, JSON for machines instead of text")
+      ->needs(version_flag);
   tagfield::Action chosen;
-  tagfield::add_run_command(app, chosen);
-  tagfield::add_localize_command(app, chosen);
-  tagfield::add_track_command(app, chosen);
-  tagfield::add_calibrate_command(app, chosen);
-  tagfield::add_report_command(app, chosen);
-  tagfield::add_check_command(app, chosen);
-  tagfield::add_explain_command(app, chosen);
-  tagfield::add_coverage_command(app, chosen);
-  tagfield::add_plan_command(app, chosen);
-  tagfield::add_bench_command(app, chosen);
-  tagfield::add_score_command(app, chosen);
-  tagfield::add_sweep_command(app, chosen);
-  tagfield::add_events_command(app, chosen);
-  tagfield::add_stream_command(app, chosen);
-  tagfield::add_serve_command(app, chosen);
-  tagfield::add_view_command(app, chosen);
-  tagfield::add_gazebo_command(app, chosen);
+  tagfield::add_commands(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "tagfield: {} (see tagfield --help)\n", error.what());
+    fmt::print(stderr, "tagfield: {}\n", tagfield::usage_fault(app, error.what()));
     return tagfield::kExitBadInput;
   }
+  if (version) {
+    const tagfield::BuildInfo build = tagfield::build_info();
+    fmt::print("{}", as_json ? tagfield::version_json(build) : tagfield::version_text(build));
+    return tagfield::kExitOk;
+  }
   if (!chosen) {
-    fmt::print(
-        stderr,
-        "tagfield: no command: expected run, localize, track, calibrate, report, check, explain,"
-        " coverage, plan, bench, score, sweep, events, stream, serve, view or gazebo (see tagfield "
-        "--help)\n");
-    return tagfield::kExitBadInput;
+    fmt::print("{}", tagfield::first_steps());
+    return tagfield::kExitOk;
   }
   return chosen();
 }

@@ -5,11 +5,14 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include "adapters/mpi/shared_work.h"
 #include "apps/tagfield/command_line.h"
+#include "apps/tagfield/command_reference.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/sweep_work.h"
+#include "tagfield/files/files.h"
 
 namespace {
 
@@ -91,10 +94,11 @@ int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
 /// The exit code where that is all, as after --help.
 std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
   CLI::App app(
-      "Does a sweep (see tagfield sweep --help) with all ranks of mpirun, each of which takes "
-      "runs\n"
-      "as it gets done with others. A folder that was begun with shards can be gone on with, and\n"
-      "the other way round.",
+      "Do a sweep with all ranks of mpirun\n\n"
+      "A sweep as 'tagfield sweep' does it (see tagfield sweep --help): each rank takes runs as "
+      "it\n"
+      "gets done with others. A folder that was begun with shards can be gone on with, and the\n"
+      "other way round.",
       "tagfield_sweep_mpi");
   app.add_option("SUITE", arguments.suite, "Suite file (YAML)")->required();
   app.add_option("--out", arguments.out, "Folder of the sweep (default runs/sweep_NAME)");
@@ -103,6 +107,11 @@ std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
       ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   app.footer("For example:\n  mpirun -np 4 tagfield_sweep_mpi SUITE --out DIR");
+  // For the build alone, which puts it among the others.
+  if (argc == 3 && std::string_view(argv[1]) == "--man-page") {
+    write_text_file(argv[2], man_page(app, TAGFIELD_VERSION, ""));
+    return kExitOk;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -20,14 +20,16 @@ const char* folder_of(ProfileKind kind) {
   return kFolders[static_cast<int>(kind)];
 }
 
-/// Beside the program, where it is installed, or as built.
+/// Beside the program, where that is installed, or as built, or as libraries were installed.
 fs::path profiles_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   fs::path beside = program.parent_path().parent_path() / "share/tagfield/profiles";
   if (fs::is_directory(beside, error)) return beside;
-  const fs::path source = TAGFIELD_PROFILES;
-  return fs::is_directory(source, error) ? source : fs::path(TAGFIELD_INSTALLED_PROFILES);
+  for (const fs::path place : {TAGFIELD_PROFILES, TAGFIELD_INSTALLED_PROFILES}) {
+    if (fs::is_directory(place, error)) return place;
+  }
+  return "/usr/share/tagfield/profiles";  // Of a package.
 }
 
 std::vector<std::string> keys_of(ProfileKind kind) {

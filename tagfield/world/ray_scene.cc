@@ -1,6 +1,5 @@
 #include "tagfield/world/ray_scene.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -195,10 +194,9 @@ void RayScene::Impl::intersect(const Ray* rays, std::size_t count, float* distan
     valid[i] = -1;
     put(rays[i], i, packet);
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid.data(), scene, &context, &packet);
+  embree::Context context;
+  embree::init(context);
+  embree::intersect(valid.data(), scene, context, embree::Coherence::kCoherent, packet);
   for (std::size_t i = 0; i < count; ++i) {
     const bool hit = valid[i] != 0 && packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     distances[i] = hit ? packet.ray.tfar[i] : kNothing;
@@ -232,9 +230,9 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 float RayScene::distance(const Ray& ray) const {
   if (!can_hit(ray)) return kNothing;
   RTCRayHit hit = single(ray);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(impl_->scene, &context, &hit);
+  embree::Context context;
+  embree::init(context);
+  embree::intersect(impl_->scene, context, hit);
   const bool met = hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   return impl_->with_planes(ray, met ? hit.ray.tfar : kNothing);
 }

@@ -1,7 +1,5 @@
 // RayScene::surfaces(): one pass of Embree's occlusion query, whose filter takes down each hit and
 // turns it away, so that the ray goes on.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +22,7 @@ constexpr double kClearHeight = 1e-4;
 
 /// A query on its way through Embree, which hands the context to the filter.
 struct Query {
-  RTCIntersectContext context{};  // First: the filter gets its address.
+  embree::Context context{};  // First: the filter gets its address.
   const Stretch* stretch = nullptr;
   const std::vector<char>* stops = nullptr;
   std::vector<SurfaceHit>* hits = nullptr;
@@ -165,9 +163,9 @@ bool RayScene::surfaces(const Stretch& stretch, const std::vector<char>& stops,
   const double reach = std::min(std::max(std::abs(stretch.from_m), stretch.to_m), 1e9);
   const double margin = kSingle * (1.0 + greatest(stretch.origin) + reach);
   Query query{{}, &stretch, &stops, &hits};
-  rtcInitIntersectContext(&query.context);
+  embree::init(query.context);
   RTCRay ray = single_precision(stretch, margin);
-  rtcOccluded1(impl_->scene, &query.context, &ray);
+  embree::occluded(impl_->scene, query.context, ray);
   return ray.tfar >= 0.0F;
 }
 

@@ -579,8 +579,6 @@ def arguments(context):
     run = ["run", path, "--out", stranger(context)]
     localize = ["localize", "reads.csv", "--poses", "poses.csv", "--out", stranger(context)]
     for command, says in (
-            ([], "expected run, localize, track, calibrate, report, check, explain, coverage, plan, "
-             "bench, score, sweep, events, stream, serve, view or gazebo"),
             (["ran"], "ran"), (["frobnicate", path], "frobnicate"),
             (["--nonsense"], "nonsense"), (["run"], "SCENARIO"),
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),
@@ -602,7 +600,7 @@ def arguments(context):
             ([*localize, "--method", "hyperbola", "--set", "strid_m=1"], "did you mean 'stride_m'"),
             ([*localize, "--method", "sar", "--set", "maxima=1.5"], "whole number"),
             ([*localize, "--threads", "0"], "threads"),
-            (["check", context.write("notes.txt", "x")], ".yaml"),
+            (["check", context.write("notes.txt", "x")], "YAML"),
             (["check", context.folder], "expected")):
         expect_complaint(context, " ".join(map(str, command)), command, says)
 

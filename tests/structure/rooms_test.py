@@ -198,7 +198,7 @@ def header_faults(path, text):
         return
     if "#pragma once" not in text:
         yield f"{path}:1: has no #pragma once"
-    if not re.match(r"/// @file\n/// \S", text):
+    if not re.match(r"(// SPDX-[^\n]*\n)?/// @file\n/// \S", text):
         yield f"{path}:1: does not begin with '/// @file' and what it is"
     match = re.search(r"^using namespace", text, re.MULTILINE)
     if match:

@@ -2,14 +2,13 @@
 /// What RayScene keeps, for its sources.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "tagfield/world/internal/embree.h"
 #include "tagfield/world/ray_scene.h"
 
 namespace tagfield {

@@ -1,0 +1,265 @@
+#include "apps/tagfield/checked_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "adapters/ros1/bag_recording.h"
+#include "apps/tagfield/command_method.h"
+#include "apps/tagfield/suite_recording.h"
+#include "tagfield/events/events_yaml.h"
+#include "tagfield/experiment/bench/prepared.h"
+#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/sweep/sweep_plan.h"
+#include "tagfield/files/csv.h"
+#include "tagfield/files/poses_csv.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/files/tag_heights_csv.h"
+#include "tagfield/files/tag_places_csv.h"
+#include "tagfield/localization/locate.h"
+#include "tagfield/map/map_file.h"
+#include "tagfield/report/estimates_csv.h"
+#include "tagfield/report/run_files.h"
+#include "tagfield/scenario/calibration_profile.h"
+#include "tagfield/scenario/dataset_format.h"
+#include "tagfield/scenario/profile.h"
+#include "tagfield/scenario/yaml_map.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kExpected =
+    "expected a scenario, plan, suite, sweep, events, profile, dataset format, calibration or map "
+    "(YAML), a "
+    "world (.sdf, .world), a table (.csv), a recording of ROS (.bag, .mcap, .db3) or the folder of "
+    "a run";
+
+std::string kind_of_yaml(const std::string& path) {
+  const YAML::Node root = read_yaml(path);
+  const auto has = [&](const char* key) { return root[key].IsDefined(); };
+  const auto kind_is = [&](const char* kind) {
+    return has("kind") && root["kind"].IsScalar() && root["kind"].Scalar() == kind;
+  };
+  if (kind_is("calibration")) return "calibration";
+  if (has("figures")) return "profile";
+  if (has("image") && has("resolution")) return "map";
+  if (has("sweep")) return "sweep";
+  if (has("methods") || has("conditions")) return "suite";
+  if (has("plan")) return "plan";
+  if (has("events")) return "events";
+  if (has("tag") && has("phase")) return "dataset format";
+  return "scenario";
+}
+
+template <class Rows, class Name>
+std::vector<std::string> names_in(const Rows& rows, const Name& name) {
+  std::set<std::string> names;
+  for (const auto& row : rows) names.insert(name(row));
+  return {names.begin(), names.end()};
+}
+
+template <class Rows>
+double span_s(const Rows& rows) {
+  if (rows.empty()) return 0.0;
+  const auto [first, last] = std::minmax_element(
+      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return to_seconds(last->stamp - first->stamp);
+}
+
+void add_reads(const std::vector<TagRead>& reads, Json& json) {
+  json["reads"] = reads.size();
+  json["tags"] = names_in(reads, [](const TagRead& read) { return read.tag; });
+  json["antennas"] = names_in(reads, [](const TagRead& read) { return read.antenna; });
+  json["duration_s"] = span_s(reads);
+}
+
+void add_poses(const std::vector<AntennaPose>& poses, Json& json) {
+  json["poses"] = poses.size();
+  json["antennas"] = names_in(poses, [](const AntennaPose& pose) { return pose.antenna; });
+  json["duration_s"] = span_s(poses);
+}
+
+// --- Tables
+// ---------------------------------------------------------------------------------------
+
+Json describe_estimates(const std::string& path) {
+  const std::vector<TagEstimate> estimates =
+      read_estimates_csv(path, [](const std::string&) { return 0.0; });
+  return {{"kind", "estimates"},
+          {"tags", names_in(estimates, [](const TagEstimate& estimate) { return estimate.tag; })}};
+}
+
+/// By its columns, as it is without regard to the file's name.
+Json describe_table(const std::string& path) {
+  CsvTable head;
+  std::size_t rows = 0;
+  read_csv_rows(
+      path, [&](const CsvTable& table) { head = table; }, [&](const CsvRow&) { ++rows; });
+  const auto has = [&](std::initializer_list<const char*> columns) {
+    return std::all_of(columns.begin(), columns.end(),
+                       [&](const char* column) { return head.has_column(column); });
+  };
+  Json json;
+  if (has({"stamp_s", "antenna", "tag", "frequency_hz", "rssi_dbm"})) {
+    json["kind"] = "reads";
+    add_reads(read_reads_csv(path), json);
+  } else if (has({"stamp_s", "antenna", "x_m", "qw"})) {
+    json["kind"] = "antenna poses";
+    add_poses(read_poses_csv(path), json);
+  } else if (has({"tag", "height_m"})) {
+    json = {{"kind", "heights of tags"}, {"tags", read_tag_heights_csv(path).size()}};
+  } else if (has({"tag", "x_m", "y_m"}) && !has({"stamp_s"})) {
+    if (has({"verdict"}) || !has({"z_m"})) return describe_estimates(path);
+    json = {{"kind", "places of tags"}, {"tags", read_tag_places_csv(path).size()}};
+  } else if (has({"stamp_s", "tag", "x_m"}) || has({"stamp_s", "robot", "x_m"}) ||
+             has({"distance_m"})) {
+    json = {{"kind", "table of the truth"}, {"rows", rows}, {"columns", head.header}};
+  } else {
+    fail({path, 1},
+         fmt::format("is a table with the columns {}, which are those of no table of Tagfield's "
+                     "(docs/files.md); other people's tables are read with --format "
+                     "(docs/datasets.md)",
+                     fmt::join(head.header, ", ")));
+  }
+  return json;
+}
+
+// --- Suites
+// ---------------------------------------------------------------------------------------
+
+/// With the suite's own commands, none of which is started.
+std::vector<Method> methods_of(const Suite& suite, Diagnostics& diagnostics) {
+  std::vector<Method> methods = built_in_methods();
+  for (const SuiteMethod& method : suite.methods) {
+    if (method.command.empty()) continue;
+    diagnostics.warn(method.location,
+                     fmt::format("method '{}' runs a command, with --allow-commands only: {}",
+                                 method.name, method.command));
+    methods.push_back(command_method(method.name, method.command));
+  }
+  return methods;
+}
+
+Json describe_suite(const std::string& path, const std::string& kind, Diagnostics& diagnostics) {
+  const Suite suite = load_suite(path);
+  const PreparedSuite prepared = prepare(
+      suite, methods_of(suite, diagnostics), diagnostics,
+      [&](const SuiteRecording& recording) { return read_recording(recording, diagnostics); });
+  Json json = {{"kind", kind}, {"name", suite.name}};
+  json["conditions"] = names_in(suite.conditions, [](const Condition& c) { return c.name; });
+  json["methods"] = names_in(suite.methods, [](const SuiteMethod& method) { return method.name; });
+  if (suite.sweep) {
+    const SweepPlan plan = planned(suite);
+    json["keys"] = plan.keys;
+    json["points"] = plan.points.size();
+    json["runs"] = runs_of(plan, {}).size();
+    return json;
+  }
+  std::uint64_t runs = 0;
+  for (const PreparedCondition& condition : prepared.conditions) runs += condition.runs;
+  json["runs"] = runs;
+  return json;
+}
+
+// --- Others
+// ---------------------------------------------------------------------------------------
+
+Json describe_events(const std::string& path) {
+  const EventsSpec spec = read_events_spec(path);
+  return {{"kind", "events"},
+          {"logical_readers",
+           names_in(spec.logical_readers, [](const LogicalReader& reader) { return reader.name; })},
+          {"cycles", names_in(spec.cycles, [](const CycleSpec& cycle) { return cycle.name; })}};
+}
+
+Json describe_profile(const std::string& path) {
+  const Profile profile = read_profile(path);
+  const char* const kinds[] = {"a reader", "an antenna", "a tag"};
+  Json json = {
+      {"kind", fmt::format("profile of {}", kinds[static_cast<std::size_t>(profile.kind)])},
+      {"name", profile.name}};
+  for (const RawParameter& parameter : profile.parameters) json[parameter.key] = parameter.value;
+  return json;
+}
+
+Json describe_map(const std::string& path, Diagnostics& diagnostics) {
+  const OccupancyGrid map = read_map(path, diagnostics);
+  const auto count = [&](bool (*is)(std::int8_t)) {
+    return std::count_if(map.cells.begin(), map.cells.end(), is);
+  };
+  return {{"kind", "map"},
+          {"cells", fmt::format("{} x {}", map.width, map.height)},
+          {"resolution_m", map.resolution_m},
+          {"origin_m", {map.origin.x(), map.origin.y()}},
+          {"free_cells", count(is_free)},
+          {"occupied_cells", count(is_occupied)}};
+}
+
+Json describe_calibration(const std::string& path) {
+  const Calibration calibration = read_calibration(path);
+  return {
+      {"kind", "calibration"},
+      {"name", calibration.name},
+      {"antennas", names_in(calibration.antennas, [](const auto& entry) { return entry.first; })}};
+}
+
+Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
+  const BagRecording bag = read_bag(path, {}, diagnostics);
+  Json json = {{"kind", "recording of ROS"}};
+  add_reads(bag.reads, json);
+  json["duration_s"] = bag.duration_s;
+  json["believed_poses"] = bag.believed.poses.empty()
+                               ? std::string("none")
+                               : fmt::format("{}, by {} in {}", bag.believed.poses.size(),
+                                             bag.believed.source, bag.believed.frame);
+  json["truth"] = bag.truth_frame.empty() ? "none" : "in " + bag.truth_frame;
+  return json;
+}
+
+Json describe_run(const std::string& path) {
+  const RunFiles run = read_run_files(path);
+  Json json = {{"kind", "folder of a run"}, {"scenario", run.summary.scenario}};
+  add_reads(run.reads, json);
+  return json;
+}
+
+}  // namespace
+
+std::string kind_of_file(const std::string& path) {
+  std::error_code error;
+  if (is_bag(path)) return "recording";
+  if (fs::is_directory(path, error)) {
+    if (fs::exists(fs::path(path) / "summary.json", error)) return "run";
+    fail({path, 0}, std::string("is a folder, and not of a run; ") + kExpected);
+  }
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == ".yaml" || ending == ".yml") return kind_of_yaml(path);
+  if (ending == ".sdf" || ending == ".world") return "world";
+  if (ending == ".csv") return "table";
+  fail({path, 0}, kExpected);
+}
+
+Json describe_checked_file(const std::string& path, const std::string& kind,
+                           Diagnostics& diagnostics) {
+  if (kind == "suite" || kind == "sweep") return describe_suite(path, kind, diagnostics);
+  if (kind == "events") return describe_events(path);
+  if (kind == "profile") return describe_profile(path);
+  if (kind == "calibration") return describe_calibration(path);
+  if (kind == "map") return describe_map(path, diagnostics);
+  if (kind == "recording") return describe_recording(path, diagnostics);
+  if (kind == "run") return describe_run(path);
+  if (kind == "table") return describe_table(path);
+  const DatasetForm form = read_dataset_form(path);
+  return {{"kind", "dataset format"},
+          {"tag_column", form.tag_column},
+          {"phase_column", form.phase.column},
+          {"rssi_column", form.rssi_column}};
+}
+
+}  // namespace tagfield

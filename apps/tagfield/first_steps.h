@@ -1,0 +1,12 @@
+/// @file
+/// What `tagfield` alone prints.
+#pragma once
+
+#include <string>
+
+namespace tagfield {
+
+/// What to do next, for somebody who has just installed it.
+std::string first_steps();
+
+}  // namespace tagfield

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/tagfield/build_info.h"
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/command_reference.h"
+#include "apps/tagfield/commands.h"
+#include "tagfield/base/error.h"
+#include "tagfield/base/spelling.h"
+#include "tagfield/files/files.h"
+
+namespace tagfield {
+namespace {
+
+struct ManArguments {
+  std::string command;
+  std::string folder;
+};
+
+const CLI::App& page_of(const CLI::App& app, const std::string& name) {
+  if (name.empty()) return app;
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_of(app)) {
+    if (command->get_name() == name) return *command;
+    names.push_back(command->get_name());
+  }
+  throw Error(fmt::format("man: there is no command '{}'{}", name, suggestion(name, names)));
+}
+
+int print_or_write(const CLI::App& app, const ManArguments& arguments) {
+  const BuildInfo build = build_info();
+  if (arguments.folder.empty()) {
+    fmt::print("{}", man_page(page_of(app, arguments.command), build.version, build.date));
+    return kExitOk;
+  }
+  std::vector<const CLI::App*> pages = commands_of(app);
+  pages.push_back(&app);
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const CLI::App* page : pages) {
+    files.emplace_back(std::filesystem::path(arguments.folder) / (page_name(*page) + ".1"),
+                       man_page(*page, build.version, build.date));
+  }
+  write_text_files(files);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_man_command(CLI::App& app, Action& chosen) {
+  const auto arguments = std::make_shared<ManArguments>();
+  CLI::App* command =
+      app.add_subcommand("man", "Print a page of the manual, of all or of a command");
+  CLI::Option* name =
+      command->add_option("COMMAND", arguments->command, "Command that it is about");
+  command->add_option("--out", arguments->folder, "Write all pages into this folder instead")
+      ->excludes(name);
+  command->footer(
+      "Installed packages bring the pages along: man tagfield-run. Else:\n"
+      "  tagfield man run | man -l -");
+  command->callback([arguments, &app, &chosen] {
+    chosen = [arguments, &app] { return print_or_write(app, *arguments); };
+  });
+}
+
+}  // namespace tagfield

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/commands.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
+#include "tagfield/base/error.h"
+#include "tagfield/files/files.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlaceholder = "NAME";
+
+std::string filled_in(std::string text, const std::string& name) {
+  const std::string placeholder = kPlaceholder;
+  for (std::size_t at = text.find(placeholder); at != std::string::npos;
+       at = text.find(placeholder, at + name.size())) {
+    text.replace(at, placeholder.size(), name);
+  }
+  return text;
+}
+
+/// What a folder, a scenario and a world can be called alike.
+void check_name(const std::string& name) {
+  if (name.empty() || folder_name(name) != name || name[0] == '-' || name[0] == '.') {
+    throw Error(fmt::format(
+        "new: '{}' can't be a name: expected letters, digits, '-', '_' and '.', as in 'my_hall'",
+        name));
+  }
+}
+
+int make_new(const std::string& path) {
+  const fs::path folder = fs::path(path).lexically_normal();
+  const std::string name =
+      (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  check_name(name);
+  std::error_code error;
+  if (fs::exists(folder, error)) {
+    throw Error(fmt::format("new: {} is there already, and stays as it is", folder.string()));
+  }
+  const fs::path from = shared_folder("templates") / "new";
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& [source, target] :
+       {std::pair<const char*, std::string>{"scenario.yaml", name + ".yaml"},
+        {"world.sdf", name + ".sdf"},
+        {"analyse.py", "analyse.py"}}) {
+    files.emplace_back(folder / target, filled_in(read_text_file((from / source).string()), name));
+  }
+  if (!fs::create_directories(folder, error) && error) {
+    throw Error(fmt::format("new: can't make the folder {}: {}", folder.string(), error.message()));
+  }
+  write_text_files(files);
+  const std::string scenario = (folder / (name + ".yaml")).string();
+  fmt::print(
+      "{}: a cart drives past two racks and finds four tags\n\n"
+      "  {}.yaml   the scenario: who drives, what reads, which tags there are\n"
+      "  {}.sdf    the hall, a world as Gazebo has it\n"
+      "  analyse.py{}   many seeds in Python, with figures\n\n"
+      "Next:\n  tagfield check {}\n  tagfield run {}\n  python3 {}\n",
+      folder.string(), name, name, std::string(name.size() > 5 ? name.size() - 5 : 0, ' '),
+      scenario, scenario, (folder / "analyse.py").string());
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_new_command(CLI::App& app, Action& chosen) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "new", "Begin a scenario of your own: a folder with scenario, world and script");
+  command->add_option("NAME", *name, "Folder to make; its last part names scenario and world")
+      ->required();
+  command->footer(
+      "The files are commented and run as they are:\n"
+      "  tagfield new my_hall\n"
+      "  tagfield run my_hall/my_hall.yaml\n"
+      "docs/scenario.md lists all keys of a scenario.");
+  command->callback([name, &chosen] { chosen = [name] { return make_new(*name); }; });
+}
+
+}  // namespace tagfield

@@ -1,0 +1,20 @@
+# Writes OUT, a header with the commit of SOURCE, for `tagfield --version`. Run at each build, but OUT is
+# touched only where it changes, so that a commit costs one small source and a link.
+#
+#   cmake -DSOURCE=DIR -DTEMPLATE=build_commit.h.in -DOUT=build_commit.h -P TagfieldCommit.cmake
+set(COMMIT "")
+set(DATE "")
+set(CHANGED false)
+find_program(git git)
+if(git AND EXISTS ${SOURCE}/.git)  # Else a tarball, which may lie in somebody's repository.
+  execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --verify --short=12 HEAD
+    OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND ${git} -C ${SOURCE} log -1 --format=%cs
+    OUTPUT_VARIABLE DATE OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND ${git} -C ${SOURCE} status --porcelain --untracked-files=no
+    OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(COMMIT AND changes)
+    set(CHANGED true)
+  endif()
+endif()
+configure_file(${TEMPLATE} ${OUT} @ONLY)

@@ -1,0 +1,180 @@
+#!/usr/bin/python3
+"""What one meets first: the version, the command alone, slips, `new`, `doctor`, and `check` of all kinds of files."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+from common import Skip, case, check, check_equal, check_in, main, read_json, run
+
+
+@case
+def version_says_what_was_built_of_what(context):
+    text = context.run_well("--version").out
+    number = re.search(r"project\(tagfield VERSION ([\d.]+)",
+                       (context.source / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+    check_equal(text.splitlines()[0], f"tagfield {number}", "the first line")
+    told = json.loads(context.run_well("--version", "--json").out)
+    check_equal(told["version"], number, "version")
+    cache = (context.build / "CMakeCache.txt").read_text(encoding="utf-8")
+    for part, variable in (("ros1", "TAGFIELD_ROS1:BOOL"), ("ros2", "TAGFIELD_ROS2:BOOL")):
+        check_equal(told["parts"][part], f"{variable}=ON" in cache, part)
+    check_equal(told["parts"]["mqtt"], "libmosquitto_FOUND:INTERNAL=1" in cache, "mqtt")
+    for part, present in told["parts"].items():
+        section = text.split("without:")[0 if present else -1]
+        check_in(f"  {part} ", section, "--version")
+    head = run(["git", "-C", context.source, "rev-parse", "HEAD"])
+    if head.code == 0 and told["commit"] is not None:
+        check(re.fullmatch("[0-9a-f]{12,}", told["commit"]), f"commit is {told['commit']}")
+        known = run(["git", "-C", context.source, "cat-file", "-t", told["commit"]])
+        check_equal(known.out, "commit\n", f"what git says of {told['commit']}")
+        check_in(told["commit"], text, "--version")
+
+
+@case
+def the_command_alone_says_what_to_do_next(context):
+    result = context.run_well()
+    for words in ("tagfield run ", "tagfield new ", "tagfield localize ", "tagfield doctor", "--help"):
+        check_in(words, result.out, "tagfield alone")
+    check(len(result.out.splitlines()) < 20, "it is long")
+    # What it says to run is there.
+    scenario = re.search(r"tagfield run (\S+)", result.out).group(1)
+    context.run_well("check", scenario)
+
+
+@case
+def slips_get_the_nearest(context):
+    hall = context.shipped("z_axis")
+    for arguments, said in (
+            (["rnu", hall], "there is no command 'rnu' (did you mean 'run'?); see tagfield --help"),
+            (["localise"], "there is no command 'localise' (did you mean 'localize'?); see tagfield --help"),
+            (["xyzzyxyzzy"], "there is no command 'xyzzyxyzzy'; see tagfield --help"),
+            (["--verson"], "there is no option '--verson' (did you mean '--version'?); see tagfield --help"),
+            (["run", "--sede", "3", hall], "run: there is no option '--sede' (did you mean '--seed'?); see tagfield run --help"),
+            (["run", hall, "--recordonly"], "run: there is no option '--recordonly' (did you mean '--record-only'?); see tagfield run --help"),
+            (["run", hall, "--thread=3"], "run: there is no option '--thread' (did you mean '--threads'?); see tagfield run --help"),
+            (["run", hall, "b.yaml"], "run: 'b.yaml' is one argument too many; see tagfield run --help"),
+            (["run"], "run: SCENARIO is required; see tagfield run --help")):
+        result = context.run(*arguments)
+        check_equal((result.code, result.out, result.err), (2, "", f"tagfield: {said}\n"), f"{arguments}")
+
+
+@case
+def new_runs_as_it_is(context):
+    result = context.run_well("new", "halls/my_hall")
+    folder = context.folder / "halls/my_hall"
+    check_equal(sorted(path.name for path in folder.iterdir()), ["analyse.py", "my_hall.sdf", "my_hall.yaml"], "files")
+    for path in folder.iterdir():
+        check("NAME" not in path.read_text(encoding="utf-8"), f"a placeholder is left in {path.name}")
+    # What it says to do next works, as it stands.
+    steps = re.findall(r"^  tagfield (\w+) (\S+)$", result.out, re.MULTILINE)
+    check_equal([step[0] for step in steps], ["check", "run"], "steps")
+    for command, scenario in steps:
+        more = ["--out", "out"] if command == "run" else []
+        check_equal(context.run_well(command, scenario, *more).err, "", f"warnings of {command}")
+    summary = read_json(context.folder / "out/summary.json")
+    check_equal((summary["located"], len(summary["tags"])), (4, 4), "tags that are located")
+    again = context.run("new", "halls/my_hall")
+    check_equal((again.code, again.err), (2, "tagfield: new: halls/my_hall is there already, and stays as it is\n"),
+                "a second time")
+    for name in ("a b", "-x", ".hidden", "ä", ""):
+        check_equal(context.run("new", "--", name).code, 2, f"exit code of new {name!r}")
+    check_equal(sorted(path.name for path in context.folder.iterdir()), ["halls", "out"], "what is left")
+
+
+@case
+def the_script_of_new_runs(context):
+    package = context.build / "lib/python"
+    if not list(package.glob("tagfield/_core*.so")):
+        raise Skip("the Python package is not built")
+    context.run_well("new", "hall")
+    done = subprocess.run([sys.executable, context.folder / "hall/analyse.py", "2"], cwd=context.folder, check=False,
+                          capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(package)})
+    check_equal((done.returncode, done.stderr), (0, ""), "exit code and stderr of analyse.py")
+    check_in("2 seeds:", done.stdout, "what it prints")
+    for name in ("hall.png", "errors.png"):
+        check((context.folder / "hall" / name).read_bytes().startswith(b"\x89PNG"), f"{name} is no PNG")
+
+
+@case
+def doctor_says_what_it_found(context):
+    told = json.loads(context.run_well("doctor", "--json").out)
+    found = {finding["key"]: finding for finding in told["findings"]}
+    check(set(found) >= {"machine", "files", "ros2", "mpi", "python", "gazebo", "gz-sim", "browser", "roscore", "cbc"},
+          f"keys are {sorted(found)}")
+    check_in(f"{os.cpu_count()} threads", found["machine"]["what"], "machine")
+    parts = json.loads(context.run_well("--version", "--json").out)["parts"]
+    for key in ("ros1", "cbc", "mqtt", "mcap"):
+        check_equal(found[key]["works"], parts[key], key)
+    for key, finding in found.items():
+        check(finding["what"], f"{key} says nothing")
+        check_equal(bool(finding["how_to_get"]), not finding["works"], f"whether {key} says how to get it")
+    # Asked another way.
+    numpy = run(["python3", "-c", "import numpy; print(numpy.__version__)"])
+    if numpy.code == 0:
+        check_in(f"numpy {numpy.out.strip()}", found["python"]["what"], "python")
+    # Where there is nothing to be found.
+    text = subprocess.run([context.tagfield, "doctor"], cwd=context.folder, check=True, capture_output=True, text=True,
+                          env={"PATH": "/nonexistent", "CYCLONEDDS_URI": os.environ.get("CYCLONEDDS_URI", "")}).stdout
+    works, rest = text.split("Not here, and how to get it")
+    for key in set(found) - {"gazebo"}:
+        absent = key in ("python", "gz-sim", "browser", "roscore", "mpi") or not found[key]["works"]
+        check(re.search(rf"^  {key} ", rest if absent else works, re.MULTILINE), f"{key} stands elsewhere: {text}")
+
+
+@case
+def check_takes_every_kind_of_file(context):
+    out = context.simulate("z_axis", "--no-page", "--mcap", context.folder / "run.mcap") \
+        if json.loads(context.run_well("--version", "--json").out)["parts"]["mcap"] else context.simulate("z_axis", "--no-page")
+    kinds = {
+        out: "folder of a run", out / "reads.csv": "reads", out / "antenna_poses.csv": "antenna poses",
+        out / "estimates.csv": "estimates", out / "truth/tags.csv": "table of the truth",
+        out / "truth/distances.csv": "table of the truth",
+        context.source / "worlds/small_warehouse.sdf": "world",
+        context.write("heights.csv", "tag,height_m\na,1.2\n"): "heights of tags",
+        context.write("places.csv", "tag,x_m,y_m,z_m\na,1,2,3\n"): "places of tags",
+        context.write("events.yaml", "events:\n  presence: {reads: 2, within_s: 1, gone_after_s: 3}\n"): "events",
+        context.write("map.pgm", b"P5\n3 2\n255\n" + bytes([254, 0, 205] * 2)).with_name("map.yaml"): "map",
+        context.write("calibration.yaml", "name: dock\nkind: calibration\nantennas: {}\n"): "calibration"}
+    context.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n"
+                              "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
+    for folder, kind in (("scenarios", "scenario"), ("scenarios/plan", "plan"), ("scenarios/sweep", "sweep"),
+                         ("profiles/readers", "profile of a reader"), ("profiles/antennas", "profile of an antenna"),
+                         ("profiles/tags", "profile of a tag"), ("profiles/datasets", "dataset format")):
+        kinds[sorted((context.source / folder).glob("*.yaml"))[-1]] = kind
+    kinds[context.source / "scenarios/bench/paper_warehouse.yaml"] = "suite"
+    if (context.folder / "run.mcap").exists():
+        kinds[context.folder / "run.mcap"] = "recording of ROS"
+    for path, kind in kinds.items():
+        told = json.loads(context.run_well("check", "--json", path).out)
+        check_equal(told["kind"], kind, f"kind of {path}")
+    text = context.run_well("check", out / "reads.csv").out
+    check_in("kind: reads\n", text, "check reads.csv")
+    check_in("tags: 1: ", text, "check reads.csv")
+
+
+@case
+def check_names_the_model_in_force(context):
+    check_in("model: multipath\n", context.run_well("check", context.shipped("warehouse_physics")).out, "physics")
+    check_in("model: paper\n", context.run_well("check", context.shipped("paper_warehouse")).out, "paper")
+
+
+@case
+def check_says_what_is_none(context):
+    for path, words in ((context.write("a.txt", "x"), "expected a scenario, plan, suite"),
+                        (context.write("a.csv", "foo,bar\n1,2\n"), "is a table with the columns foo, bar"),
+                        (context.folder, "is a folder, and not of a run"),
+                        (context.write("bad_reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n1,a,t,x,1,1\n"),
+                         "bad_reads.csv:2")):
+        result = context.run("check", path)
+        check_equal(result.code, 2, f"exit code for {path}")
+        check_in(words, result.err, f"check {path}")
+        check_equal(len(result.err.splitlines()), 1, f"lines for {path}")
+    result = context.run("check", context.source / "profiles/tags/monza_4.yaml", "--set", "seed=1")
+    check_in("--set changes a scenario", result.err, "check of a profile with --set")
+
+
+if __name__ == "__main__":
+    main()
