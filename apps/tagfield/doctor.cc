@@ -237,6 +237,7 @@ Finding mpi(const BuildInfo& build) {
 Finding python() {
   constexpr const char* kAsk =
       "import importlib, sys\n"
+      "sys.path = [path for path in sys.path if path]\n"  // Folders of sources are no modules.
       "print(sys.executable, sys.version.split()[0])\n"
       "for name in (\"tagfield\", \"numpy\", \"pandas\", \"matplotlib\"):\n"
       "    try:\n"

@@ -38,6 +38,7 @@ int print_or_write(const CLI::App& app, const ManArguments& arguments) {
   std::vector<const CLI::App*> pages = commands_of(app);
   pages.push_back(&app);
   std::vector<std::pair<std::string, std::string>> files;
+  files.reserve(pages.size());
   for (const CLI::App* page : pages) {
     files.emplace_back(std::filesystem::path(arguments.folder) / (page_name(*page) + ".1"),
                        man_page(*page, build.version, build.date));

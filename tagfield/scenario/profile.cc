@@ -26,7 +26,7 @@ fs::path profiles_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   fs::path beside = program.parent_path().parent_path() / "share/tagfield/profiles";
   if (fs::is_directory(beside, error)) return beside;
-  for (const fs::path place : {TAGFIELD_PROFILES, TAGFIELD_INSTALLED_PROFILES}) {
+  for (fs::path place : {TAGFIELD_PROFILES, TAGFIELD_INSTALLED_PROFILES}) {
     if (fs::is_directory(place, error)) return place;
   }
   return "/usr/share/tagfield/profiles";  // Of a package.

@@ -10,11 +10,12 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <new>
+#include <sstream>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/files.h"
 
 // Sanitizers reserve memory by the terabyte.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -70,14 +71,12 @@ bool receive_message(int socket, Head& head, std::string& text) {
   return receive_all(socket, text.data(), text.size());
 }
 
-/// Writable memory that this process has taken [bytes].
+/// Writable memory that this process has taken [bytes]: the sixth number of statm, in pages.
 std::optional<std::uint64_t> taken_memory() {
-  std::FILE* const file = std::fopen("/proc/self/statm", "re");
-  if (file == nullptr) return std::nullopt;
-  unsigned long long pages = 0;
-  const int read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages);
-  (void)std::fclose(file);
-  if (read != 1) return std::nullopt;
+  std::istringstream numbers(read_text_file("/proc/self/statm", 1000));
+  std::uint64_t pages = 0;
+  for (int i = 0; i < 6; ++i) numbers >> pages;
+  if (!numbers) return std::nullopt;
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
@@ -144,13 +143,13 @@ void WorkerProcess::answer_all(int socket) const {
   std::string text;
   while (receive_message(socket, head, text)) {
     set_limit(RLIMIT_CPU, seconds, taken_seconds() + head.limits.seconds);
-#ifndef TAGFIELD_SANITIZED
-    if (const auto taken = taken_memory()) {
-      set_limit(RLIMIT_DATA, memory, *taken + head.limits.memory_bytes);
-    }
-#endif
     head.is_complaint = false;
     try {
+#ifndef TAGFIELD_SANITIZED
+      if (const auto taken = taken_memory()) {
+        set_limit(RLIMIT_DATA, memory, *taken + head.limits.memory_bytes);
+      }
+#endif
       text = work_(text);
     } catch (const std::bad_alloc&) {
       text.clear();  // Which says so.
