@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds the Python package's part in C++ by CMake, for `pip install .` and `pip wheel .`.
 
 TAGFIELD_BUILD names a build folder that has it already, to be installed from as it is.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A loop that never changes: figures of other benchmarks are compared, over versions and machines,
 // as ratios to it.
 #include <benchmark/benchmark.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Nothing from nothing: how often the real commands claim what can't be so.
 
     benchmarks/false_claims.py [--tagfield build/release/bin/tagfield] [--cases 1000] [--seed 1]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast reads go to CSV and come from it; see BENCHMARK.md.
 #include <benchmark/benchmark.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What tags and antennas cost in the real gzserver, beside the same worlds without the plugins.
 
     benchmarks/gazebo_benchmark.py [--seconds 30] [--plugins build/gazebo/lib] [CASE…]

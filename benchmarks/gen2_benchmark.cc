@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast inventory is simulated: seconds of it a second, with all tags of one field in range.
 // Each second the field is told anew ten times, as by a robot that drives. BENCHMARK.md has the
 // results.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How cost grows: families of benchmarks, power laws fitted to them, and their picture.
 
 Figures are {name: CPU time [ms]} and, of whole commands, {name: value}; a curve takes those whose names

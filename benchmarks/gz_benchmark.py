@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What RFID costs a gz-sim server: a set of tags, four antennas at 15 Hz, and the same world without both.
 
     benchmarks/gz_benchmark.py [--build build/release] [--tags 10000] [--seconds 10] [--runs 3]

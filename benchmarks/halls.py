@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Localization amid reflections, in halls that nothing was tuned to.
 
     benchmarks/halls.py [--tagfield build/release/bin/tagfield] [--halls 8] [--first 1] [--seeds 2]

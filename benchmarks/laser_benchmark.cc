@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast laser scans are: rays a second of simulate_scan() with 720 beams, of RayScene alone, and
 // of Embree itself with the same rays, in the small warehouse and, where the environment's
 // TAGFIELD_AWS_WORLD names it, in the AWS warehouse. BENCHMARK.md has the results and the command.

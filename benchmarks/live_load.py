@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What a live world costs under load: readers that read as fast as they can, told to LLRP, WebSocket
 and MQTT clients at once.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long each method takes for one tag of 700 reads, and of more and fewer; see BENCHMARK.md.
 #include <benchmark/benchmark.h>
 

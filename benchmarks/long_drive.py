@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Time and memory of localizing thousands of tags from one long drive through a hall.
 
     benchmarks/long_drive.py [--tagfield build/release/bin/tagfield] [--hours 0.1 0.25 1] [--tags-an-hour 5000]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Peak memory of long runs: a hall with many tags, hour after hour, written as it goes.
 
     benchmarks/long_run.py [--tagfield build/release/bin/tagfield] [--hours 1 10] [--tags 10000]

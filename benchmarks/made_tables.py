@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of reads and poses made from the equations alone, for campaigns over the real command.
 
 Nothing here is the project's: phase = 4 pi r/lambda + offset + noise, of a tag at rest or in motion,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast a robot that finds its way by itself is simulated: mapping, and localizing and driving
 // on the map, as multiples of real time, in the paper's warehouse and, where the environment's
 // TAGFIELD_AWS_WORLD names it, in the AWS warehouse. BENCHMARK.md has the results and the command.

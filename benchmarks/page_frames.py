@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Frames of the page of 'tagfield serve', with more and more tags.
 
     page_frames.py --tagfield PROGRAM --build BUILD_DIR [--tags 0 1000 10000]

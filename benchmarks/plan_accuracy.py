@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Forecasts of plans against full simulations of their layouts: in how many cases is what is read within the
 range that was stated with 95 % confidence?
 

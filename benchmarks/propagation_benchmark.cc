@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long the paths from one antenna to many tags take: images_of() and trace_paths() for each
 // tag, in the small warehouse and, where the environment's TAGFIELD_AWS_WORLD names it, in the AWS
 // warehouse; by order, number of tags, of facets, and what part of it the rays take.

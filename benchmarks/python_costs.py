@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What Python costs: reads to NumPy, one link, a batch of links, seeds in parallel.
 
 Times of the processor, the least of several, but of seeds in parallel, which are the clock's.

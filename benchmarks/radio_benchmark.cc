@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast the signal models are: links a second of the paper's model and of the link budget, an
 // antenna that moves among tags with reflections, and Gen2 inventory with four antennas.
 // BENCHMARK.md has the results and the commands.

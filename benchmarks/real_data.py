@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Locates the tags of public measurements with one command an experiment, and judges by their truth.
 
     benchmarks/real_data.py [--tagfield build/release/bin/tagfield] [--data ../shared/data/real]

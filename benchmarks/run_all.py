@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs all benchmarks and makes their page: curves of how cost grows, with fitted exponents, and all figures.
 
     benchmarks/run_all.py [--quick] [--only NAME…] [--out build/bench] [--keep]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast the headless simulator is: the paper's experiment, many tags, and the cost of a read
 // from 100 to 100,000 tags. BENCHMARK.md has the results and the command.
 #include <benchmark/benchmark.h>

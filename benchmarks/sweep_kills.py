@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Shards of a sweep killed at random and started again: nothing lost, nothing done twice.
 
     benchmarks/sweep_kills.py [--tagfield build/release/bin/tagfield] [--kills 50] [--shards 3]

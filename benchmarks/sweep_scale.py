@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What many nodes ask of the file system that they share, modelled and simulated.
 
     benchmarks/sweep_scale.py [--runs 1000000] [--run-s 0.3] [--metadata-per-s 10000]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Synthetic twins of real data: reads made from the equations, located by the real command, and
 judged by the bound of that very data.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes OUT, a header with the commit of SOURCE, for `tagfield --version`. Run at each build, but OUT is
 # touched only where it changes, so that a commit costs one small source and a link.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What can be built, installed and asked for by itself, for Tagfield's own build and for whoever finds it:
 #
 #   cmake -DTAGFIELD_COMPONENTS="localization;files" …

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Headers of libraries that most sources include, which take longer to read than the sources: they are
 # read once for all. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON reads each source as it stands.
 set(tagfield_common_headers

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian packages by CPack, one a component: scripts/package, or the target `package` of the build.
 #
 #   tagfield          the command, completion of shells, pages of the manual

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # tagfield_room(NAME SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
 #               HEADERS <header> … TESTS a_test.cc … TEST_PARTS n)
 #

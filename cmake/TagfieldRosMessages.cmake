@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # tagfield_ros1_needs(VARIABLE…): ends with one line that says how to go on where one is not found.
 function(tagfield_ros1_needs)
   foreach(found IN LISTS ARGN)

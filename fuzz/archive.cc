@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Archives of tables: the first byte says of which kind.
 #include <array>
 

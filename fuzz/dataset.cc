@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other people's tables: a table's form as YAML, a zero, the table.
 #include "fuzz/input.h"
 #include "tagfield/files/dataset_csv.h"

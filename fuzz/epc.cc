@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EPCs as URIs, as hexadecimals and as patterns, and the specification of events: the first byte
 // says which.
 #include "tagfield/epc/epc.h"

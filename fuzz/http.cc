@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requests to the API of a live world: a line "METHOD TARGET", a line with the body, and so on.
 #include <nlohmann/json.hpp>
 #include <variant>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the fuzzers share: an input as a file, and which exceptions may come of it.
 #pragma once

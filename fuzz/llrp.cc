@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A client's messages to a reader, as they come one after the other over its connection; between
 // two of them the world goes on for a while.
 #include <algorithm>

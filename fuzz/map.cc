@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A map: its YAML, a NUL, its image.
 #include "fuzz/input.h"
 #include "tagfield/map/map_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An MCAP file, all of its messages.
 #include "adapters/mcap/mcap_reader.h"
 #include "fuzz/input.h"

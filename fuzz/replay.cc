@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs a door over files, where libFuzzer is not there: past findings, and a corpus.
 #include <cstdio>
 #include <fstream>

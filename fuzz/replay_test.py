@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Each door takes its seeds as they are meant, and all that fuzzing ever found.
 
     fuzz/replay_test.py BUILD

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scenario's YAML, without a world that it could name outside.
 #include "fuzz/input.h"
 #include "tagfield/scenario/scenario_yaml.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Seeds for the fuzzers, made from what the repository has.
 
     fuzz/seeds.py FOLDER

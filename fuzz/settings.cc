@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of settings besides scenarios: the first byte says which.
 #include "fuzz/input.h"
 #include "tagfield/experiment/bench/suite_yaml.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A small live world, for doors that lead into one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables: the first byte says which.
 #include "fuzz/input.h"
 #include "tagfield/files/poses_csv.h"

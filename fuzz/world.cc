@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world as SDF; or, by the first byte, a mesh or the image of a heightmap that one names.
 #include "fuzz/input.h"
 #include "tagfield/sdf/load_world.h"

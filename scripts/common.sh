@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by demo and test: goes to the top of the checkout, hands the work to the checkout's owner
 # where the script was started through sudo, and lets no two builds run at once.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

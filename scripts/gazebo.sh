@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by the scripts that deal with Gazebo 11; changes nothing by itself. Debian 12 has no Gazebo
 # 11, so there it lives in a folder with a whole Debian 11, the root.
 tagfield_top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)

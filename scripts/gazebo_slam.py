@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What scripts/gazebo-experiment has of ROS for a robot that finds its way by itself: where the robot
 is and believes to be, goals and what became of them."""
 

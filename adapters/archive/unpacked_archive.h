@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tables out of archives, into a folder that goes when it is no longer needed.
 #pragma once

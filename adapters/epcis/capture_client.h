@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Events to a repository of EPCIS 2.0, by its capture interface.
 #pragma once

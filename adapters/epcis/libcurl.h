@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libcurl, loaded when it is first needed: linked, it would bring two dozen libraries into every
 /// start of a program that hardly ever posts anything, and make that an eighth longer.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The shapes of Gazebo's collisions as Tagfield's, as tagfield/sdf has them from the same file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Gazebo 11's times as Tagfield's, and its poses.
 #pragma once

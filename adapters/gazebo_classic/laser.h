@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A `ray` sensor that is read at set simulated times.
 #pragma once

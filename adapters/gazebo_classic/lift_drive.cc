@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/gazebo_classic/lift_drive.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A prismatic joint in Gazebo that is driven along set positions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/gazebo_classic/plugin_elements.h"
 
 #include <fmt/format.h>

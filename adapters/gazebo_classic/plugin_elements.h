@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A model plugin's parameters from SDF.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The robot and the lift.
 add_library(tagfield_gazebo_robot STATIC laser.cc lift_drive.cc skid_steer.cc)
 target_link_libraries(tagfield_gazebo_robot PUBLIC tagfield_gazebo)

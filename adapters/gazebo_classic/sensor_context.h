@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a sensor plugin stands: its names and parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The driven wheels of a robot in Gazebo, left and right.
 #pragma once

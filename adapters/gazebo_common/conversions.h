@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Gazebo's poses as Tagfield's.
 #pragma once

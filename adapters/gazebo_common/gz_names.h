@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All that the versions of Gazebo differ in: Gazebo 11 and Fortress say "ignition", Harmonic,
 /// Ionic and Jetty "gz". TAGFIELD_GZ_SIM is the major version of gz-sim (6 for Fortress, 8, 9, 10),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Meshes of Gazebo's loaders as Tagfield's.
 #pragma once

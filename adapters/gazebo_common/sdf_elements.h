@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A plugin's or a sensor's parameters from SDF.
 #pragma once

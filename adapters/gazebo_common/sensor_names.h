@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What antennas and tags on sensors are called, in any Gazebo.
 #pragma once

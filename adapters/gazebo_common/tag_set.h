@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Many tags on one link, as SDF describes them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/gazebo_common/window_markers.h"
 
 #include <algorithm>

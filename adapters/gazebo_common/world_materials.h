@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a Gazebo world is made of, from SDF.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A world or a model of Gazebo 11 with Tagfield's plugins as one of gz-sim.
 #pragma once

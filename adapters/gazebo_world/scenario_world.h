@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario as a world of Gazebo 11 with Tagfield's plugins in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/gz/custom_sensor.h"
 
 #include <fmt/format.h>

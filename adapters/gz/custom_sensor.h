@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// RFID sensors in SDF as gz-sim has sensors that it does not know itself:
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What gz-sim's entities are called and where they are.
 #pragma once

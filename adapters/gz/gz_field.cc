@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/gz/gz_field.h"
 
 #include <fmt/format.h>

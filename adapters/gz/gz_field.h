@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The tags and antennas of one world of gz-sim, and their updates in simulated time.
 #pragma once

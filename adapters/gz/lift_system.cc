@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libtagfield-gz.so, tagfield::systems::Lift: carries what is on a prismatic joint up and down. In
 // <model>:
 //

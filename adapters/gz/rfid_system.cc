@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libtagfield-gz.so, tagfield::systems::Rfid: tags and antennas of a world of gz-sim. In <world>:
 //
 //     <plugin filename="tagfield-gz" name="tagfield::systems::Rfid">

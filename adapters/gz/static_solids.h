@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What stands still in a world of gz-sim, for the waves of physical models.
 #pragma once

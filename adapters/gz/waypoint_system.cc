@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libtagfield-gz.so, tagfield::systems::Waypoints: drives a model with gz-sim's DiffDrive along
 // waypoints. In <model>:
 //

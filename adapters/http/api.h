@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What HTTP clients ask of a live world, and what they are told: docs/live.md, openapi.json.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A live world over HTTP and WebSocket: its page, its API, its reads.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a request's body asks for: one JSON object, taken apart with care.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the robots' lasers see, for those who watch.
 #pragma once

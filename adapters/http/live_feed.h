@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What happens in a live world, told to those who watch: frames for pages, reads for programs.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run's folder as JSON for the page, which shows it with a slider over its time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The address that a request asks for, taken apart.
 #pragma once

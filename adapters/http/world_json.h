@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A live world as JSON, for pages and programs: docs/live.md and openapi.json say what is in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a reader of a live world tells a client that it is and can do.
 #pragma once

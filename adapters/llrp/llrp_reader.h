@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One reader of a live world as LLRP 1.0.1 has it: ROSpecs, AccessSpecs, reports, events. It knows
 /// no sockets; docs/llrp.md says what of the protocol it speaks.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The readers of a live world on TCP ports, an LLRP reader each.
 #pragma once

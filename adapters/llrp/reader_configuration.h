@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a client sets a reader to, as opposed to what it has it do.
 #pragma once

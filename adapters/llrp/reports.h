@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads as a reader reports them: gathered as the report's specification says, and put on the
 /// wire.

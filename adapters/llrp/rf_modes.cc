@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/llrp/rf_modes.h"
 
 #include <algorithm>

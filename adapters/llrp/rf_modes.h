@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The reader's tables, which a client picks from by number: RF modes, powers.
 #pragma once

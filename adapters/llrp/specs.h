@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What clients ask a reader for: ROSpecs, AccessSpecs, configuration.
 #pragma once

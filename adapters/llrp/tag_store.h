@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The memories of all tags of a world, as its readers read and write them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// LLRP 1.0.1 on the wire: messages, parameters, numbers in network byte order. "§" below is a
 /// section of EPCglobal's Low Level Reader Protocol, version 1.0.1.

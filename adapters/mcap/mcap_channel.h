@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What MCAP files hold (https://mcap.dev/spec): topics, schemas, and messages as bytes with times.
 /// What the bytes mean is for others to know.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads MCAP files, of other programs too, and broken ones as far as they go (docs/mcap.md).
 #pragma once

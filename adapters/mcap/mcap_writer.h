@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Writes MCAP files: chunked, indexed, with a summary (docs/mcap.md). Needs the memory of a chunk,
 /// and about a hundred bytes for each that was written.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/mpi/shared_work.h"
 
 #include <mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Pieces of work dealt out to the ranks of an MPI program as they ask for more, so that quick and
 /// slow ones end at the same time. Knows nothing of what the pieces are.

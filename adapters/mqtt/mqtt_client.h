@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Messages to a broker of MQTT, each at least once, whatever the broker does meanwhile.
 #pragma once

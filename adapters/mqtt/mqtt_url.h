@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a broker of MQTT is, as one word.
 #pragma once

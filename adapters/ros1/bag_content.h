@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the messages of a bag say, checked and as plain structs, not yet joined.
 #pragma once

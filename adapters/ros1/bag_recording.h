@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A recording out of a rosbag of ROS 1, read without a master, or out of one of ROS 2: an MCAP
 /// file, a database of rosbag2, or a folder of them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In place of bag_recording.cc where Tagfield is built without ROS 1.
 #include "adapters/ros1/bag_recording.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros1/bag_structure.h"
 
 #include <bzlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The records of a bag file, looked through before rosbag reads it: rosbag follows the offsets of
 /// a damaged index wherever they lead, out of its memory too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where antennas were believed to be, by the transforms (tf) of a bag.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Messages of a bag from their bytes, which may be anything: no count is believed before that many
 /// elements can stand in what is left.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Positions, rotations and poses as ROS messages.
 #pragma once

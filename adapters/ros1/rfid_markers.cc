@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In C++17, which is the newest that the headers of Debian 11's and Noetic's messages compile with.
 #include "adapters/ros1/rfid_markers.h"
 

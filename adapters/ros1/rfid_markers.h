@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A field's tags and antennas as markers for RViz.
 #pragma once

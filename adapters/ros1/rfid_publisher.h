@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads, and the truth behind them, as ROS messages.
 #pragma once

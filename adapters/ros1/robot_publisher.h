@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a robot and a lift tell on ROS 1, and what they are told.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In C++17, as all that includes messages of ROS 1: what is read here goes the same way as theirs.
 #include "adapters/ros1/ros2_sweep.h"
 

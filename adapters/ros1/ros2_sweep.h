@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One pass over a recording of ROS 2.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// This process' link to the ROS 1 master, from inside a program that must go on without one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// CDR, the bytes of ROS 2 messages (OMG DDSI-RTPS, XCDR version 1, little endian): each number is
 /// aligned to its own size, texts and lists have their length in front.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// ROS 2 messages into DDS, as a node of ROS 2 would send them, without any of ROS 2.
 #pragma once

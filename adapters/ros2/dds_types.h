@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// ROS 2 messages as Cyclone DDS takes them.
 #pragma once

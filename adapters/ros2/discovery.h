@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How nodes of ROS 2 find one another, as the environment says.
 #pragma once

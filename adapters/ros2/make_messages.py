@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """ROS 2 messages from their .msg files: C++ with CDR, and IDL for the topic descriptions of DDS.
 
     make_messages.py OUT_DIR ROOT…

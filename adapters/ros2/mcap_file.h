@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// ROS 2 messages into an MCAP file, as rosbag2 would record them.
 #pragma once

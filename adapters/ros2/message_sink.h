@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where ROS 2 messages go: into DDS, or a file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A robot of Gazebo's as ROS 2 messages.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Maps and laser scans as ROS 2 messages, and those of robots that find their way by themselves.
 #pragma once

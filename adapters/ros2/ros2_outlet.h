@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run as ROS 2 messages: an outlet like those for CSV and ROS 1, into DDS or a file.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A simulated robot as Nav2 and slam_toolbox know robots: /cmd_vel in, /odom, /scan and frames
 /// out.

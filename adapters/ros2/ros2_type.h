@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What ROS 2 and its bags know of a message's type.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One file of a recording of ROS 2: topics, and messages as bytes, whatever the file is made of.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In place of recorded_mcap.cc, in builds without MCAP.
 #include "adapters/rosbag2/recorded_file.h"
 

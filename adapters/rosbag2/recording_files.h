@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Of which files a recording of ROS 2 consists.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tables into one file of SQLite. Knows nothing of what is in them.
 #pragma once

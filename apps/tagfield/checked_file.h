@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a file of any kind that Tagfield knows holds, besides scenarios and worlds.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A localization method that is a program, in whatever language.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What --help prints, in the forms of shells and of man.
 #pragma once

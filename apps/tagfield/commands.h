@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The subcommands. Each adds itself to the command line and, once parsed, does its work.
 #pragma once

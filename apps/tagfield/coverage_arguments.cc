@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "apps/tagfield/coverage_arguments.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What is asked of the coverage command, made into a request with defaults that fit the scenario.
 #pragma once

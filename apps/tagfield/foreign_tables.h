@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads and poses as tables, in the project's own form or in other people's (docs/datasets.md).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// From a recording to a run's folder and its page, for `localize` and for `report` of a bag.
 #pragma once

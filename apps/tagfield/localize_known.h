@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the command line of `localize` says to be known beforehand.
 #pragma once

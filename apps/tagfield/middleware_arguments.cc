@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "apps/tagfield/middleware_arguments.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Middleware that gets what a scenario yields: a broker of MQTT, a repository of EPCIS.
 #pragma once

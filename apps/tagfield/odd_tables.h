@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What may be wrong with tables of reads and poses although every number in them is one.
 #pragma once

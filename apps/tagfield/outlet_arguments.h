@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a run goes besides its folder: into ROS 2, or a file of its messages.
 #pragma once

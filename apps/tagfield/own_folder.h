@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Results of one scenario don't replace those of another.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What commands that look into a scenario have in common.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Recordings that a suite names, in whatever form they are.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tagfield_sweep_mpi: a sweep under mpirun, whose ranks take runs as they get done with others.
 #include <fmt/format.h>
 

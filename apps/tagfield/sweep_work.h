@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What `tagfield sweep` and `tagfield_sweep_mpi` share: a sweep opened, its parts put together.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "apps/tagfield/top_view_file.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What is wrong with a command line, in one line that helps.
 #pragma once

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws the moving picture of the README: the warehouse experiment, located anew as the reads come in.
 
     scripts/setup --python && cmake --build build/release --target tagfield_python

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Builds the site, for scripts/docs. From the top of the checkout:
 #
 #   docs/site/build.sh TAGFIELD PYTHON_FOLDER OUT [yes|no]

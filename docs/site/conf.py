@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Sphinx's settings. scripts/docs builds the site; stage.py has gathered its pages beforehand."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The gallery: small scenarios run while the site is built, and what they draw."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The keys that files of users may have, as the sources ask for them, and the page that describes each."""
 
 import pathlib

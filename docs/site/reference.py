@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pages of reference, made from the program and the sources."""
 
 import functools

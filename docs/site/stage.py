@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Gathers the pages of the site in a folder: those of docs/ as they are, and those made from the sources.
 
     stage.py SOURCE_DIR TAGFIELD STAGE_DIR [--gallery yes|no]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One antenna-tag link by the paper's model: what a reader reports of a tag 3 m away.
 //
 //   build/release/bin/example_one_link

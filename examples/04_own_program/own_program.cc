@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of one's own: tags come and go while a robot drives, and are located afterwards.
 #include <cstdio>
 

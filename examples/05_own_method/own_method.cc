@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A localization method of one's own: a tag is where its reads are strongest. It is compared with
 // the hyperbolae that come with Tagfield, in one scenario with and without noise of the pose.
 #include <cmath>

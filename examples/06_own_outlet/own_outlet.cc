@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An outlet of one's own: counts each antenna's reads a second, as they come, and how far the tags
 // were that it read.
 #include <algorithm>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """An LLRP client in a hundred lines, with Python's standard library alone.
 
     tagfield serve scenarios/portal.yaml --llrp 5084 &

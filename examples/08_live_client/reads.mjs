@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads of a live world in JavaScript, with what Node.js has:
 //
 //   tagfield serve scenarios/portal.yaml &

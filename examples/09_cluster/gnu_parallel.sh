@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # A sweep on the machines that one can log in to, by GNU parallel.
 #
 #   gnu_parallel.sh SUITE DIR [N [HOST,HOST,…]]

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # A sweep by MPI: each rank takes runs as it gets done with others.
 #
 #   mpirun.sh SUITE DIR N [mpirun's options, such as --hostfile hosts]

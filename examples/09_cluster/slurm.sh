@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # A sweep as an array of Slurm jobs, and a job that merges what they left. Run it where sbatch is:
 #
 #   slurm.sh SUITE DIR N [sbatch's options, such as --partition=long --time=2:00:00]

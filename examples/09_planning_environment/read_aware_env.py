@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """An environment for read-aware planning, in Gymnasium's way: drive so that every tag is read often.
 
     PYTHONPATH=build/release/lib/python python3 examples/09_planning_environment/read_aware_env.py

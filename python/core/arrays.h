@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tables as NumPy's structured arrays, without a copy.
 #pragma once

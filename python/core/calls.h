@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Work that goes on without Python's lock, and Python's functions called from it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario with its world, as Python holds it.
 #pragma once

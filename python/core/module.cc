@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Python module tagfield._core: what of Tagfield is in C++. Users import tagfield, whose
 // modules in python/tagfield say what everything is for.
 #include <pybind11/pybind11.h>

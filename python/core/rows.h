@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Rows of the tables that Python gets: plain numbers, with names as numbers of their own, so that
 /// NumPy takes them as they lie in memory.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a run yields, as tables, and tables as what the rooms take.
 #pragma once

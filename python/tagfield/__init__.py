@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tagfield: UHF RFID simulated, located and judged.
 
     import tagfield

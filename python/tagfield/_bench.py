@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Methods compared in many conditions with many seeds."""
 
 from __future__ import annotations

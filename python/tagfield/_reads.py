@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads of any origin: from files, from a reader, from a run."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What comes of scenarios: runs, steps, tracks, maps, explanations."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Worlds and scenarios: from files, or made in Python."""
 
 from __future__ import annotations

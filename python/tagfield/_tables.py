@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Structured arrays with names: what a run, a method or a map gives."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures by matplotlib: each function draws into `ax`, or a new figure, and returns the Axes.
 
 Colours tell apart without red against green; ordered quantities are on one perceptual scale (viridis).

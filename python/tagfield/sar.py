@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Synthetic aperture: an image of where a tag's phases fit together."""
 
 from __future__ import annotations

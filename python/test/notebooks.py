@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs all notebooks of a folder by nbconvert, one after another in one kernel.
 
     notebooks.py FOLDER [OUT]

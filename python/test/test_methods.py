@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads of any origin located by any method; methods in Python, compared."""
 
 import numpy as np

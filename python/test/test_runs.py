@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs in memory: what is in them, and that it is what the command writes."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scenarios and worlds made in Python; links, explanations, maps; stepping."""
 
 import math

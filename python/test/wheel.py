@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A wheel of what is built, installed into an environment of its own and used there.
 
     wheel.py SOURCE BUILD

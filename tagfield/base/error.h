@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Errors and warnings. Bad input throws Error with one line that says what, where and what was
 /// expected; odd but usable input becomes a warning in a Diagnostics that the caller hands in.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Mathematical functions for loops over arrays (lanes.h): without branches or calls, of additions,
 /// multiplications, divisions, roots and integers alone. Every machine and every width of its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Loops over arrays in the widest vector instructions that the machine has. See
 /// docs/architecture.md.

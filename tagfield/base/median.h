@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Statistics that a few values far off don't move.
 #pragma once

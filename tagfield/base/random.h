@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Counter-based random streams. Every draw of a simulation is a function of one seed and of what
 /// the draw is for, so the same seed gives the same bytes whatever the order or the threads.

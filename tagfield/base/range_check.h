@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Checks of what is set, with one form of complaint: "NAME must be EXPECTED, is VALUE".
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Keys that set the members of plain structs: what each is for, what it may be, how its value is
 /// taken. One table of them serves files, the command line and what people are told.

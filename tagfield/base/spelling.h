@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The nearest known word to a misspelt one, for error messages.
 #pragma once

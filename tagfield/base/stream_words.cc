@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/base/stream_words.h"
 
 #include <Random123/philox.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Time of the simulation or of a recording, in whole nanoseconds, so that equal stamps are equal.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Constants and conversions. All quantities are SI; a name's suffix gives the unit where it is
 /// not the plain SI one or could be mistaken (`_dbm`, `_hz`, `_rad`).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Civil time (ISO 8601), as clocks of software outside have it: seconds since 1970-01-01T00:00:00Z
 /// without leap seconds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The door of this room: reads of tags at known places in, what they tell of the antennas out.
 #pragma once

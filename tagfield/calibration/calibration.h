@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What is known of antennas from a calibration, and how it is put to use.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Several experiments' calibrations made one that is good for another experiment, as far as what
 /// they tell is the same in all of them.

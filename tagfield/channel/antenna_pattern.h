@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What an antenna sends where: gain and polarization over direction. See docs/antennas.md.
 #pragma once

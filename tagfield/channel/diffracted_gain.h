@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One-way gain of a way that bends at an edge. See docs/diffraction.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/channel/free_space_gains.h"
 
 #include <algorithm>

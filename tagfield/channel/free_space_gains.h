@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One-way gains of the straight ways from an antenna to many tags.
 #pragma once

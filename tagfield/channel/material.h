@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What surfaces are made of, as waves see it. See docs/link_budget.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// People, robots and things that move, as waves see them: upright and simple of shape. See
 /// docs/moving_bodies.md.

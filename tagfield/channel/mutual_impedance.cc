@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/channel/mutual_impedance.h"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How two dipoles near one another couple: their mutual impedance by the induced EMF method. See
 /// docs/coupling.md.

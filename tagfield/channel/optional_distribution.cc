@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/channel/optional_distribution.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The paper's eight optional distributions of the phase, n_optional of eq. (4).
 #pragma once

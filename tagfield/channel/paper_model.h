@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The paper's signal model: phase by eq. (4), RSSI by eq. (5). See docs/paper_model.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One-way gain of a link: the sum over its paths in eq. (1) of the paper. See docs/multipath.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A world as waves see it: its surfaces, and what each is made of.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Electronic product codes that fit into 96 bits, by the GS1 EPC Tag Data Standard 1.13: as a pure
 /// identity URI, as a tag URI, and as the bits of a tag.

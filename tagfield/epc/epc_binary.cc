@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coding tables of section 14.6 of the Tag Data Standard.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Patterns of EPCs, as the GS1 standards ALE 1.1 and Tag Data Standard write them.
 #pragma once

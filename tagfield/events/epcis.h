@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Events for repositories of GS1's EPC Information Services (EPCIS) 2.0, as JSON-LD.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What becomes of reads: who is there, and reports of event cycles.
 #pragma once

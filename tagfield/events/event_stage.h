@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Makes events of reads: a middleware's filtering and collecting, as an outlet.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What events are asked for, after GS1's Application Level Events (ALE) 1.1.
 #pragma once

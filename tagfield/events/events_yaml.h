@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What events are asked for, as docs/events.md tells to write it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which effect of the physical models costs how much: the experiment over and over, with each
 /// effect alone and with all but that.

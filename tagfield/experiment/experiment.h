@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A whole experiment: simulate, localize, compare with the truth.
 #pragma once

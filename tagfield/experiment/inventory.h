@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run as an inventory: which tags were read, by whom, and how soon, whether they are located or
 /// not.

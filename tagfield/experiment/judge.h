@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The one judge of estimates: what became of each tag, whoever located it.
 #pragma once

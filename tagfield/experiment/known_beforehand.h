@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What localization may know of a scenario before any read comes.
 #pragma once

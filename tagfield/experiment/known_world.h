@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario's world as localization may know it: what becomes of a tag's reply on its way.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/leave_one_out.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What each antenna is worth: the same run without it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How long a run will trace paths, told before it begins.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scenarios whose moving tags are tracked.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What can be asked of an antenna, whether it is the paper's or a physical one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What every driver of a field keeps alike: numbers and names of tags, names of antennas and when
 /// they are due. A simulator's adapter adds where things are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a person wants to see of a field: tags, antennas, and how strongly each tag was read last.
 #pragma once

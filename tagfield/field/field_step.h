@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a driver tells a field: what came, went and moved up to a stamp, and which antennas update
 /// then.

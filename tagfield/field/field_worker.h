@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Makes the reads on a thread of its own, so that a driver does not wait for them.
 #pragma once

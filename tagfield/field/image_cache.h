@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Images of places that stay where they are, kept from one read to the next.
 #pragma once

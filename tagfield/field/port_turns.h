@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whose turn it is among antennas that can't send at the same time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All antennas of physical models, the air that they share, and what they read.
 #pragma once

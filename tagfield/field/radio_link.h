@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One antenna, one tag, now: is it powered, is it heard, and with which phase. Eq. (1) of the
 /// paper in full; see docs/link_budget.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A reader's port: on which carrier it is, and what the reader reports of a reply there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What other readers' signals do to a link: as noise at the reader, as another carrier at the tag.
 /// See docs/interference.md.

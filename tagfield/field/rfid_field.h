@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A field of tags and antennas that a driver moves in steps: what the antennas read is told to
 /// whoever listens.

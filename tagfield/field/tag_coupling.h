@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tags near one another: of the fields of a tag and its neighbours, what gets to its chip. See
 /// docs/coupling.md.

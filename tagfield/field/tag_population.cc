@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/field/tag_population.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All tags that antennas can read, and the reads of one update.
 #pragma once

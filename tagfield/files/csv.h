@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tables as CSV files (RFC 4180, with a header line or without). Every complaint names file and
 /// line.

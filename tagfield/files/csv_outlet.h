@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run as CSV files, written while it runs: memory does not grow with its length.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads in the forms of other people's tables: which column is what, in which unit, and which way
 /// phases turn. docs/datasets.md.

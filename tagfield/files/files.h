@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whole files in and out. Nothing is ever left half-written: files are written beside their place
 /// and renamed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Antenna poses as CSV: `stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw`, and where covariances of x, y
 /// and yaw are told `cov_xx,cov_xy,cov_xyaw,cov_yy,cov_yyaw,cov_yawyaw` [m², m·rad, rad²].

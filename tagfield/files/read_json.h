@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads as JSON, a line each, with the names that readers give them which stream over HTTP and
 /// MQTT by themselves.

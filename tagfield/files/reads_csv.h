@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tag reads as CSV: `stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm`, and
 /// `doppler_hz` where a read tells it.

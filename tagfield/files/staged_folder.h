@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A folder of results, whose files appear together or not at all.
 #pragma once

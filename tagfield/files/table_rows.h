@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tables as rows of cells, whatever they are written as.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Heights of tags, as known from the racks that they are on, as CSV: `tag,height_m`.
 #pragma once

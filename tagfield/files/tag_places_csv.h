@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Places of tags, as measured of reference tags, as CSV: `tag,x_m,y_m,z_m`.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The truth of a run as CSV files, in a folder of their own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Least squares on angles with the residual 2 sin(e/2): it is bounded, so that a read that belongs
 /// nowhere pulls little, and half its square is 1 − cos e, the von Mises distribution's

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Cholesky factors and inverses of large symmetric positive definite matrices whose rows are 0 up
 /// to an entry of their own: the envelope, which factors keep (George and Liu, "Computer Solution

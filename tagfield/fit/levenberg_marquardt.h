@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Least squares by Gauss and Newton's steps with Levenberg's and Marquardt's damping, which grows
 /// where a step leads uphill. What the steps are and what they cost is up to the user.

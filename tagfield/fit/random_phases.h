@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a fit to phases is worth against the thought that they are random: its Bayes factor, which
 /// over random phases is 1 in the mean, so that one of 100 or more comes from them in one case of a

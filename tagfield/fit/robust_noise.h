@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Noise by what a fit leaves unexplained.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads cut into stretches that share an unknown, such as a phase offset.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// An antenna's EPC Gen2 inventory, slot by slot in simulated time (Gen2 v2, 6.3.2.10). It knows no
 /// radio channel: who has power and how strongly a tag is heard is handed in. See docs/gen2.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How long commands, replies and slots of EPC Gen2 take on the air. Sections, tables and figures
 /// are those of the GS1 EPC UHF Gen2 Air Interface Protocol, version 2.0.1 (ISO/IEC 18000-63);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a tag holds: its memory banks, passwords and locks (Gen2 v2, 6.3.2.1), and what readers may
 /// do with them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Sessions of EPC Gen2: four readers, or four ways of asking, that don't spoil one another's
 /// count.

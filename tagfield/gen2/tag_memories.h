@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What tags remember between inventories, whichever antenna or reader asks: their inventoried
 /// flags, and since when they are without power (Gen2 v2, 6.3.2.2 and Table 6.20).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Laser scans freed of the robot's motion while the beams were swept.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One turn of a planar laser scanner, real or simulated.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/laser/simulated_laser.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A Hokuyo-like laser scanner in a world. docs/laser.md has the equations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/layout/layout_scenario.h"
 
 #include <fmt/format.h>

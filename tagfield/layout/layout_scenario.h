@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A layout as a scenario: to run at once, or written down.
 #pragma once

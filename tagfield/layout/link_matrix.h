@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All links of a plan: each way of mounting an antenna with each place and orientation of a tag.
 #pragma once

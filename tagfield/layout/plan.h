@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// From what a plan is asked to its layouts. See docs/plan.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which antennas to take: the choice that reads most within its limits, by greed, exchange, trying
 /// all, or exactly. See docs/plan.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Geometry of one antenna-tag link.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which tags are near an antenna, at a cost that does not grow with the tags elsewhere.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where tags are, as far as the reads of the last minutes say, worked out while they come in.
 #pragma once

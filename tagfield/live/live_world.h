@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario that goes on while others look at it, change it and drive its readers.
 #pragma once

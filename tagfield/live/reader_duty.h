@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a live reader is told to do, over what its scenario says.
 #pragma once

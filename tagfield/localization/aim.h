@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What signal strength tells between places that the phase can't tell apart: an antenna doesn't
 /// read better with its back.

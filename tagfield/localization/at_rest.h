@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether phases say that a tag was at rest, and that the stamps of reads and poses are of one
 /// clock: a tag that moved and an antenna that was elsewhere fit some place, too.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How well tags can be located at best: the Cramér-Rao bound, of each tag by itself and of all
 /// together, with the pose error as a random process (the Bayesian bound).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A second opinion on places that explain little of the phases.
 #pragma once

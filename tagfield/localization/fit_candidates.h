@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// From fits of one tag to candidates: how uncertain each is, and which can't be told apart.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Phases that are known but for half a turn: many readers report φ or φ + π by chance.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A tag's place as unknowns of a fit, with a height that is known or estimated.
 #pragma once

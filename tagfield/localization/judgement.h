@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What all methods have in common when they judge: why a tag can't be located at all, and whether
 /// candidates are an answer.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The door of this room: reads and antenna poses in, an estimate for each tag out, by any method.
 /// Knows nothing of where the tags really are.

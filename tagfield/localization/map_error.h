@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the error of the map that poses are on adds to tags' errors.
 #pragma once

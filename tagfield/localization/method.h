@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A localization method, as all who run one see it. Every method takes the same problem and gives
 /// the same kind of result, so that they can be compared and exchanged.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads that belong nowhere: phases of any value, a few in a hundred, as readers give them now and
 /// then. They are told by the place that most waves agree on, and by their neighbours there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether antennas at rest heard one tag at rest, or several under one EPC.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How noisy phases are, as they show by themselves.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A read joined with where its antenna was believed to be.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether places by phase can be believed at all, whatever method found them: chance makes some
 /// waves agree somewhere, and a phase of the wrong sign fits somewhere, too.

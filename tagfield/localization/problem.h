@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a localization method is given: reads joined with believed antenna places, and all that is
 /// known besides. Nothing of where the tags really are.

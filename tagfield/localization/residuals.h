@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the residuals of a fit say about it: how uncertain it is, and whether another place is
 /// really worse. Phase noise is independent from read to read, but pose errors are not.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads at one stop of the antenna: many of them, but one observation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where tags can be: on one side of the antennas' way, or in a box. From a straight way a tag and
 /// its mirror image look alike; what is known of the place tells them apart.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Least squares on the phases of one tag, unwrapped or wrapped, with an offset for each span: with
 /// normal noise the maximum of the likelihood.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The phases of one tag laid out for fits and holograms, unwrapped or not.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Maps as ROS' map server reads and writes them: a YAML file that names a PGM image.
 #pragma once

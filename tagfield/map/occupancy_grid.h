@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A map of the floor: which cells are free, occupied, unknown.
 #pragma once

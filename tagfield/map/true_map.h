@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The map that a perfect survey would make, and how near a real one comes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The part of a world that a robot's laser can see at all.
 #pragma once

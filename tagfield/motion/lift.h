@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A vertical joint that carries an antenna up and down (Fig. 11 of the paper).
 #pragma once

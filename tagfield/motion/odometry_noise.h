@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The error of wheel odometry as a probability: the usual four parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Poses in the floor plane put together and taken apart.
 #pragma once

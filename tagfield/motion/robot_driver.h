@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Decides how a robot moves: by commands from outside, or else along its waypoints.
 #pragma once

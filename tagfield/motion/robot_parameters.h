@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What libTagfieldRobotPlugin.so is told in SDF, and what libTagfieldLiftPlugin.so is.
 #pragma once

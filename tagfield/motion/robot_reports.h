@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a robot in Gazebo tells of itself, by whatever middleware.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a robot's drive can do, and keeping commands within it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Kinematics of a skid-steered robot: the paper's eqs. (6)–(8).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A robot's pose as its wheels' encoders tell it.
 #pragma once

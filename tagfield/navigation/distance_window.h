@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How far the nearest standing obstacle is from each place around the robot.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The way that a driving robot follows, and when it takes another.
 #pragma once

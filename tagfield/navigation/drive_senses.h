@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All that a driving robot knows of its surroundings: the map, what its laser saw, where it was.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether a drive gets anywhere: when to try something else, and when to give up.
 #pragma once

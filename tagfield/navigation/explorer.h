@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which places to drive to until all that can be seen of a building is seen.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where on a map the robot's centre may be, and how gladly.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/navigation/global_planner.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Ways over a map that keep clear of its walls. docs/driving.md has the equations.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Drives a robot to goals on a map, clear of what its laser sees: what move_base does.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The cells of a grid that a straight line passes.
 #pragma once

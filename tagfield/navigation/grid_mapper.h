@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Simultaneous localization and mapping with a laser and wheel odometry.
 #pragma once

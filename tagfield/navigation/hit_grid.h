@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The map that a mapping particle carries: where beams ended and where they passed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Places where a robot must not drive although its laser sees nothing there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How likely a scan is at a pose on a map.
 #pragma once

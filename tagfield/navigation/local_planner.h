@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What to drive now, so that nothing is touched: rollouts of many manoeuvres by the dynamic-window
 /// approach (Fox, Burgard, Thrun, 1997). docs/driving.md has the equations and weights.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a robot is on a map, by its laser and wheels.
 #pragma once

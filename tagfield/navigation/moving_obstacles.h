@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Who walks about: groups of returns that are not on the map, followed from scan to scan.
 /// docs/driving.md has the equations.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What to drive to follow a way, were there nothing in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A belief of a pose as particles: spread over a map, drawn anew and moved, weighed by a scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a manoeuvre would lead the robot, and how near to what is around it.
 #pragma once

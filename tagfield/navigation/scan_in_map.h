@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A laser scan as the robot's driving needs it: where its beams ended on the map, and how far the
 /// floor is clear in a direction.

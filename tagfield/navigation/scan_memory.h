@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What stands around the robot, as its laser saw it in the last while: the laser looks ahead only,
 /// and the robot turns.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Moving about without knowing where: what a robot does that must see more of the world to find
 /// itself on its map.

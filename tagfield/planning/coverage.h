@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a kind of tag would be read, and which of the scenario's own tags are. See
 /// docs/coverage.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where antennas and tags are over a whole run, sampled by distance.
 #pragma once

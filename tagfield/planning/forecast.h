@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What an inventory will read, from the links alone: turns of ports, hops, fading and contention
 /// for slots, without the run. See docs/coverage.md.

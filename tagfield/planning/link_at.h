@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One link of a scenario at a moment of its run, explained.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Why a tag is read or not by an antenna at one moment. docs/explain.md says what the figures
 /// mean.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A link over a small neighbourhood instead of in one point: local mean power, and how often it is
 /// heard. See docs/coverage.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario at one moment: where everything is, without a read being made.
 #pragma once

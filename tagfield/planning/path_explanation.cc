@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/planning/path_explanation.h"
 
 #include <algorithm>

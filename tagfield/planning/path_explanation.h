@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The paths of a link with names: how long, by way of what, through what, how strong.
 #pragma once

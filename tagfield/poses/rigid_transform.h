@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Rigid transforms. `X_AB` is the pose of frame B in frame A: p_A = X_AB * p_B. `p_AB` is the
 /// position of B's origin in A. W is the world: right-handed, z up, metres (REP-103).

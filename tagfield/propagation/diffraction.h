@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Edges that bend waves around them, and the ways over one of them. docs/diffraction.md has the
 /// method and where it departs from waves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The way a wave takes from an antenna to a tag: straight, or by way of mirrors.
 #pragma once

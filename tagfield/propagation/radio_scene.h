@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A world at rest as waves see it: flat mirrors, and what stands in the way.
 #pragma once

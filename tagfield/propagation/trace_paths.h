@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All paths from an antenna to a tag by the method of images. docs/propagation.md has the method
 /// and where it departs from waves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A reader's antenna: the paper's, or a physical one.
 #pragma once

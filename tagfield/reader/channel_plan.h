@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// On which carrier a reader sends when. See docs/reader.md for the plans and their sources.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The physical model of an antenna: link budget or multipath, and the reader behind it. See
 /// docs/link_budget.md, docs/multipath.md and docs/reader.md.

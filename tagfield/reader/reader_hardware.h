@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a reader's receiver makes of a reply: noise, phase offsets, steps, half turns. See
 /// docs/reader.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/reader/transmit_spectrum.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How much of a reader's signal falls into the replies that another reader listens to. See
 /// docs/interference.md.

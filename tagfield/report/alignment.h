@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The rigid motion that brings places closest to others.
 #pragma once

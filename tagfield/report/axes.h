@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Axes of a figure: from data to places in the drawing, with grid, tick labels and titles.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where in a hall tags would be read: a grid of cells at several heights, and the scenario's own
 /// tags. docs/coverage.md says what the figures mean.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Estimates as CSV: `tag,verdict,candidate,x_m,y_m,z_m,rms_m,expected_error_m,reads,
 /// cov_xx,cov_xy,cov_yy,cov_zz,reason`, where covariances are in m².

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The figures of the report, each in a source file of its own. All are 560 units wide.
 #pragma once

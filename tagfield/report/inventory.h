@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The result of an inventory: which tags are read, by whom, and how soon.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What one method makes of the reads, in numbers, to be compared with others'.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The report: one HTML page and its figures, drawn from the files in a run's folder.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scripts that pages carry, and the hashes by which alone a page lets them run.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The page in words: sentences and numbers about a run, as HTML.
 #pragma once

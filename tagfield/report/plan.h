@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where antennas go: ranked layouts, what each costs and reads, and how sure that is.
 #pragma once

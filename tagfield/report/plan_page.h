@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A plan as a page: the hall from above with what is read, by number of antennas.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run's folder in memory, and what the figures ask of it.
 #pragma once

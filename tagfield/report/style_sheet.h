@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Colours and style sheets: one set of rules for the figures, worn by the page in light and dark
 /// and by the single files in light.

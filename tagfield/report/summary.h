@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Estimates judged against the truth: the numbers of a run, and their JSON.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A small writer of SVG drawings. Lengths are in units of the drawing, x to the right, y down.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Text for page and figures: made harmless, shortened, sorted and set as a person reads it.
 #pragma once

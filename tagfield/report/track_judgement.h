@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tracks judged against where the tags truly were: the numbers, and their JSON.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tracks from above, as a drawing of its own.
 #pragma once

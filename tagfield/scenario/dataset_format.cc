@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/dataset_format.h"
 
 #include "tagfield/base/units.h"

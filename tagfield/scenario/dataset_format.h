@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Forms of other people's tables as YAML files, profiles/datasets/NAME.yaml. docs/datasets.md has
 /// the keys.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How a robot finds its way by itself, as a plain struct.
 #pragma once

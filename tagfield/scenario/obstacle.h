@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What stands or walks in a world besides the world at rest, such as a box or a person.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/placements.h"
 
 #include "tagfield/settings/sensor_parameters.h"

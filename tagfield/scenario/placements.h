@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tags and antennas that stand in the world file, made part of a scenario.
 #pragma once

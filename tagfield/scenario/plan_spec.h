@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What `tagfield plan` is asked: where tags can be, where antennas can be, what is allowed and
 /// what is aimed at. docs/plan.md lists the keys.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How a robot comes to believe where it is, as a scenario describes it.
 #pragma once

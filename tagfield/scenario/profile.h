@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Readers, antennas and tags as data files: profiles/.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Motions from an earlier run's tables, to be replayed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/robot_spec.h"
 
 #include "tagfield/motion/planar_pose.h"

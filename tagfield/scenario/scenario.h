@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What to simulate, as a plain struct. docs/scenario.md tells how to write one as YAML.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scenarios from YAML files. docs/scenario.md lists every key with its unit and default.
 #pragma once

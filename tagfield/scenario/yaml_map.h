@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// YAML mappings read with care: every value is checked, every complaint names file and line, and
 /// keys that nobody asked for are errors.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Values that several parts of a scenario have: choices, paths, positions, motions.
 #pragma once

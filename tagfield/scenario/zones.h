@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which reader a tag is meant for: by the zone that it is in, or by what comes nearest.
 #pragma once

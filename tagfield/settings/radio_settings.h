@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Physical models from keys and values: the same keys in scenarios, in profiles and in SDF.
 /// docs/radio_settings.md lists them.

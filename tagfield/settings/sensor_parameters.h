@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Antennas and tags as an SDF sensor's plugin describes them: the published plugin's parameters,
 /// and those that Tagfield adds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Physical models as an SDF sensor's plugin describes them: the settings of radio_settings.h as
 /// elements.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Who is told what robots know and see that find their way by themselves.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A run of robots that find their way by themselves, with what is watched on the way.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/simulator/navigation_world.h"
 
 #include <fmt/format.h>

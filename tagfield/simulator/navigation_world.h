@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A world made ready for robots that find their way by themselves.
 #pragma once

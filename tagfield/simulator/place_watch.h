@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether a robot that was not told where it is finds out, judged against the truth.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a robot believes of its own pose: the truth, the truth with a stated error, what its wheels
 /// tell, or what it finds by laser and map.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A simulated robot that somebody outside drives: velocities in, wheels and laser out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A robot that drives: where it is, and where it believes to be.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How near a robot comes to what stands in the world.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a simulated robot senses while it drives: its wheels and its laser.
 #pragma once

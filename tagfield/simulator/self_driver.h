@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A simulated robot that finds its way by itself: it knows its pose from its laser, its wheels and
 /// a map, and drives to goals.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The headless driver of a field: a clock with a fixed step, robots, lifts, and tags that move and
 /// come and go.

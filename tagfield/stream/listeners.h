@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Who is told what a run yields, while it runs: reads, told poses, and apart from them the truth.
 #pragma once

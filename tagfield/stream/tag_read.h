@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a reader reports: the one record that a simulated and a real reader both hand over.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What really was, as the simulator knows it: apart from the reads: to judge estimates by, never
 /// to make them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// When tags pass a line on the floor, or an antenna, and so in which order.
 #pragma once

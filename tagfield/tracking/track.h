@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What tracking says of one tag: where it was and how it moved, from its first read to its last.
 #pragma once

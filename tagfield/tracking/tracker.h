@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The door of this room: reads joined with antenna places in, a track for each tag out. Knows
 /// nothing of where the tags really are.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How tags are tracked, and what is known of their motion beforehand.
 #pragma once

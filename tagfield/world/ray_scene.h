@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Rays through a world at rest, by Embree.
 #pragma once

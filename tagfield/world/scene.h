@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What is where: the solid shapes of a world, and the tags and antennas placed in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Solids that have no shape of their own, as meshes: inscribed polyhedra with kCircleEdges around,
 /// normals outward, as triangulate() has cylinders and spheres.

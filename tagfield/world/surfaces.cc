@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RayScene::surfaces(): one pass of Embree's occlusion query, whose filter takes down each hit and
 // turns it away, so that the ray goes on.
 #include <algorithm>

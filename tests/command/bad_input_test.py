@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Bad input gets one clear line and exit code 2, and leaves nothing behind; odd input a warning.
 
 Each fault is one line of a table: what is changed in an input that works, and what the complaint

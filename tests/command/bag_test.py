@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield localize` and `report` of a rosbag: the same as of the tables that the bag was made from,
 and one clear line for a bag that is no good."""
 

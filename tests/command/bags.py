@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rosbags from a run's folder, or from messages given one by one, written by Python's rosbag."""
 
 import functools

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield bench`: suites in, tables and a page out; the same bytes whatever the threads."""
 
 import math

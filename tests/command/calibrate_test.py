@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield calibrate` as a user meets it: a log with faults put in, the profile, its use."""
 
 import math

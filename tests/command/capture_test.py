@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Events captured by a repository of EPCIS 2.0, over HTTP: nothing is lost while it is away, and nothing hidden.
 
     capture_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

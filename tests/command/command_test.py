@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The command as a user meets it: help, check, progress, interruption, folders, SDF sensors."""
 
 import json

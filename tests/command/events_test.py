@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Events and JSON of reads: `tagfield events`, `tagfield stream`, EPCs in scenarios.
 
     events_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The examples do what they say, from the build tree and against the installed package."""
 
 import concurrent.futures

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The commands explain and coverage as a user runs them: verdicts, sums, agreement with a run,
 files, the page, and bad input."""
 

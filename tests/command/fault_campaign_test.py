@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Lets things go wrong around each command, many times, and looks at what is left.
 
     fault_campaign_test.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]…

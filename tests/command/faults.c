@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Loaded before the C library (LD_PRELOAD): makes what a program asks of the system go wrong.
 
    FAULT=CALL:N:WHAT     at the Nth call, and FAULT=CALL:N+:WHAT from the Nth call on.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The program with something going wrong around it: faults.c, signals, limits."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What one meets first: the version, the command alone, slips, `new`, `doctor`, and `check` of all kinds of files."""
 
 import json

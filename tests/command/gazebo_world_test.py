@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """tagfield gazebo writes worlds that tagfield check reads back as the scenario."""
 
 import json

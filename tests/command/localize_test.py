@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield localize` of tables: all methods, what is known beforehand, and reads as they come from
 real readers: other clocks, gaps, repeats, disorder, several carriers.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Reads and events over MQTT, with the real broker mosquitto: nothing is lost while it restarts.
 
     mqtt_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Packages of npm's that tests use: what others made, to check ours against."""
 
 import fcntl

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield plan`, inventories, and what leaves antennas out: outputs, resuming, bad input."""
 
 import base64

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Completion of shells and pages of the manual: they have what --help has, and shells and man take them."""
 
 import re

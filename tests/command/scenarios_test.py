@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Every shipped scenario runs and gives what it promises; the files of a run hold together."""
 
 import collections

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Estimators that are no part of Tagfield: `tagfield score`, and commands as methods of a bench."""
 
 import json

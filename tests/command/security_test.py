@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What a scenario or a world of somebody else's can't do (docs/security.md).
 
     security_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

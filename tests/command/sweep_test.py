@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield sweep`: points out of a suite, shards that can be killed, the same bytes from all of them;
 and --resume of what else takes long."""
 

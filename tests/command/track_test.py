@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """`tagfield track` as a user meets it: a scenario, reads of a run, bad input."""
 
 import math

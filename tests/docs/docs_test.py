@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The pages of docs/ and the README: what they name is there.
 
     docs_test.py --tagfield PROGRAM --source SOURCE_DIR

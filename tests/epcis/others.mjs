@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What others say of what Tagfield wrote, their packages lying in PACKAGES/node_modules:
 //
 //   node others.mjs PACKAGES epcis SCHEMA FILE   whether a document of EPCIS, or each line of a .jsonl, is valid by

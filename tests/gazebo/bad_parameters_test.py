@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Bad parameters in SDF: one clear error, that sensor off, everything else on."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The warehouse experiment in the real Gazebo, from the robot's first metre to the tags' places, and
 the same reads headless."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the tests in the real Gazebo share: worlds, gzserver, roscore, rosbag, and what came of it.
 
 Built on the harness of tests/command and the processes of scripts/gazebo-experiment.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A hall of metal, brick and meshes that both Gazebos and the headless simulator read the same in."""
 
 import itertools

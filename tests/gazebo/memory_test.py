@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The plugins under AddressSanitizer in the real gzserver: load, reads, spawning, deletion, shutdown.
 
 Needs plugins built with -fsanitize=address beside the others (build/gazebo-asan/lib); scripts/test

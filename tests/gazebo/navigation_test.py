@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A robot that maps a part of the hall in the real Gazebo by nodes, then finds itself on its map,
 drives to goals, and reads tags, which are located from the bag by tf."""
 

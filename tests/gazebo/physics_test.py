@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Physical models in Gazebo read what the headless simulator reads, with Gazebo's own geometry."""
 
 from gazebo import (

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A world in the published plugin's form, and a subscriber that knows nothing but its message."""
 
 import math

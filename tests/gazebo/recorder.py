@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Records topics as a bag and loses no message, however fast they come and however busy the machine.
 
     recorder.py BAG TOPIC…

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A Gazebo world that records itself into an MCAP file, beside a rosbag of the same run."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A ROS master that is missing, comes, dies and comes back: Gazebo goes on, publishing resumes."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The nodes against a roscore alone: what comes in that nobody can use, and time that goes back."""
 
 import atexit

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Reads follow simulated time: the same motion gives the same reads at any speed of simulation."""
 
 from gazebo import (

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Tags come and go by the thousand in the real gzserver: it lives, and its memory grows no more than with as
 many models without sensors.
 

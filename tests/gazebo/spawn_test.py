@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Tags and antennas come and go while Gazebo runs."""
 
 import bisect

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Whether a world's solids are where Gazebo 11 has them.
 
     world_parity.py [--plugins build/gazebo/lib] [--poses build/release/bin/world_poses]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where all solids of a world are, for comparison with Gazebo's:
 //
 //   world_poses WORLD [MODEL_PATH…]

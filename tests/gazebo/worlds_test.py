@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Solids are where the real Gazebo 11 has them."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the tests in a real gz-sim share: its server, worlds, and what came of a run."""
 
 import os

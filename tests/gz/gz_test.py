@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Tagfield in a real gz-sim: the same reads as headless, and nothing that stops the server."""
 
 import json

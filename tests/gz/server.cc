@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A gz-sim server for tests, which does what its script says, line by line, and nothing meanwhile:
 //
 //   gz_test_server WORLD SCRIPT

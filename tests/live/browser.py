@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A headless Chromium that draws with WebGL in software, and what the page's tests ask it."""
 
 import base64

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """'tagfield serve' as HTTP and WebSocket clients see it, the well-behaved and the others.
 
     http_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

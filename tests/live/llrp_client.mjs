@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What llrpjs, a client and codec of LLRP that others made, makes of our reader:
 //
 //   node llrp_client.mjs PACKAGES PORT

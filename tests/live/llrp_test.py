@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """'tagfield serve --llrp' as LLRP clients see it: that of examples/07_llrp_client, llrpjs, and tshark,
 which looks at all that was sent.
 

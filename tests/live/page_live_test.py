@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The world in the browser, in a real headless Chromium with WebGL in software.
 
     page_live_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A scenario that 'tagfield serve' lets live, for the tests of those who connect to it."""
 
 import contextlib

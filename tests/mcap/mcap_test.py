@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """MCAP files of ours as @mcap/core reads them, and its files as we read them.
 
 That package is what Foxglove made for browsers: a reader that goes by the index, one for streams, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MCAP files seen through @mcap/core, whose packages lie in PACKAGES/node_modules:
 //
 //   node others.mjs PACKAGES read FILE                 what its two readers find, as JSON

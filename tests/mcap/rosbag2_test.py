@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings as rosbag2 makes them, databases and folders, located as the MCAP file of the same run.
 
 The databases are written here, by Python's sqlite3 and the tables of rosbag2 (Jazzy).

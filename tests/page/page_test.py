@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Opens report.html of run folders in headless Chromium and looks whether it keeps its word.
 
     page_test.py [--screenshots DIR] RUN_FOLDER…

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs what the program ships and opens the pages in headless Chromium: page_test.py.
 #
 #   page_test.sh TAGFIELD SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """tagfield_bringup: parameters that fit the program's robot, and launch files that start what there is.
 
 ROS 2 is not here: its launch modules are stood in for by ones that note what they are asked for.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of another DDS (Fast DDS) that sends velocities, as Nav2 would: SECONDS of FORWARD and
 // TURN, ten a second.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of another DDS (Fast DDS) that listens to topics as ROS 2's nodes do: the test's
 // witness that what is sent arrives elsewhere too.
 //

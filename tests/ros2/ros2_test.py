@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """A run played into ROS 2, heard by another DDS (Fast DDS, ros2_listener) in a network of its own.
 
 What was heard is decoded here, by the tables of CDR alone.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """What scripts/bench makes of benchmarks: growth laws, the comparison with a release, and the page.
 
     benchmarks_test.py SOURCE_DIR BENCHMARKS_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """scripts/in-gazebo: commands run where Gazebo 11 is as if they ran here, and leave no mount behind.
 
     in_gazebo_test.py SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # scripts/room runs the tests of a room, and says which rooms there are.
 #
 #   room_test.sh SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Every C++ file stands as clang-format would put it.
 #
 #   format_test.sh SOURCE_DIR

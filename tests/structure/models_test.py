@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The models for Gazebo: what must agree does.
 
     models_test.py SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The headers that are installed: they need no other, docs/api.md lists them, and examples do with them.
 
     public_headers_test.py SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Whether ctest knows each script of tests/ and fuzz/: one that it doesn't know is never run.
 #
 #   registered_test.sh SOURCE_DIR BUILD_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """The order of the house: which room may include which, and what stays out of the core.
 
     rooms_test.py SOURCE_DIR

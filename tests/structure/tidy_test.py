@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """clang-tidy has nothing to say of any source that is built, tests excepted.
 
     tidy_test.py SOURCE_DIR BUILD_DIR [--part N/OF] [--since FILE]

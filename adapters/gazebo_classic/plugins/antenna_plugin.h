@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libgazeboRfidAntennaPlugin.so: a reader's antenna on an `rfid` sensor.
 ///

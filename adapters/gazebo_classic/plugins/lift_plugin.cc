@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libTagfieldLiftPlugin.so: drives a prismatic joint up and down, or to a height it is told.
 // Parameters: tagfield/motion/robot_parameters.h.
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libTagfieldMaterialsPlugin.so: what a world is made of, for antennas with physical models.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Recordings of a Gazebo world into MCAP files of ROS 2.
 #pragma once

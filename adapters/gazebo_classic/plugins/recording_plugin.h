@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libTagfieldRecordingPlugin.so: records a world into MCAP files, as rosbag2 would in ROS 2.
 ///

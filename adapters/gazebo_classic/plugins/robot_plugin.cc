@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // libTagfieldRobotPlugin.so: drives a skid-steered robot by cmd_vel or along waypoints, and tells
 // its odometry, laser and frames. Parameters: tagfield/motion/robot_parameters.h.
 #include <fmt/format.h>

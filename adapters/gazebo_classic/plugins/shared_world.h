@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The RFID world that all plugins of a Gazebo world share, with ROS, the window and recordings as
 /// listeners.

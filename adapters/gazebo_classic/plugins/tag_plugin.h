@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libgazeboRfidTagPlugin.so: a tag on an `rfidtag` sensor, at the sensor's pose.
 ///

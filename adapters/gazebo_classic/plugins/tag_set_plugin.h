@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// libTagfieldTagSetPlugin.so: many tags on one model, which cost Gazebo no more than one.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Antennas and tags as SDF elements.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A scenario's robot as a Gazebo model.
 #pragma once

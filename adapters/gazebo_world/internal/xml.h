@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// XML elements with text, poses and names as SDF has them.
 #pragma once

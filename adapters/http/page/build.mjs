@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bundles the page: one file of HTML with script and style inside, which asks the network for
 // nothing.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The compressions of chunks that the format knows.
 #pragma once

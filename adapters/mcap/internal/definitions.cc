@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/mcap/internal/definitions.h"
 
 #include <fmt/format.h>

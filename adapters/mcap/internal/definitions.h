@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The schemas and channels that are met in a file.
 #pragma once

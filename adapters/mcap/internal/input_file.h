@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A file that is read in pieces, anywhere.
 #pragma once

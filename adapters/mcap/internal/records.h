@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Records of MCAP files, made and taken apart: https://mcap.dev/spec, major version 0.
 #pragma once

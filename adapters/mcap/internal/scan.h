@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What there is in an MCAP file, found by looking at all of it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// MCAP files byte by byte, as the tables of https://mcap.dev/spec have them, without the code that
 /// is tested.

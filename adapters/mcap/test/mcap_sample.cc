@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ours, for readers and writers of others to be checked against (tests/mcap/mcap_test.py):
 //
 //   mcap_sample write PATH none|lz4|zstd CHUNK_BYTES MESSAGES

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Messages written to MCAP files and read from them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a robot believes to be: its place by odometry now, on the map as far as that is known.
 #pragma once

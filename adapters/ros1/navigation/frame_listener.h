@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a node hears of frames (tf), and what it tells of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A map that comes from a file or goes into one, and is told to whoever asks.
 #pragma once

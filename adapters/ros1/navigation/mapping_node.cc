@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In C++17, which is the newest that the headers of Debian's and Noetic's messages compile with.
 #include <memory>
 #include <optional>

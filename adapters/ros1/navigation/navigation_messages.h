@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scans, maps and poses of the floor to ROS messages and back.
 ///

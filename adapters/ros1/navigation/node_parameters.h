@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A node's private parameters. One of the wrong type or beyond its bounds throws Error, in one
 /// line with its name.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The nodes' programs. docs/ros_navigation.md has their topics and parameters.
 #pragma once

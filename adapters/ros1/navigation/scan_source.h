@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Laser scans together with where the robot was by its wheels.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros1/test/bag_writer.h"
 
 #include <nav_msgs/Odometry.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Bags for tests, written through rosbag itself.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// C++ messages lent to structs of C, which point at what the messages hold for as long as they
 /// live.

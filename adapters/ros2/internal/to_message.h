@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Times, places and poses as ROS 2 messages.
 #pragma once

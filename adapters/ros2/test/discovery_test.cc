@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros2/discovery.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/rosbag2/internal/database.h"
 
 #include <fmt/format.h>

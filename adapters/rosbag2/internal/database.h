@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Databases of others through SQLite, read alone, and trusted in nothing.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "adapters/rosbag2/internal/whole_pages.h"
 
 #include <sqlite3.h>

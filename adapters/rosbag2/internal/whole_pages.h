@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Databases that were cut off in the middle of a page.
 #pragma once

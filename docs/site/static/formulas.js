@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Formulas as KaTeX draws them.
 document.addEventListener("DOMContentLoaded", () => {
   if (typeof katex === "undefined") return; // They stand there as TeX.

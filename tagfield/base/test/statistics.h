@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Statistics for tests with fixed seeds. Every bound below has a false-alarm probability of at
 /// most 1e-6 for one use.

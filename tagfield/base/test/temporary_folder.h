@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A folder for one test, gone after it. No two tests share one, whatever runs beside.
 #pragma once

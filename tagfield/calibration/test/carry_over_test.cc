@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/calibration/carry_over.h"
 
 #include <gtest/gtest.h>

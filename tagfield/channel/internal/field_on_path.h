@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A wave's field on its way from surface to surface.
 #pragma once

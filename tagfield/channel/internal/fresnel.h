@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a flat surface does to a plane wave, by Recommendation ITU-R P.2040-1, section 2.2. Fields
 /// go with e^{+jωt}. See docs/multipath.md.

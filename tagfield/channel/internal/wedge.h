@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What an edge makes of a wave: the uniform theory of diffraction. R. G. Kouyoumjian, P. H.
 /// Pathak, A uniform geometrical theory of diffraction for an edge in a perfectly conducting

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Any parameters of the paper's model, for properties.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/channel/path_gain.h"
 
 #include <fmt/format.h>

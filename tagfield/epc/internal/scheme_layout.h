@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How the 96-bit schemes lay out their fields: GS1 EPC Tag Data Standard 1.13, section 14.
 #pragma once

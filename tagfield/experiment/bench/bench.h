@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What comes of a comparison of methods: each tag of each run, and what it was judged by.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/bench/bench_figures.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A comparison as figures. Each method has a colour of its own throughout.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A comparison as files; docs/bench.md lists every column. What is unknown is null or empty.
 #pragma once

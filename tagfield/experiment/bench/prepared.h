@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A suite made ready to run: scenarios and worlds read, methods found, everything checked.
 #pragma once

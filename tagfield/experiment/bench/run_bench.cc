@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/bench/run_bench.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The door of this room: runs methods in conditions with seeds, in parallel.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a comparison of methods is made of, as plain structs. docs/bench.md tells how to write one
 /// as YAML.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Suites from YAML files. docs/bench.md lists every key.
 #pragma once

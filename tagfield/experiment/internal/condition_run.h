@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One condition with one seed: simulated once, located by every method, judged.
 #pragma once

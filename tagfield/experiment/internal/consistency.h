@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether errors are as large as the covariances that were told of them say: the normalized
 /// estimation error squared (NEES) and the band that its mean lies in by chance.

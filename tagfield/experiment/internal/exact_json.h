@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Values as JSON that are read back to the last bit.
 #pragma once

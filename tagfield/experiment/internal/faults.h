@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads and poses with something wrong about them, so that what methods claim of them can be
 /// judged.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How robots found their way, in numbers over all seeds.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Settings of a scenario that stand in a suite.
 #pragma once

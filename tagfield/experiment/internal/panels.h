@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Small multiples: panels of equal size with a common scale upwards.
 #pragma once

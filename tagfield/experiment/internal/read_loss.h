@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads that get lost on the way from a reader, one by one and in bursts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the figures of a comparison share: colours of methods, legends, rows of conditions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What sweeps are ordered and halved by.
 #pragma once

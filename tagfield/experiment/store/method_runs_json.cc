@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/store/method_runs_json.h"
 
 #include <fmt/format.h>

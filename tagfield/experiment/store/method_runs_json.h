@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What all methods made of one run, as a line of JSON, from which all that a bench or a sweep says
 /// can be computed again to the last bit.

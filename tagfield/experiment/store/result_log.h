@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Results of runs in a file that only grows: each is there whole or not at all, whatever ends the
 /// program. So it is known afterwards which runs were done, and the rest can go on.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The runs of a bench or of many seeds that are done, kept in a log until all are: so that one
 /// that was cut off, whatever by, goes on where it was.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/store/seed_run_json.h"
 
 #include <fmt/format.h>

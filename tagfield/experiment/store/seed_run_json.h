@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a seed's run came to, as a line of JSON.
 #pragma once

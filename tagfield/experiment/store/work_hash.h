@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether results are of the same work: a hash of all that they follow from.
 #pragma once

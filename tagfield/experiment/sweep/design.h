@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which values of which scenario keys a sweep tries, as plain structs. docs/sweep.md tells how to
 /// write one as YAML.

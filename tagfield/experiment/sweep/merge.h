@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The logs of a sweep put together: the same whatever the shards, their order, and how often they
 /// were killed.

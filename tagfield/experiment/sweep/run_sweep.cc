@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/sweep/run_sweep.h"
 
 #include <time.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Does runs of a sweep and logs what comes of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A sweep as small multiples: the same axes over and over, a panel for each value of what else
 /// varies. Each method has a colour of its own throughout.

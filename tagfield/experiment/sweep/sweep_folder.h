@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The folder of a sweep while it is under way: what is swept, and the logs of who did which runs.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/sweep/sweep_page.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A sweep taken apart into points and runs. Work is keyed, not scheduled: which runs there are
 /// follows from the suite alone (and, where it is adaptive, from the rungs that are closed), so

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What comes of a sweep: numbers of each point and method.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A sweep as tables, for CSV files and a database alike; docs/sweep.md lists every column.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What antennas' updates yield, told in order of time although it does not come so.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/files/internal/file_steps.h"
 
 #include <fcntl.h>

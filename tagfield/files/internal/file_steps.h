@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The steps that writing a file is made of. Each throws Error, and names the file.
 #pragma once

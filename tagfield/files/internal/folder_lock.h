@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Locks on folders, which end with the program that holds them, however it ends.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A folder of results takes the place of an earlier one in one step.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/files/internal/own_files.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which files of a folder Tagfield wrote, and what else is in it.
 #pragma once

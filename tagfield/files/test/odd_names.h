@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Names that try a table's quoting, for RapidCheck.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/fit/random_phases.h"
 
 #include <gtest/gtest.h>

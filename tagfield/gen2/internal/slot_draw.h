@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which tags reply in the next slot of a frame, without a look at all others.
 #pragma once

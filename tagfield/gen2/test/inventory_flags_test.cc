@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whom an inventory reads again, and when: sessions, targets, absence, and antennas that share
 // tags.
 #include <gtest/gtest.h>

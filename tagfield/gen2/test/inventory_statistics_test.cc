@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What chance does in inventories, against the laws of chance and against published figures. Bounds
 // of z are statistics::kNormalBound: a false alarm in a million for each use.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/gen2/tag_epc.h"
 
 #include <gtest/gtest.h>

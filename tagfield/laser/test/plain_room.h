@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A room from −6 m to 4 m along x and −3 m to 5 m along y, seen from inside.
 #pragma once

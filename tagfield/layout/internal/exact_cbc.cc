@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <coin/Cbc_C_Interface.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/layout/internal/layout_forecast.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a layout's inventory will read, over samples of tags.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Columns of a link matrix on disk, compressed, each under the hash of all that it depends on.
 #pragma once

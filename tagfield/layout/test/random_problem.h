@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Small problems of selection, drawn at random.
 #pragma once

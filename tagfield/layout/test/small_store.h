@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A shelf with a ceiling over it, small enough to plan in a test.
 #pragma once

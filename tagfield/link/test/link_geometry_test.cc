@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/link/link_geometry.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/live/internal/live_clock.h"
 
 namespace tagfield {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// When a live world's steps are due on the wall.
 #pragma once

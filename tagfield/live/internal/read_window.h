@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The last minutes of reads and antenna poses, from which tags are located again and again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a distance does to the phases of many channels: they fall apart by 4π Δf/c r. Each port's
 /// channels have offsets of their own, which only tags at known places or a calibration tell.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tags read by a few antennas at rest: strengths by a law that all tags tell together, and, where
 /// the offsets of the channels are known, distances by the phases of many channels.

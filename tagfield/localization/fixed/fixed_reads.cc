@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/fixed/fixed_reads.h"
 
 #include "tagfield/localization/judgement.h"

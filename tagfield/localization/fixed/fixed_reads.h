@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What antennas at rest read of a tag: a mean strength each, and a mean phase for each channel.
 #pragma once

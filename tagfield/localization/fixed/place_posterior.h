@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a tag is by strengths and distances: the posterior over an area, as fine as it is narrow.
 #pragma once

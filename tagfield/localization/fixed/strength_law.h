@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How strongly antennas at rest read tags over distance: RSSI = level + antenna − slope log₁₀ r +
 /// tag + fading, with the law learned from the tags themselves although their places are unknown.

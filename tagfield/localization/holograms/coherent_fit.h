@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Likelihood of places by wrapped phase: the waves of an aperture, turned back by the phase that a
 /// tag there would give, add up to S = Σ e^{j(φ − k r)}. With von Mises noise and the offset

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Phases as they were measured, not unwrapped, for the methods that add up waves
 /// (docs/methods.md): which reads may be added up, and over which stretches.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Differential augmented holograms, after Yang et al., "Tagoram: real-time tracking of mobile RFID
 /// tags to high precision using COTS devices", MobiCom 2014, doi 10.1145/2639108.2639111: phase

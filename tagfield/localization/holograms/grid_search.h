@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Search of an area for its brightest places, from coarse to fine: cells that were bright are
 /// split, and looked at more closely.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Search for the places that many phases agree on, over all the area where a tag could be read,
 /// from coarse to fine: short apertures first, whose lobes are wide, then ever longer ones on ever

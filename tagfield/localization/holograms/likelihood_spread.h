@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How far a likelihood spreads about one of its maxima, by sums over ever finer grids.
 #pragma once

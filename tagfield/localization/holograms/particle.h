@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Particles that stand for the places where a tag may be: spread over all the area in reach, then
 /// drawn ever more by the likelihood of the wrapped phases, whose offsets are eliminated.

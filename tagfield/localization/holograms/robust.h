@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Places amid reflections: by stretches of the way, each believed as far as its waves add up, and
 /// with an expected error that is the spread of their likelihood. docs/methods.md has the equations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Holograms, as of a synthetic aperture: the reads of one antenna and channel are added up as
 /// waves at each place of a grid, the sums of several antennas and channels by magnitude, and the

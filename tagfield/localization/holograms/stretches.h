@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Likelihood of places amid reflections: the way is cut into stretches, and each counts by how
 /// well its waves add up there. docs/methods.md has the equations.

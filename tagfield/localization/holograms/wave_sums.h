@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Waves of many reads added up at many places: the inner loop of all holograms.
 #pragma once

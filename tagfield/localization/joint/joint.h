@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All tags and the error of the believed poses estimated together. Each tag by itself can't tell
 /// where it is from where the antenna was; together they tell, as all share the antenna's error.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The normal equations of all tags and the pose error together, and their solution. Tags are
 /// coupled through the pose error alone, and that from knot to knot: either the chain of knots is

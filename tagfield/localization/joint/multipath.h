@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All tags and the pose error together, with a known world: what its reflections do to the phases
 /// is traced and taken out. docs/methods.md has the steps and the figures.

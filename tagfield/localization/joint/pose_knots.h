@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The error of the believed poses as unknowns: of each body that carries antennas, the error in x,
 /// y (and yaw) at knots in time, straight between them, an Ornstein-Uhlenbeck process beforehand.

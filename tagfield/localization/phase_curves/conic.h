@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The hyperbola on which a tag lies once its distance to two places of the antenna is known to
 /// differ by δ, and where two such curves meet. Curves live in the tag's plane, z = its height;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The paper's method: unwrapped phase, a hyperbola for each stride, all their intersections, the
 /// best by the quality E. docs/localization.md has the equations and the figures.

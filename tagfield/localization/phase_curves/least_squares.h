@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Least squares on unwrapped phase: the place and an offset for each stretch over which the phase
 /// could be followed. The idea is Phase ReLock's (Tzitzis et al., IEEE JRFID 3, 2019, doi

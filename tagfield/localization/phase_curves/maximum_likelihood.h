@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Maximum likelihood on wrapped phase: one offset for each antenna and channel, or none where it
 /// is known; whole cycles are what suits the place best.

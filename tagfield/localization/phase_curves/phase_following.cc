@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/phase_curves/phase_following.h"
 
 #include <Eigen/Core>

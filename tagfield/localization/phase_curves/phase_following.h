@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Phase histories without their jumps of 2π, followed by what the antenna's motion lets expect.
 #pragma once

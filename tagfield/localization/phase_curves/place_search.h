@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a tag may be at all, from unwrapped phase in the plane of its height: the minima of the
 /// misfit, among them mirror images.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Least squares on unwrapped phase in the plane of the tag's height: how well a place explains the
 /// segments, each of which has an offset of its own, and the best place near a given one.

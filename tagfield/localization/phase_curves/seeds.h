@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where to start looking for a tag: the intersections of hyperbolae, best first.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Phase histories without their jumps of 2π.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Distances of several tags from one scan, each known but poorly: tags on one shelf or wall are
 /// about as far away, and how nearly so is told by the tags themselves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tags beside a short straight scan, as along a rail, amid reflections: phase and RSSI together as
 /// a field that comes by two paths, and the distances of all tags pooled. docs/methods.md has the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a tag's reads along a straight scan tell of the field there: one complex number a place of
 /// the antenna, all channels together.

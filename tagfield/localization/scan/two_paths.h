@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How likely places are if a tag's field along a straight scan comes by two paths: straight from
 /// the tag, and, weaker, from anywhere else (a wall, a shelf, a tag nearby).

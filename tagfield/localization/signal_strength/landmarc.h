@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Nearest reference tags in signal space, after Ni et al., "LANDMARC: indoor location sensing
 /// using active RFID", PerCom 2003, doi 10.1109/PERCOM.2003.1192765. docs/methods.md.

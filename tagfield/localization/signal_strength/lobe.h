@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Gain of an antenna over direction, as far as a data sheet tells it: a lobe about the boresight.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Signal strengths of a tag, averaged over short stretches of the antennas' ways or of time, for
 /// the methods that go by RSSI.

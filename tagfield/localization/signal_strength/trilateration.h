@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Distances from signal strength: RSSI falls by a straight line over the logarithm of the
 /// distance, whose slope and height are estimated too. docs/methods.md has the equations and the

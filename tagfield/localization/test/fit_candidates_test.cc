@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/fit_candidates.h"
 
 #include <gtest/gtest.h>

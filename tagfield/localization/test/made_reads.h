@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reads made for the tests of this room, by no code of the simulator: eq. (3) of the paper with
 /// normal phase noise, a perturbed range, and a path of a few shapes.

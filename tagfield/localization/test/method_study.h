@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Statistics of a method's errors over many made tags, for the tests of any method.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Problems for the methods, from made reads (made_reads.h).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Reflections for made reads: mirror images of the tag behind planes, whose waves add to the
 /// direct one on the way there and on the way back.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Grey images in the PGM format (netpbm).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Marks of the cells that the beams of one scan pass.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A robot that drives in a world of its own, for tests: unicycle, laser, people; and what it
 /// touches.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives among people and boxes that are not on the map.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What mapper, localizer and driver make of scans and poses that nobody should send them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A room for the tests of mapping and localization: walls, boxes, and a robot's drive in it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drives through the project's warehouse.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/planning/internal/antenna_place.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// An antenna in one place, asked for many tags.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What tags and readers beside a link do to it.
 #pragma once

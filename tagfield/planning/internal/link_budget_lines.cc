@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/planning/internal/link_budget_lines.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which of the scenario's own tags are read, and by which antenna.
 #pragma once

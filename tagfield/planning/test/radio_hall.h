@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Small physical scenarios whose links have closed forms.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What can be seen through a chain of mirrors.
 #pragma once

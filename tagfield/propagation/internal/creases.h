@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a solid's surface is bent or ends, in pieces as its triangles have them.
 #pragma once

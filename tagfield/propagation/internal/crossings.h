@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Surfaces that a leg meets to the solids that it goes through.
 #pragma once

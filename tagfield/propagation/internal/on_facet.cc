@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/propagation/internal/on_facet.h"
 
 #include <Eigen/Geometry>

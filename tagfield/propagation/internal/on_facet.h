@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Exactly which points of its plane a facet has.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A solid's triangles with the vertices that share a place made one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Rays and mirrors the slow way: every triangle and every facet, in double precision.
 #pragma once

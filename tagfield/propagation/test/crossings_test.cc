@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the straight way and mirrored ways go through, in closed form.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths traced with what stopped them before against those traced without, to the last bit.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

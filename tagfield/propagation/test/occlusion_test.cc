@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The straight way against every triangle of a world.
 #include <gtest/gtest.h>
 

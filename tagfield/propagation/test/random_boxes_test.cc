@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boxes anywhere against all sequences of their faces.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A rectangular room against the lattice of its images: J. Allen, D. Berkley, Image method for
 // efficiently simulating small-room acoustics, J. Acoust. Soc. Am. 65(4), 1979.
 #include <gtest/gtest.h>

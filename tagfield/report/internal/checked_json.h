@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// JSON from outside, read with a check at each step. Every complaint names the file and the path
 /// of the value: "summary.json: tags[3].truth_m[0] is a string, expected a number".

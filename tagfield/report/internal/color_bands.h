@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Values as bands of colour, for maps of cells: few enough to be told apart, on white and on
 /// near-black.

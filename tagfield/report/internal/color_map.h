@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Strength as a colour, as in the paper's Figs. 13 and 14: low blue, middle green, high red, and
 /// the weaker the more transparent.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Errors grouped by tag, for figures and tables over one seed or several.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/report/internal/fixed_rssi.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// RSSI of all tags at the fixed antenna, for the two figures that show it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// An inventory on the page: the numbers first, then who reads what.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Maps of cells as the outlines of what they hold, which a drawing carries lightly.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A part of the world from above as a drawing: the ground of Figs. 9, 13 and 14.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether every tag of a markup is closed in its turn.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Small run folders for the tests: an antenna that drives a square, one that stands, three tags.
 #pragma once

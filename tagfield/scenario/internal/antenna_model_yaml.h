@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What an antenna of a scenario is simulated by: the paper's model or a physical one, each with
 /// keys of its own.

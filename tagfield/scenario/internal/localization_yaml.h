@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The keys `localization` and `tracking` of a scenario.
 #pragma once

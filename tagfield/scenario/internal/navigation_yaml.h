@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The parts of a scenario that say how robots find their way.
 #pragma once

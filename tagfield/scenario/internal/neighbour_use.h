@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether what a scenario says of readers and tags beside one another does anything.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/internal/radio_yaml.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/internal/tag_table.h"
 
 #include <fmt/format.h>

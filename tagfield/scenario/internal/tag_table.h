@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Many tags at rest as a CSV table.
 #pragma once

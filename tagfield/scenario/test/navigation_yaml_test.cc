@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/scenario/internal/navigation_yaml.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Frames of a model or a world by their names (SDF's "pose frame semantics").
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The models of a world or model file, with what they include.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Elements that SDF doesn't have, as misspelt ones, which would go unnoticed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Work that may go wrong in a library: done by a process of its own, so that nothing but it is
 /// lost.

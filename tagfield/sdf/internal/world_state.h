@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a world's models stand that was saved while it ran: its <state>, as Gazebo 11 applies it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where XML is malformed, which tinyxml2 tells by the line in which it gave up.
 #pragma once

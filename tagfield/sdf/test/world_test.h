@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the tests of load_world share: a folder of files of their own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// One key of the physical models: what it is for, and how its value is taken.
 #pragma once

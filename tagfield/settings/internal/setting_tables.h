@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All keys of an antenna and of a tag.
 #pragma once

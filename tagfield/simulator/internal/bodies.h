@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Robots and obstacles as waves meet them.
 #pragma once

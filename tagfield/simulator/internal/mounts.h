@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where antennas and tags are by their specifications: on lifts, and by the rows of a recording.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A robot that finds its way by itself, put into a run.
 #pragma once

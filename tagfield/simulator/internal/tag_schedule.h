@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Which tags of a scenario come and go, and when.
 #pragma once

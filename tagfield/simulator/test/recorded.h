@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scenarios run from start to end, for tests of what came out.
 #pragma once

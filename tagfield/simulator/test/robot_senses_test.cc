@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/simulator/robot_senses.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A small world for tests of what robots do by themselves.
 #pragma once

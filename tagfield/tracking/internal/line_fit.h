@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A tag on a straight line at constant speed: how well it explains a pass, and the fit of it.
 #pragma once

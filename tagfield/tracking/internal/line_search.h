@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a pass may have begun and how fast it went, found without any first guess.
 #pragma once

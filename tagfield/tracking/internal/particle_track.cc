@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tagfield/tracking/internal/particle_track.h"
 
 #include <Eigen/Cholesky>

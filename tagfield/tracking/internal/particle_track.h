@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Particle filter of one pass, on wrapped phases.
 #pragma once

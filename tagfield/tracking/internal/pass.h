@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// All reads of one tag in order of time, as tracking looks at them.
 #pragma once

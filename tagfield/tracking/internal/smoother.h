@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Kalman filter and smoother of one pass, on wrapped phases.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Tags on the move past antennas at rest, made for the tests of this room by no code of the
 /// simulator: eq. (3) of the paper with normal phase noise.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Embree 3 and 4 as one: what their calls differ in. Which it is, CMake says by TAGFIELD_EMBREE.
 #pragma once

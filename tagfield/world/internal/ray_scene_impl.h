@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What RayScene keeps, for its sources.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// A measure of meshes that does not depend on how they were made.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RayScene::surfaces() against each triangle, in double precision.
 #include <gtest/gtest.h>
 

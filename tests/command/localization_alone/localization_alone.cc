@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads of one tag from a straight way past it, φ = 4πr/λ, are located: with the installed
 // libraries of localization alone.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A system plugin for tests: writes down where all collisions of the world are before its first
 // step, and ends the server. The environment's TAGFIELD_POSES names the file; a line a collision:
 //

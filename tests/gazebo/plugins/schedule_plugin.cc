@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world plugin for tests: does things at given simulated times, and writes down which models
 // there really are. Its SDF holds
 //

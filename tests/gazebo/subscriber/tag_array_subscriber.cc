@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A subscriber as a user of the published plugin has it: it knows rfid_sensor/TagArray (from a
 // package of its own) and nothing of Tagfield. Prints each message as a line of JSON.
 //

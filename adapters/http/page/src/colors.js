@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of what is drawn: materials, RSSI as in the seed paper's Figs. 13 and 14, margins,
 // antennas.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elements in one call. Text goes in as text only: what a server says is never taken for HTML.
 
 export function h(name, properties = {}, ...children) {

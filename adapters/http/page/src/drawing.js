@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world in three dimensions: all layers on one stage.
 
 import {Box3, Vector3} from "three";

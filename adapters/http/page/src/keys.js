@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The keyboard: time, views and search everywhere, turning and zooming while the drawing has the
 // focus.
 

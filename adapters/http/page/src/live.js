@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A server that goes on: fetches the world, follows its frames, sends commands, comes back by
 // itself.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One page for a live world, a recorded run that a server holds, and one that lies in the page
 // itself.
 

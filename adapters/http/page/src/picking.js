@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What lies under a pixel: a tag or antenna near it, or the place of the world that is seen there.
 
 import {Matrix4, Plane, Raycaster, Vector2, Vector3} from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads in the order in which they came, in columns. A live log drops its older half when it is
 // full; a recorded one holds the whole run and shows it up to `end`.
 

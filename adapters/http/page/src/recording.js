@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recorded run: any of its moments, forwards or backwards.
 
 import {ReadLog} from "./reads.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The range of RSSI that the colours span: −80 to −40 dBm, widened in steps of 10 dB by what is
 // read.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Camera, light and the loop: a frame is drawn only when something asked for one.
 
 import {

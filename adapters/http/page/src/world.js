@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is known of the world at one moment, wherever it came from: a server that goes on, or a
 // recorded run. Tags and antennas keep their index for as long as the page is open; one that is
 // gone is marked as absent, so that reads of it still point to something.

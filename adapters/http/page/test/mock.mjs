@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A server that speaks the page's contract without the simulator: the reads of a real run, going
 // round and round, and as many synthetic tags as asked for. For the page's own tests and for
 // working on it.

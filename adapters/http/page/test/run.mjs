@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run's folder and its world's SDF as GET /api/run gives them: real reads for the mock server.
 
 import {existsSync, readFileSync} from "node:fs";

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Plays a scenario into ROS 2 whose robot is driven from outside, with RViz beside it.
 
     ros2 launch tagfield_bringup drive.launch.py scenario:=scenarios/paper_warehouse_slam.yaml

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Nav2 drives the robot of a scenario to goals (RViz: 2D Goal Pose).
 
     ros2 launch tagfield_bringup navigation.launch.py scenario:=scenarios/paper_warehouse_slam.yaml

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Plays a scenario into ROS 2, with RViz beside it.
 
     ros2 launch tagfield_bringup run.launch.py scenario:=scenarios/paper_warehouse.yaml speed:=2

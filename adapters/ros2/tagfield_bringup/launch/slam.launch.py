@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """slam_toolbox maps the world of a scenario, whose robot somebody drives.
 
     ros2 launch tagfield_bringup slam.launch.py scenario:=scenarios/paper_warehouse_slam.yaml

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Antennas at rest and the tags that they read: what strengths and phases of all of them tell.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the phases of antennas at rest say of places, and how far they can be trusted.
 #pragma once

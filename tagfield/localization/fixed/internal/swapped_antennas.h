@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Whether two antennas at rest must have been exchanged: ports mixed up, or poses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What the paths of a known world do to a tag's phases about a place, and the phases without it.
 #pragma once

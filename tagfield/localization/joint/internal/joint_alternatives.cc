@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other places that explain the reads as well.
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The normal equations of a JointSystem where it stands: a chain of blocks for the pose error's
 /// knots, and a border for the tags.

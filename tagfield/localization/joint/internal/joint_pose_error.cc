@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Learns how strong the pose error is, and how slow.
 #include <utility>
 

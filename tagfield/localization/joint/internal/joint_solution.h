@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Solution of a JointSystem's normal equations, with the chain of knots eliminated first or the
 /// tags, whichever is less work.

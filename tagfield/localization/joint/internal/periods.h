@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// When there were reads: periods of time, parted by pauses.
 #pragma once

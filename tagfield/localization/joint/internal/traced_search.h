@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Where a tag most likely is in a known world, looked for about a rough estimate.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antennas: a plate that looks along its boresight, the half-power part of its beam or the paper's
 // sphere of range, and the trail of one that moves.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where an antenna would read a tag, as a coloured layer at one height.
 
 import {

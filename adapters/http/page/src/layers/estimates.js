@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where tags were located: a cross, the error ellipse of 95 %, and a line to the true place.
 
 import {BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments} from "three";

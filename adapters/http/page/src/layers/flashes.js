@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads as lines between antenna and tag that fade; the fading is the shader's work.
 
 import {

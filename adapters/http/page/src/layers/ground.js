@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Floor, metre grid, map and the robots' paths.
 
 import {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paths of one link, as `explain` gives them: the direct way, reflections, diffraction.
 
 import {

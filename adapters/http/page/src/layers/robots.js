@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Robots: a simple body half a metre wide with its heading, and what its laser sees.
 
 import {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world's solids: boxes, cylinders and spheres instanced by shape, meshes as they are. Walls
 // and roofs between camera and hall turn into glass, so that one can look in from outside.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tags as discs that always face the camera, all in three draw calls (those behind something,
 // those in sight, those read of late): coloured by RSSI with opacity where read of late, a ring
 // where read before, grey where never.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `explain` as a page: the verdict, the link budget line by line as a waterfall, what the reader
 // makes of it, and the strongest paths.
 

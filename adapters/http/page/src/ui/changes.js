@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes and faults of a live world: tags, antennas and obstacles come, go and move.
 
 import {h, setText} from "../dom.js";

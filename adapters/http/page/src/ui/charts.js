@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Phase and RSSI of one tag over the last while: a small canvas each, one colour an antenna.
 
 import {antennaColor} from "../colors.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is known of the tag or antenna that is selected.
 
 import {antennaColor, MARGINS} from "../colors.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page's parts, empty: what stands where. It lives in a shadow root, so that the page around it
 // and its style don't touch each other.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the colours of the world mean.
 
 import {rssiCss} from "../colors.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists of tags and antennas with a search: the world for keyboard and screen reader.
 
 import {antennaColor, rssiCss} from "../colors.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bar of time: pause, step and speed of a live world; play, slider and speed of a recorded one.
 
 import {fixed, h, setText} from "../dom.js";
