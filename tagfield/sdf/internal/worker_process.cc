@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/sdf/internal/worker_process.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <new>
 #include <sstream>
 
@@ -37,10 +38,32 @@ struct Head {
   bool is_complaint = false;
 };
 
-bool send_all(int socket, const void* data, std::size_t size) {
+/// While it lives, a reader that is gone is an error of write() and no signal.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    (void)::sigemptyset(&set_);
+    (void)::sigaddset(&set_, SIGPIPE);
+    (void)::pthread_sigmask(SIG_BLOCK, &set_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec at_once{};
+    while (::sigtimedwait(&set_, nullptr, &at_once) > 0) {
+    }
+    (void)::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+ private:
+  sigset_t set_{}, before_{};
+};
+
+bool send_all(int pipe, const void* data, std::size_t size) {
+  const NoPipeSignal quiet;
   const char* left = static_cast<const char*>(data);
   while (size > 0) {
-    const ssize_t count = ::send(socket, left, size, MSG_NOSIGNAL);
+    const ssize_t count = ::write(pipe, left, size);
     if (count < 0 && errno != EINTR) return false;
     if (count <= 0) continue;
     left += count;
@@ -49,10 +72,10 @@ bool send_all(int socket, const void* data, std::size_t size) {
   return true;
 }
 
-bool receive_all(int socket, void* data, std::size_t size) {
+bool receive_all(int pipe, void* data, std::size_t size) {
   char* left = static_cast<char*>(data);
   while (size > 0) {
-    const ssize_t count = ::recv(socket, left, size, 0);
+    const ssize_t count = ::read(pipe, left, size);
     if (count == 0 || (count < 0 && errno != EINTR)) return false;
     if (count < 0) continue;
     left += count;
@@ -61,15 +84,15 @@ bool receive_all(int socket, void* data, std::size_t size) {
   return true;
 }
 
-bool send_message(int socket, Head head, const std::string& text) {
+bool send_message(int pipe, Head head, const std::string& text) {
   head.size = text.size();
-  return send_all(socket, &head, sizeof(head)) && send_all(socket, text.data(), text.size());
+  return send_all(pipe, &head, sizeof(head)) && send_all(pipe, text.data(), text.size());
 }
 
-bool receive_message(int socket, Head& head, std::string& text) {
-  if (!receive_all(socket, &head, sizeof(head))) return false;
+bool receive_message(int pipe, Head& head, std::string& text) {
+  if (!receive_all(pipe, &head, sizeof(head))) return false;
   text.resize(head.size);
-  return receive_all(socket, text.data(), text.size());
+  return receive_all(pipe, text.data(), text.size());
 }
 
 /// Writable memory that this process has taken [bytes]: the sixth number of statm, in pages.
@@ -99,41 +122,51 @@ rlimit limit_of(__rlimit_resource resource) {
   return limit;
 }
 
-[[noreturn]] void throw_system_error(const std::string& what) {
-  throw Error(fmt::format("{}: no process of its own to read it: {}", what, std::strerror(errno)));
+[[noreturn]] void throw_system_error(const std::string& what, int error) {
+  throw Error(fmt::format("{}: no process of its own to read it: {}", what, std::strerror(error)));
 }
 
 }  // namespace
 
 WorkerProcess::~WorkerProcess() {
   if (child_ < 0) return;
-  ::close(socket_);
+  close_pipes();
   while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
 
-void WorkerProcess::start(const std::string& what) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw_system_error(what);
-  }
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(ends[0]);
-    answer_all(ends[1]);
-  }
-  const int error = errno;
-  ::close(ends[1]);
-  if (child < 0) {
-    ::close(ends[0]);
-    errno = error;
-    throw_system_error(what);
-  }
-  child_ = child;
-  socket_ = ends[0];
+void WorkerProcess::close_pipes() const {
+  ::close(requests_);
+  ::close(answers_);
 }
 
-void WorkerProcess::answer_all(int socket) const {
+void WorkerProcess::start(const std::string& what) {
+  std::array<int, 2> requests{};
+  std::array<int, 2> answers{};
+  if (::pipe2(requests.data(), O_CLOEXEC) != 0) throw_system_error(what, errno);
+  if (::pipe2(answers.data(), O_CLOEXEC) != 0) {
+    const int error = errno;
+    ::close(requests[0]);
+    ::close(requests[1]);
+    throw_system_error(what, error);
+  }
+  child_ = ::fork();
+  const int error = errno;
+  if (child_ == 0) {
+    ::close(requests[1]);
+    ::close(answers[0]);
+    answer_all(requests[0], answers[1]);
+  }
+  ::close(requests[0]);
+  ::close(answers[1]);
+  requests_ = requests[1];
+  answers_ = answers[0];
+  if (child_ >= 0) return;
+  close_pipes();
+  throw_system_error(what, error);
+}
+
+void WorkerProcess::answer_all(int requests, int answers) const {
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGXCPU}) {
     (void)std::signal(number, SIG_DFL);
   }
@@ -142,7 +175,7 @@ void WorkerProcess::answer_all(int socket) const {
   const rlimit memory = limit_of(RLIMIT_DATA);
   Head head;
   std::string text;
-  while (receive_message(socket, head, text)) {
+  while (receive_message(requests, head, text)) {
     set_limit(RLIMIT_CPU, seconds, taken_seconds() + head.limits.seconds);
     head.is_complaint = false;
     try {
@@ -160,7 +193,7 @@ void WorkerProcess::answer_all(int socket) const {
       head.is_complaint = true;
     }
     set_limit(RLIMIT_DATA, memory, memory.rlim_cur);
-    if (!send_message(socket, head, text)) break;
+    if (!send_message(answers, head, text)) break;
   }
   ::_exit(0);
 }
@@ -168,7 +201,7 @@ void WorkerProcess::answer_all(int socket) const {
 std::string WorkerProcess::how_it_ended(const WorkLimits& limits) {
   int status = 0;
   pid_t ended = 0;
-  ::close(socket_);
+  close_pipes();
   do {
     ended = ::waitpid(child_, &status, 0);
   } while (ended < 0 && errno == EINTR);
@@ -186,7 +219,7 @@ std::string WorkerProcess::ask(const std::string& what, const WorkLimits& limits
   Head head;
   head.limits = limits;
   std::string answer;
-  if (!send_message(socket_, head, request) || !receive_message(socket_, head, answer)) {
+  if (!send_message(requests_, head, request) || !receive_message(answers_, head, answer)) {
     throw Error(what + ": " + how_it_ended(limits));
   }
   if (!head.is_complaint) return answer;

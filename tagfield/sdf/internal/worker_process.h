@@ -35,12 +35,14 @@ class WorkerProcess {
 
  private:
   void start(const std::string& what);
-  [[noreturn]] void answer_all(int socket) const;
+  void close_pipes() const;
+  [[noreturn]] void answer_all(int requests, int answers) const;
   [[nodiscard]] std::string how_it_ended(const WorkLimits& limits);
 
   std::function<std::string(const std::string&)> work_;
   pid_t child_ = -1;
-  int socket_ = -1;
+  int requests_ = -1;  ///< Where they are written to.
+  int answers_ = -1;
 };
 
 }  // namespace tagfield

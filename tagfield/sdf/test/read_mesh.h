@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Meshes, one at a time.
 #pragma once
 
 #include <string>

@@ -34,7 +34,7 @@ std::string error_of(WorkerProcess& process, const std::string& request, unsigne
 
 TEST(WorkerProcess, AnswersOneRequestAfterTheOther) {
   WorkerProcess process(work);
-  std::string long_text(3'000'000, '\0');  // Far more than a socket holds.
+  std::string long_text(3'000'000, '\0');  // Far more than a pipe holds.
   long_text.back() = 'x';
   for (const std::string& text : {std::string(), std::string("R"), long_text}) {
     EXPECT_EQ(process.ask("it", {}, text), text + text);
