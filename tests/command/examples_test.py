@@ -274,7 +274,7 @@ def planning_environment(context):
     package = context.build / "lib/python"
     if not any(package.glob("tagfield/_core*.so")):
         raise Skip("the Python package is not built")
-    example = context.source / "examples/09_planning_environment/read_aware_env.py"
+    example = context.source / "examples/10_planning_environment/read_aware_env.py"
     result = run(["env", f"PYTHONPATH={package}", "/usr/bin/python3", "-B", example])
     check_equal(result.code, 0, f"exit code: {result.err[-300:]}")
     told = dict(re.findall(r"^(\w+): (\d+) of 10 tags", result.out, re.MULTILINE))

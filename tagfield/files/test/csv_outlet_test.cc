@@ -108,7 +108,7 @@ TEST(CsvOutlet, RefusesDopplerThatComesTooLateForItsColumn) {
   CsvOutlet outlet(folder);
   outlet.on_read(read_at(1));
   EXPECT_TRUE(contains(error_of([&] { outlet.on_antenna_added(antenna("late", true, true)); }),
-                       "'late' tells Doppler"));
+                       "'late' reports Doppler"));
 }
 
 TEST(CsvOutlet, LeavesNothingWhereARunDidNotBegin) {

@@ -102,7 +102,7 @@ TEST(DriveRoute, PlansAnewOnANewMapAndKeepsItsWayIfItMust) {
   senses.set_map(map);
   route.map_changed();
   EXPECT_FALSE(route.follow(senses, kStart, at_second(4.0)));
-  EXPECT_NE(route.refusal().find("no way"), std::string::npos);
+  EXPECT_NE(route.refusal().find("no path"), std::string::npos);
   EXPECT_GT(farthest_aside(route), 1.4);
 }
 

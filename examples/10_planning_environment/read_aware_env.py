@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """An environment for read-aware planning, in Gymnasium's way: drive so that every tag is read often.
 
-    PYTHONPATH=build/release/lib/python python3 examples/09_planning_environment/read_aware_env.py
+    PYTHONPATH=build/release/lib/python python3 examples/10_planning_environment/read_aware_env.py
 
 An action is a velocity and a turn rate, held for a second; an observation is where the robot believes to
 be and how often it has read each tag; a reward is each read that a tag still needs, less what time and
