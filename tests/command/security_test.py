@@ -119,8 +119,9 @@ def a_scenarios_name_leads_nowhere_else(context):
 
 @case
 def no_process_is_started(context):
-    """By the program's own imports: what can start another one is a bench's method that is a command, alone,
-    which must be allowed (bench_test.py)."""
+    """By the program's own imports. What can start another program is a bench's method that is a command, which must
+    be allowed (bench_test.py), and `doctor`, which asks by commands of its own source. fork() makes the copy of this
+    program in which meshes are read (sdf/internal/worker_process.h)."""
     if shutil.which("nm") is None:
         raise Skip("nm is missing (binutils)")
 
@@ -129,7 +130,7 @@ def no_process_is_started(context):
         return re.findall(r"\b(system|popen|execve?|execl[pe]?|execvp?e?|posix_spawnp?|fork|vfork)@", imports)
 
     check(starters("/bin/bash"), "nothing is found where there is something")
-    check_equal(starters(context.tagfield), ["posix_spawn"], "what it imports")
+    check_equal(sorted(starters(context.tagfield)), ["fork", "popen", "posix_spawn"], "what it imports")
 
 
 if __name__ == "__main__":
