@@ -61,6 +61,7 @@ endmacro()
 
 set(CPACK_COMPONENTS_ALL "")
 if(TAGFIELD_COMMAND)
+  tagfield_loaded_packages(loaded tagfield_archive tagfield_epcis tagfield_layout tagfield_mqtt tagfield_ros2_dds)
   tagfield_package(data tagfield-common SECTION science
     SUMMARY "simulator of UHF RFID: scenarios, worlds, profiles"
     DESCRIPTION "Scenarios, worlds, profiles of readers, antennas and tags, models for Gazebo\n\
@@ -73,7 +74,7 @@ with the phase and RSSI of each read, and locates the tags from them; plans\n\
 where antennas go, compares localization methods, and serves a live world\n\
 over HTTP, LLRP, MQTT and ROS 2."
     DEPENDS "tagfield-common (= ${PROJECT_VERSION})"
-    RECOMMENDS bash-completion libcurl4 man-db
+    RECOMMENDS bash-completion man-db ${loaded}
     SUGGESTS python3-tagfield tagfield-mpi chromium mosquitto)
   if(TARGET tagfield_sweep_mpi)
     tagfield_package(mpi tagfield-mpi SECTION science
@@ -96,6 +97,7 @@ if(TARGET tagfield_python)
   get_target_property(python_version tagfield_python TAGFIELD_PYTHON_VERSION)
   string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" python_version "${python_version}")
   math(EXPR next_minor "${CMAKE_MATCH_2} + 1")
+  tagfield_loaded_packages(loaded tagfield_archive tagfield_layout)
   tagfield_package(python python3-tagfield SECTION python
     SUMMARY "simulator of UHF RFID: Python package"
     DESCRIPTION "The package tagfield for Python: runs as NumPy arrays, worlds and scenarios\n\
@@ -103,7 +105,7 @@ made in Python, localization methods and outlets as functions, plots."
     DEPENDS "python3 (>= ${python_version})"
       "python3 (<< ${CMAKE_MATCH_1}.${next_minor})" python3-numpy
       "tagfield-common (= ${PROJECT_VERSION})"
-    RECOMMENDS python3-matplotlib python3-pandas
+    RECOMMENDS python3-matplotlib python3-pandas ${loaded}
     SUGGESTS tagfield)
 endif()
 if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/archive/unpacked_archive.h"
 
-#include <archive.h>
-#include <archive_entry.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "adapters/archive/libarchive.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -18,29 +17,29 @@ namespace fs = std::filesystem;
 namespace {
 
 struct FreeArchive {
-  void operator()(archive* of) const { archive_read_free(of); }
+  void operator()(archive* of) const { libarchive().read_free(of); }
 };
 using OpenArchive = std::unique_ptr<archive, FreeArchive>;
 
 [[noreturn]] void fail_to_read(const std::string& path, archive* of) {
-  const char* why = archive_error_string(of);
+  const char* why = libarchive().error_string(of);
   fail({path, 0}, fmt::format("can't be unpacked: {}", why == nullptr ? "damaged" : why));
 }
 
 /// Only what libarchive reads by itself: no other programs are started.
 OpenArchive opened(const std::string& path) {
-  OpenArchive of(archive_read_new());
+  OpenArchive of(libarchive().read_new());
   if (!of) throw Error(path + ": can't be read: out of memory");
-  archive_read_support_filter_gzip(of.get());
-  archive_read_support_filter_xz(of.get());
-  archive_read_support_filter_zstd(of.get());
+  libarchive().read_support_filter_gzip(of.get());
+  libarchive().read_support_filter_xz(of.get());
+  libarchive().read_support_filter_zstd(of.get());
   if (path.find(".csv.") == std::string::npos) {
-    archive_read_support_format_tar(of.get());
+    libarchive().read_support_format_tar(of.get());
   } else {
-    archive_read_support_format_raw(of.get());
+    libarchive().read_support_format_raw(of.get());
   }
   constexpr std::size_t kBlock = 1U << 16U;
-  if (archive_read_open_filename(of.get(), path.c_str(), kBlock) != ARCHIVE_OK) {
+  if (libarchive().read_open_filename(of.get(), path.c_str(), kBlock) != ARCHIVE_OK) {
     fail_to_read(path, of.get());
   }
   return of;
@@ -90,7 +89,7 @@ class Unpacking {
   }
 
   bool next(archive_entry*& entry) {
-    const int status = archive_read_next_header(archive_.get(), &entry);
+    const int status = libarchive().read_next_header(archive_.get(), &entry);
     if (status == ARCHIVE_EOF) return false;
     if (status != ARCHIVE_OK) fail_to_read(path_, archive_.get());
     return true;
@@ -99,16 +98,16 @@ class Unpacking {
   /// As a compressed table libarchive takes whatever it is given; filters beside the last, which is
   /// none, undo a compression.
   void require_compression() const {
-    if (archive_format(archive_.get()) != ARCHIVE_FORMAT_RAW) return;
-    if (archive_filter_count(archive_.get()) < 2) {
+    if (libarchive().format(archive_.get()) != ARCHIVE_FORMAT_RAW) return;
+    if (libarchive().filter_count(archive_.get()) < 2) {
       fail({path_, 0}, "can't be unpacked: it is not compressed");
     }
   }
 
   /// Where the entry comes to be. Throws Error unless that is inside of the folder.
   [[nodiscard]] fs::path place_of(archive_entry* entry) const {
-    if (archive_format(archive_.get()) == ARCHIVE_FORMAT_RAW) return fs::path(path_).stem();
-    const char* name = archive_entry_pathname(entry);
+    if (libarchive().format(archive_.get()) == ARCHIVE_FORMAT_RAW) return fs::path(path_).stem();
+    const char* name = libarchive().entry_pathname(entry);
     if (name == nullptr) refuse("a file without a name");
     fs::path place = fs::path(name).lexically_normal();
     if (place.empty() || place.is_absolute() || *place.begin() == "..") {
@@ -119,11 +118,12 @@ class Unpacking {
 
   void unpack(archive_entry* entry) {
     const fs::path place = place_of(entry);
-    if (archive_entry_symlink(entry) != nullptr || archive_entry_hardlink(entry) != nullptr) {
+    if (libarchive().entry_symlink(entry) != nullptr ||
+        libarchive().entry_hardlink(entry) != nullptr) {
       refuse(fmt::format("the link '{}'", place.string()));
     }
-    if (archive_entry_filetype(entry) == AE_IFDIR || place.extension() != ".csv") return;
-    if (archive_entry_filetype(entry) != AE_IFREG) {
+    if (libarchive().entry_filetype(entry) == AE_IFDIR || place.extension() != ".csv") return;
+    if (libarchive().entry_filetype(entry) != AE_IFREG) {
       refuse(fmt::format("'{}', which is no file", place.string()));
     }
     const fs::path target = folder_ / place;
@@ -136,7 +136,7 @@ class Unpacking {
     std::ofstream file(target, std::ios::binary);
     std::array<char, std::size_t{1} << 16U> block{};
     while (true) {
-      const la_ssize_t count = archive_read_data(archive_.get(), block.data(), block.size());
+      const la_ssize_t count = libarchive().read_data(archive_.get(), block.data(), block.size());
       if (count < 0) fail_to_read(path_, archive_.get());
       if (count == 0) break;
       bytes_ += static_cast<std::uint64_t>(count);

@@ -2,7 +2,6 @@
 #include "adapters/mqtt/mqtt_client.h"
 
 #include <fmt/format.h>
-#include <mosquitto.h>
 
 #include <algorithm>
 #include <condition_variable>
@@ -11,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "adapters/mqtt/libmosquitto.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -27,7 +27,7 @@ constexpr std::chrono::milliseconds kGoodbye(300);
 constexpr std::size_t kMostHanded = 200;
 
 void init_library() {
-  static const int once = mosquitto_lib_init();
+  static const int once = libmosquitto().lib_init();
   (void)once;
 }
 
@@ -43,20 +43,20 @@ class MqttClient::Impl {
   Impl(const MqttUrl& url, MqttOptions options)
       : options_(std::move(options)), name_(broker_name(url)) {
     init_library();
-    client_ = mosquitto_new(nullptr, true, this);
+    client_ = libmosquitto().new_(nullptr, true, this);
     if (client_ == nullptr) throw Error("MQTT: there is not enough memory");
     try {
       set_up(url);
       connect(url);
     } catch (...) {
-      mosquitto_destroy(client_);
+      libmosquitto().destroy(client_);
       throw;
     }
   }
 
   ~Impl() {
     finish(options_.patience);
-    mosquitto_destroy(client_);
+    libmosquitto().destroy(client_);
   }
 
   Impl(const Impl&) = delete;
@@ -109,25 +109,26 @@ class MqttClient::Impl {
  private:
   void set_up(const MqttUrl& url) {
     if (!url.user.empty()) {
-      require(mosquitto_username_pw_set(client_, url.user.c_str(),
-                                        url.password.empty() ? nullptr : url.password.c_str()));
+      require(libmosquitto().username_pw_set(
+          client_, url.user.c_str(), url.password.empty() ? nullptr : url.password.c_str()));
     }
-    if (url.has_tls) require(mosquitto_int_option(client_, MOSQ_OPT_TLS_USE_OS_CERTS, 1));
-    require(mosquitto_max_inflight_messages_set(client_, static_cast<unsigned>(kMostHanded)));
-    require(mosquitto_threaded_set(client_, true));
-    mosquitto_connect_callback_set(client_, [](mosquitto*, void* self, int code) {
+    if (url.has_tls) require(libmosquitto().int_option(client_, MOSQ_OPT_TLS_USE_OS_CERTS, 1));
+    require(libmosquitto().max_inflight_messages_set(client_, static_cast<unsigned>(kMostHanded)));
+    require(libmosquitto().threaded_set(client_, true));
+    libmosquitto().connect_callback_set(client_, [](mosquitto*, void* self, int code) {
       static_cast<Impl*>(self)->on_connect(code);
     });
-    mosquitto_disconnect_callback_set(client_, [](mosquitto*, void* self, int code) {
+    libmosquitto().disconnect_callback_set(client_, [](mosquitto*, void* self, int code) {
       static_cast<Impl*>(self)->on_disconnect(code);
     });
-    mosquitto_publish_callback_set(client_, [](mosquitto*, void* self, int /*message*/) {
+    libmosquitto().publish_callback_set(client_, [](mosquitto*, void* self, int /*message*/) {
       static_cast<Impl*>(self)->on_acknowledged();
     });
   }
 
   void connect(const MqttUrl& url) {
-    const int code = mosquitto_connect_async(client_, url.host.c_str(), url.port, kKeepalive_s);
+    const int code =
+        libmosquitto().connect_async(client_, url.host.c_str(), url.port, kKeepalive_s);
     if (code == MOSQ_ERR_EAI)
       throw Error(fmt::format("MQTT: the host '{}' is not known", url.host));
     if (code == MOSQ_ERR_INVAL) require(code);
@@ -137,14 +138,14 @@ class MqttClient::Impl {
 
   /// libmosquitto's own thread gives up where the first attempt fails.
   void serve() {
-    while (mosquitto_loop(client_, kLoop_ms, 1) == MOSQ_ERR_SUCCESS || wait_to_reconnect()) {
+    while (libmosquitto().loop(client_, kLoop_ms, 1) == MOSQ_ERR_SUCCESS || wait_to_reconnect()) {
       const std::lock_guard lock(mutex_);
       if (is_ending_) break;
     }
-    mosquitto_disconnect(client_);
+    libmosquitto().disconnect(client_);
     const auto end = std::chrono::steady_clock::now() + kGoodbye;
     while (std::chrono::steady_clock::now() < end &&
-           mosquitto_loop(client_, kLoop_ms, 1) == MOSQ_ERR_SUCCESS) {
+           libmosquitto().loop(client_, kLoop_ms, 1) == MOSQ_ERR_SUCCESS) {
     }
   }
 
@@ -155,13 +156,13 @@ class MqttClient::Impl {
     const bool ends = changed_.wait_for(lock, delay_, [this] { return is_ending_; });
     delay_ = std::min(2 * delay_, kMostDelay);
     lock.unlock();
-    if (!ends) mosquitto_reconnect_async(client_);
+    if (!ends) libmosquitto().reconnect_async(client_);
     return !ends;
   }
 
   void require(int code) const {
     if (code != MOSQ_ERR_SUCCESS) {
-      throw Error(fmt::format("MQTT: {}: {}", name_, mosquitto_strerror(code)));
+      throw Error(fmt::format("MQTT: {}: {}", name_, libmosquitto().strerror(code)));
     }
   }
 
@@ -169,7 +170,7 @@ class MqttClient::Impl {
     const std::lock_guard lock(mutex_);
     is_connected_ = code == 0;
     if (code != 0) {
-      warn(fmt::format("the broker refuses: {}", mosquitto_connack_string(code)));
+      warn(fmt::format("the broker refuses: {}", libmosquitto().connack_string(code)));
       return;
     }
     if (std::exchange(was_away_, false)) warn("connected");
@@ -198,9 +199,9 @@ class MqttClient::Impl {
     while (is_connected_ && handed_ < kMostHanded && !waiting_.empty()) {
       const Message message = std::move(waiting_.front());
       waiting_.pop_front();
-      const int code = mosquitto_publish(client_, nullptr, message.topic.c_str(),
-                                         static_cast<int>(message.payload.size()),
-                                         message.payload.data(), kQos, false);
+      const int code = libmosquitto().publish(client_, nullptr, message.topic.c_str(),
+                                              static_cast<int>(message.payload.size()),
+                                              message.payload.data(), kQos, false);
       // Without a connection it is kept, too, and sent after the next one.
       if (code == MOSQ_ERR_SUCCESS || code == MOSQ_ERR_NO_CONN || code == MOSQ_ERR_CONN_LOST) {
         ++handed_;

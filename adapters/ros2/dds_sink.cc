@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros2/dds_sink.h"
 
-#include <dds/dds.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include "adapters/ros2/dds_types.h"
 #include "adapters/ros2/discovery.h"
+#include "adapters/ros2/internal/libdds.h"
 #include "adapters/ros2/ros2_topics.h"
 #include "tagfield/base/error.h"
 
@@ -29,10 +29,10 @@ constexpr std::int32_t kDepth = 1000;       // Messages kept for slow readers of
 class Entity {
  public:
   Entity(dds_entity_t handle, const std::string& what) : handle_(handle) {
-    if (handle < 0) throw Error(fmt::format("ROS 2: {}: {}", what, dds_strretcode(-handle)));
+    if (handle < 0) throw Error(fmt::format("ROS 2: {}: {}", what, libdds().strretcode(-handle)));
   }
   ~Entity() {
-    if (handle_ > 0) dds_delete(handle_);
+    if (handle_ > 0) libdds().delete_(handle_);
   }
   Entity(Entity&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
   Entity& operator=(Entity&& other) = delete;
@@ -43,13 +43,13 @@ class Entity {
 };
 
 struct QosDeleter {
-  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+  void operator()(dds_qos_t* qos) const { libdds().delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
 Qos with_user_data(const std::string& text) {
-  Qos qos(dds_create_qos());
-  dds_qset_userdata(qos.get(), text.data(), text.size());
+  Qos qos(libdds().create_qos());
+  libdds().qset_userdata(qos.get(), text.data(), text.size());
   return qos;
 }
 
@@ -57,21 +57,22 @@ Qos with_user_data(const std::string& text) {
 Qos writer_qos(Delivery delivery, const std::string& type_hash) {
   Qos qos = with_user_data(fmt::format("typehash={};", type_hash));
   const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
-  dds_qset_data_representation(qos.get(), 1, &xcdr1);
+  libdds().qset_data_representation(qos.get(), 1, &xcdr1);
   const bool keeps_one = delivery != Delivery::kReliable;
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keeps_one ? 1 : kDepth);
-  dds_qset_reliability(
+  libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, keeps_one ? 1 : kDepth);
+  libdds().qset_reliability(
       qos.get(),
       delivery == Delivery::kBestEffort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
       kMostBlocking);
-  dds_qset_durability(qos.get(), delivery == Delivery::kLatched ? DDS_DURABILITY_TRANSIENT_LOCAL
-                                                                : DDS_DURABILITY_VOLATILE);
+  libdds().qset_durability(qos.get(), delivery == Delivery::kLatched
+                                          ? DDS_DURABILITY_TRANSIENT_LOCAL
+                                          : DDS_DURABILITY_VOLATILE);
   return qos;
 }
 
 rmw_dds_common::Gid gid_of(dds_entity_t entity) {
   dds_guid_t guid{};
-  dds_get_guid(entity, &guid);
+  libdds().get_guid(entity, &guid);
   rmw_dds_common::Gid gid;
   std::copy(std::begin(guid.v), std::end(guid.v), gid.data.begin());
   return gid;
@@ -80,8 +81,8 @@ rmw_dds_common::Gid gid_of(dds_entity_t entity) {
 /// What the library has to say while it lives goes here, and not to the standard error.
 class Overheard {
  public:
-  Overheard() { dds_set_log_sink(&Overheard::hear, &text_); }
-  ~Overheard() { dds_set_log_sink(nullptr, nullptr); }
+  Overheard() { libdds().set_log_sink(&Overheard::hear, &text_); }
+  ~Overheard() { libdds().set_log_sink(nullptr, nullptr); }
   Overheard(const Overheard&) = delete;
   Overheard& operator=(const Overheard&) = delete;
   /// Its first line, or "".
@@ -100,7 +101,7 @@ class Domain {
  public:
   Domain(std::uint32_t id, dds_entity_t handle) : id_(id), handle_(handle) {}
   ~Domain() {
-    if (handle_ > 0 && dds_lookup_participant(id_, nullptr, 0) == 0) dds_delete(handle_);
+    if (handle_ > 0 && libdds().lookup_participant(id_, nullptr, 0) == 0) libdds().delete_(handle_);
   }
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;
@@ -125,7 +126,7 @@ std::unique_ptr<Domain> set_up(std::uint32_t domain) {
   if (const char* const own = std::getenv("CYCLONEDDS_URI"))
     settings.append(settings.empty() ? "" : ",").append(own);
   const Overheard overheard;
-  const dds_entity_t handle = dds_create_domain(domain, settings.c_str());
+  const dds_entity_t handle = libdds().create_domain(domain, settings.c_str());
   // A process has a domain once: who was there before us has set it up.
   if (handle < 0 && handle != DDS_RETCODE_PRECONDITION_NOT_MET) throw no_network(domain, overheard);
   return std::make_unique<Domain>(domain, handle);
@@ -135,7 +136,7 @@ std::unique_ptr<Domain> set_up(std::uint32_t domain) {
 Entity join(std::uint32_t domain) {
   const Overheard overheard;
   const dds_entity_t participant =
-      dds_create_participant(domain, with_user_data("enclave=/;").get(), nullptr);
+      libdds().create_participant(domain, with_user_data("enclave=/;").get(), nullptr);
   if (participant < 0) throw no_network(domain, overheard);
   return {participant, "participant"};
 }
@@ -166,11 +167,11 @@ struct DdsSink::Impl {
 
   Writer make_writer(const std::string& topic, Delivery delivery, const Ros2Type& type) const {
     const DdsType& dds_type = dds_types().at(type.name);
-    Entity made(
-        dds_create_topic(participant.get(), dds_type.descriptor, topic.c_str(), nullptr, nullptr),
-        topic);
-    Entity writer(dds_create_writer(participant.get(), made.get(),
-                                    writer_qos(delivery, type.hash).get(), nullptr),
+    Entity made(libdds().create_topic(participant.get(), dds_type.descriptor, topic.c_str(),
+                                      nullptr, nullptr),
+                topic);
+    Entity writer(libdds().create_writer(participant.get(), made.get(),
+                                         writer_qos(delivery, type.hash).get(), nullptr),
                   topic);
     return {std::move(made), std::move(writer), dds_type};
   }
@@ -188,10 +189,10 @@ struct DdsSink::Impl {
 
   static void write(const Writer& writer, const void* message) {
     writer.type.with_struct(message, [&](const void* data) {
-      const dds_return_t result = dds_write(writer.writer.get(), data);
+      const dds_return_t result = libdds().write(writer.writer.get(), data);
       // A reader that stands still must not stop the run: it loses what it has no room for.
       if (result < 0 && result != DDS_RETCODE_TIMEOUT) {
-        throw Error(fmt::format("ROS 2: can't send: {}", dds_strretcode(-result)));
+        throw Error(fmt::format("ROS 2: can't send: {}", libdds().strretcode(-result)));
       }
     });
   }
@@ -220,22 +221,24 @@ void DdsSink::publish(std::size_t topic, Time /*stamp*/, const void* message) {
 }
 
 void DdsSink::finish() {
-  const dds_time_t until = dds_time() + kMostWaitAtEnd;
+  const dds_time_t until = libdds().time() + kMostWaitAtEnd;
   for (const Writer& writer : impl_->writers) {
-    dds_wait_for_acks(writer.writer.get(), std::max<dds_duration_t>(until - dds_time(), 0));
+    libdds().wait_for_acks(writer.writer.get(),
+                           std::max<dds_duration_t>(until - libdds().time(), 0));
   }
 }
 
 std::size_t DdsSink::subscribe_twist(const std::string& topic) {
   const Ros2Type& type = type_of(geometry_msgs::Twist{});
-  Entity made(dds_create_topic(impl_->participant.get(), dds_types().at(type.name).descriptor,
-                               ("rt" + topic).c_str(), nullptr, nullptr),
+  Entity made(libdds().create_topic(impl_->participant.get(), dds_types().at(type.name).descriptor,
+                                    ("rt" + topic).c_str(), nullptr, nullptr),
               topic);
   // Best effort hears reliable writers too, and only the newest command counts.
   const Qos qos = with_user_data(fmt::format("typehash={};", type.hash));
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
-  Entity reader(dds_create_reader(impl_->participant.get(), made.get(), qos.get(), nullptr), topic);
+  libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  libdds().qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  Entity reader(libdds().create_reader(impl_->participant.get(), made.get(), qos.get(), nullptr),
+                topic);
   impl_->readers.push_back({std::move(made), std::move(reader)});
   impl_->tell_graph();
   return impl_->readers.size() - 1;
@@ -247,7 +250,7 @@ std::optional<geometry_msgs::Twist> DdsSink::take_twist(std::size_t subscription
   void* sample = &twist;
   dds_sample_info_t info{};
   const dds_return_t count =
-      dds_take(impl_->readers.at(subscription).reader.get(), &sample, &info, 1, 1);
+      libdds().take(impl_->readers.at(subscription).reader.get(), &sample, &info, 1, 1);
   if (count < 1 || !info.valid_data) return std::nullopt;
   return geometry_msgs::Twist{{twist.linear.x, twist.linear.y, twist.linear.z},
                               {twist.angular.x, twist.angular.y, twist.angular.z}};
@@ -258,7 +261,7 @@ bool DdsSink::wait_for_reader(Duration most) const {
   do {
     for (const Writer& writer : impl_->writers) {
       dds_publication_matched_status_t matched{};
-      dds_get_publication_matched_status(writer.writer.get(), &matched);
+      libdds().get_publication_matched_status(writer.writer.get(), &matched);
       if (matched.current_count > 0) return true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <coin/Cbc_C_Interface.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "tagfield/base/error.h"
+#include "tagfield/layout/internal/libcbc.h"
 #include "tagfield/layout/selection.h"
 
 namespace tagfield {
@@ -20,7 +19,7 @@ constexpr double kTouching = 1e-7;
 constexpr int kMostRounds = 200;
 
 struct DeleteModel {
-  void operator()(Cbc_Model* model) const { Cbc_deleteModel(model); }
+  void operator()(Cbc_Model* model) const { libcbc().deleteModel(model); }
 };
 using Model = std::unique_ptr<Cbc_Model, DeleteModel>;
 
@@ -201,24 +200,24 @@ Program::Solved Program::solve_once(double seconds) const {
   std::vector<double> row_low(rows_.size(), -1e30);
   std::vector<double> row_high;
   for (const Row& row : rows_) row_high.push_back(row.most);
-  const Model model(Cbc_newModel());
-  Cbc_setParameter(model.get(), "logLevel", "0");
-  Cbc_setParameter(model.get(), "sec", std::to_string(seconds).c_str());
-  Cbc_setParameter(model.get(), "ratioGap", "0");
-  Cbc_setParameter(model.get(), "allowableGap", "1e-9");
-  Cbc_loadProblem(model.get(), static_cast<int>(columns()), static_cast<int>(rows_.size()),
-                  start.data(), index.data(), value.data(), low.data(), high.data(),
-                  objective.data(), row_low.data(), row_high.data());
+  const Model model(libcbc().newModel());
+  libcbc().setParameter(model.get(), "logLevel", "0");
+  libcbc().setParameter(model.get(), "sec", std::to_string(seconds).c_str());
+  libcbc().setParameter(model.get(), "ratioGap", "0");
+  libcbc().setParameter(model.get(), "allowableGap", "1e-9");
+  libcbc().loadProblem(model.get(), static_cast<int>(columns()), static_cast<int>(rows_.size()),
+                       start.data(), index.data(), value.data(), low.data(), high.data(),
+                       objective.data(), row_low.data(), row_high.data());
   for (std::size_t i = 0; i < problem_.options.size(); ++i) {
-    Cbc_setInteger(model.get(), option_column(i));
+    libcbc().setInteger(model.get(), option_column(i));
   }
-  for (std::size_t i = 0; i < zones_.size(); ++i) Cbc_setInteger(model.get(), zone_column(i));
-  Cbc_solve(model.get());
+  for (std::size_t i = 0; i < zones_.size(); ++i) libcbc().setInteger(model.get(), zone_column(i));
+  libcbc().solve(model.get());
   Solved solved;
-  solved.is_optimal = Cbc_isProvenOptimal(model.get()) != 0;
-  solved.bound = std::min(1.0, -Cbc_getBestPossibleObjValue(model.get()));
-  const double* const found = Cbc_getColSolution(model.get());
-  solved.is_feasible = found != nullptr && Cbc_isProvenInfeasible(model.get()) == 0;
+  solved.is_optimal = libcbc().isProvenOptimal(model.get()) != 0;
+  solved.bound = std::min(1.0, -libcbc().getBestPossibleObjValue(model.get()));
+  const double* const found = libcbc().getColSolution(model.get());
+  solved.is_feasible = found != nullptr && libcbc().isProvenInfeasible(model.get()) == 0;
   if (!solved.is_feasible) return solved;
   for (std::size_t i = 0; i < problem_.options.size(); ++i) {
     if (found[option_column(i)] > 0.5) solved.choice.push_back(i);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of bag_recording.cc in programs that load what reads bags.
+#include <filesystem>
+
+#include "adapters/ros1/bag_reader.h"
+#include "tagfield/base/loaded_library.h"
+
+namespace tagfield {
+namespace {
+
+/// Beside the program, as it is built and as it is installed.
+std::string reader_file() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return program.parent_path().parent_path() / "lib/tagfield/rosbag.so";
+}
+
+struct BagReader : LoadedLibrary {
+  BagReader() : LoadedLibrary("Recordings of ROS", reader_file()) {}
+  decltype(&tagfield_read_bag) read = function("tagfield_read_bag");
+};
+
+}  // namespace
+
+BagRecording read_bag(const std::string& path, const BagOptions& options,
+                      Diagnostics& diagnostics) {
+  static const BagReader reader;
+  BagRecording recording;
+  reader.read(path, options, diagnostics, recording);
+  return recording;
+}
+
+}  // namespace tagfield

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+# tagfield_loads(TARGET MACRO LIBRARY INCLUDE_FOLDER…): TARGET doesn't link the shared LIBRARY (its path), but
+# loads it when it is first needed (tagfield/base/loaded_library.h), by the name that programs which link it have
+# of it, which becomes MACRO. Packages recommend what it comes in.
+function(tagfield_loads target macro library)
+  get_filename_component(file ${library} REALPATH)
+  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${file} OUTPUT_VARIABLE heads ERROR_QUIET)
+  if(NOT heads MATCHES "SONAME +([^\n ]+)")
+    message(FATAL_ERROR "${library} is no shared library, or objdump can't tell its SONAME")
+  endif()
+  target_compile_definitions(${target} PRIVATE ${macro}="${CMAKE_MATCH_1}")
+  target_include_directories(${target} SYSTEM PRIVATE ${ARGN})
+  set_property(TARGET ${target} APPEND PROPERTY TAGFIELD_LOADED ${file})
+endfunction()
+
+# tagfield_loaded_packages(VARIABLE TARGET…): the Debian packages of the libraries that these load.
+function(tagfield_loaded_packages variable)
+  find_program(TAGFIELD_DPKG_QUERY dpkg-query)
+  set(files "")
+  foreach(target IN LISTS ARGN)
+    get_property(loaded TARGET ${target} PROPERTY TAGFIELD_LOADED)
+    list(APPEND files ${loaded})
+  endforeach()
+  set(packages "")
+  foreach(file IN LISTS files)
+    if(TAGFIELD_DPKG_QUERY)
+      execute_process(COMMAND ${TAGFIELD_DPKG_QUERY} --search ${file} OUTPUT_VARIABLE found ERROR_QUIET)
+      if(found MATCHES "^([^:]+):")
+        list(APPEND packages ${CMAKE_MATCH_1})
+      endif()
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES packages)
+  set(${variable} ${packages} PARENT_SCOPE)
+endfunction()
