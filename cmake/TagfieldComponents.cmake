@@ -25,7 +25,7 @@ tagfield_component(files NEEDS core ROOMS files)
 tagfield_component(motion NEEDS core ROOMS motion)
 tagfield_component(localization NEEDS core ROOMS fit localization tracking calibration)
 tagfield_component(field NEEDS core
-  ROOMS world link propagation channel gen2 reader settings field PACKAGES "${tagfield_embree}")
+  ROOMS world propagation channel gen2 reader settings field PACKAGES "${tagfield_embree}")
 tagfield_component(sdf NEEDS files field ROOMS sdf PACKAGES assimp PNG MODULES tinyxml2)
 tagfield_component(navigation NEEDS files motion field ROOMS map laser navigation
   PACKAGES yaml-cpp MODULES polyclipping)

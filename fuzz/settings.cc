@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of settings besides scenarios: the first byte says which.
 #include "fuzz/input.h"
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/dataset_format.h"
 #include "tagfield/scenario/profile.h"

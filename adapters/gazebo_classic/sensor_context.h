@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 
 namespace tagfield {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/field/field_step.h"
+#include "tagfield/field/rfid_field.h"
 #include "tagfield/settings/sensor_parameters.h"
 
 namespace tagfield {

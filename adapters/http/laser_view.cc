@@ -6,7 +6,7 @@
 
 #include "adapters/http/world_json.h"
 #include "tagfield/scenario/navigation_spec.h"
-#include "tagfield/scenario/obstacle.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield::http {
 namespace {

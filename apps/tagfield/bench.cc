@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tagfield/experiment/bench/bench.h"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -13,15 +15,15 @@
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/bench_page.h"
-#include "tagfield/experiment/bench/bench_text.h"
 #include "tagfield/experiment/bench/prepared.h"
-#include "tagfield/experiment/bench/run_bench.h"
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/work_hash.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace {

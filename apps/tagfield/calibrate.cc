@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/calibration/calibrate.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,10 +7,11 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
+#include "tagfield/calibration/calibration.h"
 #include "tagfield/calibration/carry_over.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/tag_places_csv.h"
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/scenario/calibration_profile.h"
 
 namespace tagfield {

@@ -11,7 +11,7 @@
 #include "adapters/ros2/dds_sink.h"
 #include "tagfield/scenario/scenario_yaml.h"
 #include "tagfield/simulator/remote_driver.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 

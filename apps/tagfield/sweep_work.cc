@@ -12,7 +12,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/suite_recording.h"
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/store/work_hash.h"
 #include "tagfield/experiment/sweep/merge.h"
 #include "tagfield/experiment/sweep/sweep_figures.h"

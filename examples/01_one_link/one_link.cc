@@ -4,6 +4,7 @@
 //   build/release/bin/example_one_link
 #include <cstdio>
 
+#include "tagfield/channel/paper_model.h"
 #include "tagfield/reader/antenna.h"
 
 int main() {  // NOLINT(bugprone-exception-escape): an antenna of the paper's model is read

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tagfield/experiment/bench/bench_text.h"
-#include "tagfield/experiment/bench/run_bench.h"
+#include "tagfield/experiment/bench/bench.h"
+#include "tagfield/experiment/bench/bench_files.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace {
 
@@ -56,7 +58,7 @@ std::vector<tagfield::Method> all_methods() {
   return methods;
 }
 
-// What a suite's file would say; load_suite() of bench/suite_yaml.h reads one.
+// What a suite's file would say; load_suite() reads one.
 tagfield::Suite comparison(const std::string& scenario) {
   tagfield::Condition exact;
   exact.name = "true pose";

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tagfield/experiment/bench/bench.h"
+
 #include <pybind11/stl.h>
 
 #include "apps/tagfield/foreign_tables.h"
@@ -7,11 +9,10 @@
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/bench_page.h"
-#include "tagfield/experiment/bench/bench_text.h"
 #include "tagfield/experiment/bench/prepared.h"
-#include "tagfield/experiment/bench/run_bench.h"
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield::python {
 namespace {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield::python {
 

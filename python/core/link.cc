@@ -9,6 +9,7 @@
 #include "python/core/loaded.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/paper_model.h"
 #include "tagfield/channel/paper_signals.h"
 #include "tagfield/channel/radio_world.h"
 #include "tagfield/field/radio_port.h"

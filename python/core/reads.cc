@@ -11,7 +11,7 @@
 #include "python/core/tables.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
-#include "tagfield/calibration/calibrate.h"
+#include "tagfield/calibration/calibration.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/tracking_run.h"

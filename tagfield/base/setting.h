@@ -11,9 +11,16 @@
 #include <type_traits>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/error.h"
 
 namespace tagfield {
+
+/// A parameter of an antenna or a tag as it stood in the file; rooms further on give it meaning.
+struct RawParameter {
+  std::string key;
+  std::string value;
+  Location location;  ///< Unknown where the file is not.
+};
 
 /// A key, its unit and meaning.
 struct SettingHelp {

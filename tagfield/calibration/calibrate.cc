@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/calibration/calibrate.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
@@ -12,12 +10,13 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
+#include "tagfield/calibration/calibration.h"
 #include "tagfield/fit/circular_least_squares.h"
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/stretches.h"
 #include "tagfield/localization/half_turns.h"
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/localization/stops.h"
 
 namespace tagfield {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/channel/optional_distribution.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
+#include "tagfield/channel/paper_model.h"
 
 namespace tagfield {
 namespace {

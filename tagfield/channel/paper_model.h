@@ -3,12 +3,57 @@
 /// The paper's signal model: phase by eq. (4), RSSI by eq. (5). See docs/paper_model.md.
 #pragma once
 
-#include "tagfield/channel/optional_distribution.h"
-#include "tagfield/link/link_geometry.h"
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
 
 namespace tagfield {
 
+/// What a channel model needs to know of where the two ends are.
+struct LinkGeometry {
+  double distance_m = 0.0;  ///< D of the paper's equations, greater than 0.
+};
+
+/// Link between an antenna at `p_WA` and a tag at `p_WT` [m]. Ends that coincide count as 1 µm
+/// apart, so that no model divides by zero.
+inline LinkGeometry link_between(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WT) {
+  constexpr double kLeastDistance = 1e-6;
+  return {std::max((p_WT - p_WA).norm(), kLeastDistance)};
+}
+
 class RandomStream;
+
+enum class DistributionKind {
+  kNone,
+  kUniform,      ///< On [a, b).
+  kExponential,  ///< Rate λ.
+  kGamma,        ///< Shape α, scale β.
+  kWeibull,      ///< Shape a, scale b.
+  kNormal,       ///< Mean, standard deviation.
+  kLognormal,    ///< Mean and standard deviation of the logarithm.
+  kChiSquared,   ///< Degrees of freedom n.
+  kCauchy,       ///< Median a, half width b.
+};
+
+/// A distribution with its parameters [rad, or none], as C++'s `<random>` defines them.
+struct OptionalDistribution {
+  DistributionKind kind = DistributionKind::kNone;
+  std::array<double, 2> parameters{};  ///< The second is unused where there is only one.
+};
+
+/// All names: "none", "uniform_real_distribution", "exponential_distribution", and so on: those of
+/// C++'s standard library, as in the published plugin.
+const std::vector<std::string>& distribution_names();
+
+/// The distribution called `name`. Throws Error on an unknown name (with the nearest known one), a
+/// wrong number of parameters, or a parameter outside its range.
+OptionalDistribution make_distribution(const std::string& name,
+                                       const std::vector<double>& parameters);
+
+/// One draw [rad]; 0 for none. Always finite: a draw beyond the largest double is that double.
+double draw(const OptionalDistribution& distribution, RandomStream& stream);
 
 /// The parameters of Table 1 that shape the signal.
 struct PaperModel {

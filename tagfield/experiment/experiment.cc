@@ -17,6 +17,7 @@
 #include "tagfield/experiment/store/seed_run_json.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/report/method_summary.h"
+#include "tagfield/simulator/pace.h"
 
 namespace tagfield {
 namespace {

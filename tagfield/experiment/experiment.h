@@ -12,7 +12,6 @@
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/simulator/navigation_run.h"
 #include "tagfield/simulator/navigation_world.h"
-#include "tagfield/simulator/run_control.h"
 #include "tagfield/simulator/simulation.h"
 #include "tagfield/stream/recording.h"
 

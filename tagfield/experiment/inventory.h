@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "tagfield/report/inventory.h"
+#include "tagfield/report/summary.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/stream/tag_read.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/report/inventory.h"
+#include "tagfield/report/summary.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 

@@ -8,7 +8,7 @@
 
 #include "tagfield/report/track_judgement.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {

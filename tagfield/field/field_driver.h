@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "tagfield/field/field_step.h"
+#include "tagfield/field/rfid_field.h"
 
 namespace tagfield {
 

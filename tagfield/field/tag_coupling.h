@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tagfield/field/tag_index.h"
 #include "tagfield/field/tag_population.h"
-#include "tagfield/link/tag_index.h"
 
 namespace tagfield {
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tagfield/base/error.h"
+#include "tagfield/channel/paper_model.h"
 
 namespace tagfield {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tagfield/base/time.h"
-#include "tagfield/link/tag_index.h"
+#include "tagfield/field/tag_index.h"
 #include "tagfield/reader/antenna.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/stream/tag_read.h"

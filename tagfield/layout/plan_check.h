@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "tagfield/layout/plan.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 

@@ -3,7 +3,7 @@
 /// Phases that are known but for half a turn: many readers report φ or φ + π by chance.
 #pragma once
 
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/localization/phase_sample.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_estimate.h"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tagfield/localization/method.h"
-#include "tagfield/localization/phase_sample.h"
 #include "tagfield/localization/problem.h"
 
 namespace tagfield {

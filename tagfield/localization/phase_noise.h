@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <complex>
 #include <functional>
 #include <map>
@@ -14,13 +15,84 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/localization/phase_sample.h"
-#include "tagfield/localization/tag_area.h"
+#include "tagfield/base/time.h"
 #include "tagfield/localization/tag_estimate.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
+
+/// Of the antennas' way: as one goes along it, or towards an axis of the world.
+enum class TagSide { kLeft, kRight, kPlusX, kMinusX, kPlusY, kMinusY };
+
+/// Its words, in the order of its values.
+inline const std::vector<std::string> kTagSides = {"left", "right", "+x", "-x", "+y", "-y"};
+
+/// Of one of these words; throws Error on another.
+TagSide tag_side(const std::string& word);
+
+/// Nothing told: anywhere.
+struct TagArea {
+  std::optional<TagSide> side;
+  std::optional<Eigen::AlignedBox2d> box;  ///< Seen from above [m, world].
+};
+
+/// Whether a tag may be at `p`, beside the line through `middle` in the direction `along`.
+bool is_within(const TagArea& area, const Eigen::Vector2d& middle, const Eigen::Vector2d& along,
+               const Eigen::Vector2d& p);
+
+/// The line along which antennas went, by their places: middle, and the direction of the longest
+/// extent from the first place on.
+struct WayLine {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+};
+WayLine way_line(const std::vector<Eigen::Vector2d>& places);
+
+/// Without the candidates where no tag can be. Several of which one is left become a place; where
+/// none is left the tag is not located. `most_error_m`: a place expected to be worse is none.
+void keep_within(const TagArea& area, const WayLine& way, double most_error_m,
+                 TagEstimate& estimate);
+
+/// One phase measured at one place.
+struct PhaseSample {
+  Time stamp;
+  double phase_rad = 0.0;     ///< In [0, 2π).
+  double frequency_hz = 0.0;  ///< Carrier.
+  Eigen::Vector3d p_WA;       ///< Antenna [m].
+  double rssi_dbm = 0.0;
+};
+
+/// Stands for an RSSI that was not reported [dBm].
+inline constexpr double kNoRssi = -200.0;
+
+/// Samples of one tag, by antenna, each in rising order of time.
+using SamplesOfTag = std::map<std::string, std::vector<PhaseSample>>;
+
+/// All samples, by tag.
+using SamplesByTag = std::map<std::string, SamplesOfTag>;
+
+struct BelievedTrack;
+
+/// The antennas' believed poses by antenna, in rising order of time. Poses that are not finite,
+/// repeat a stamp, or whose clock must have been wrong (strays.h) are left out, which is counted in
+/// one warning for each antenna.
+std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
+                                               Diagnostics& diagnostics);
+
+/// Whether the reads have phases: false of eight or more whose phases are all one, as of readers
+/// and tables that have none and say 0.
+bool has_phases(const std::vector<TagRead>& reads);
+
+/// Joins reads with the antennas' poses, interpolated at each read's stamp. A read whose antenna
+/// has no pose at its stamp (poses further apart than `max_pose_gap_s` while the antenna moved, or
+/// the stamp before the first or after the last) is left out and counted in one warning for each
+/// antenna, which says why. An antenna with one pose stands still. Two reads of a tag by an antenna
+/// at the same stamp: the first counts, and a warning counts the others. Reads whose clock must
+/// have been wrong (strays.h) are left out, which is told, too.
+SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
+                                    const std::map<std::string, BelievedTrack>& tracks,
+                                    double max_pose_gap_s, Diagnostics& diagnostics);
 
 /// On which side of the antennas' heights a tag of unknown height is: from a level path only its
 /// distance from that level can be told.

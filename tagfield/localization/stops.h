@@ -3,7 +3,7 @@
 /// Reads at one stop of the antenna: many of them, but one observation.
 #pragma once
 
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/tag_area.h"
-
 #include <algorithm>
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 namespace {

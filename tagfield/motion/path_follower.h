@@ -10,13 +10,6 @@
 
 namespace tagfield {
 
-/// Limits and manner of driving; the defaults suit a P3-AT.
-struct DrivingStyle {
-  double speed_m_s = 0.3;        ///< Along the path.
-  double most_turn_rad_s = 1.0;  ///< Limit of |ω|.
-  double look_ahead_m = 0.5;     ///< How far ahead on the path the robot steers to.
-};
-
 /// Follows the polyline from the robot's start over all waypoints by pure pursuit (Coulter, 1992):
 /// it steers along the arc to the point `look_ahead_m` further on the path, which rounds the
 /// corners; where that point lies beside or behind it, it turns in place first.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/base/time.h"
 #include "tagfield/motion/lift.h"
 #include "tagfield/motion/path_follower.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Kinematics of a skid-steered robot: the paper's eqs. (6)–(8).
+/// Kinematics of a skid-steered robot, the paper's eqs. (6)–(8), and how it is driven.
 #pragma once
 
 #include "tagfield/poses/rigid_transform.h"
@@ -30,6 +30,13 @@ struct BodyVelocity {
 struct DriveGeometry {
   double wheel_radius_m = 0.111;
   double track_m = 0.4;  ///< d: between the centres of the left and right wheels.
+};
+
+/// Limits and manner of driving; the defaults suit a P3-AT.
+struct DrivingStyle {
+  double speed_m_s = 0.3;        ///< Along the path.
+  double most_turn_rad_s = 1.0;  ///< Limit of |ω|.
+  double look_ahead_m = 0.5;     ///< How far ahead on the path the robot steers to.
 };
 
 /// Eqs. (7) and (8): v = r(ω_R + ω_L)/2, ω = r(ω_R − ω_L)/d.

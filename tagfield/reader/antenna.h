@@ -12,7 +12,6 @@
 
 #include "tagfield/base/time.h"
 #include "tagfield/channel/paper_model.h"
-#include "tagfield/link/link_geometry.h"
 #include "tagfield/stream/tag_read.h"
 
 namespace tagfield {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/channel/antenna_pattern.h"
 #include "tagfield/channel/path_gain.h"
 #include "tagfield/gen2/inventory_settings.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/report/inventory.h"
-
 #include <algorithm>
+
+#include "tagfield/report/summary.h"
 
 namespace tagfield {
 namespace {

@@ -7,7 +7,6 @@
 #include "tagfield/base/error.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/unwrap.h"
-#include "tagfield/localization/phase_sample.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"

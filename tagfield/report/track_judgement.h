@@ -10,8 +10,7 @@
 
 #include "tagfield/report/summary.h"
 #include "tagfield/stream/truth.h"
-#include "tagfield/tracking/passing.h"
-#include "tagfield/tracking/track.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/tracking/passing.h"
-#include "tagfield/tracking/track.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tagfield/stream/truth.h"
-#include "tagfield/tracking/track.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

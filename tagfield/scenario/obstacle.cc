@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/scenario/obstacle.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "tagfield/laser/simulated_laser.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/scenario/pose_belief.h"
+#include "tagfield/scenario/robot_spec.h"
 
 namespace tagfield {
 

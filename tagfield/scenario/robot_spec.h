@@ -11,7 +11,6 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/time.h"
 #include "tagfield/channel/material.h"
-#include "tagfield/motion/path_follower.h"
 #include "tagfield/motion/unicycle.h"
 
 namespace tagfield {
@@ -50,5 +49,20 @@ inline bool drives(const RobotSpec& robot) {
 
 /// Length of the robot's path over its waypoints or goals, corners not rounded [m].
 double planned_length(const RobotSpec& robot);
+
+enum class PoseSource { kTrue, kNoisy, kOdometry, kSlam };
+
+/// "true", "noisy", "odometry", "slam".
+std::string to_string(PoseSource source);
+
+struct PoseBelief {
+  PoseSource source = PoseSource::kTrue;
+  // kNoisy: an Ornstein-Uhlenbeck process in x, y and yaw, stationary from the start.
+  double sigma_m = 0.01;         ///< Standard deviation in x and in y.
+  double yaw_sigma_rad = 0.0;    ///< Standard deviation of the yaw.
+  double time_constant_s = 5.0;  ///< Of the correlation e^(−t/τ); greater than 0.
+  // kOdometry
+  double wheel_noise = 0.01;  ///< Spread of a wheel's measured travel [m] after 1 m; grows as √m.
+};
 
 }  // namespace tagfield

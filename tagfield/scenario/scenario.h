@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,20 +13,73 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/time.h"
 #include "tagfield/channel/material.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/motion/lift.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/reader/antenna.h"
-#include "tagfield/scenario/obstacle.h"
-#include "tagfield/scenario/pose_belief.h"
 #include "tagfield/scenario/robot_spec.h"
-#include "tagfield/scenario/zones.h"
-#include "tagfield/tracking/passing.h"
-#include "tagfield/tracking/tracking_options.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
+
+struct Obstacles;  // of laser/simulated_laser.h
+
+/// What something that moves is to waves: as high as this, and made of that.
+struct BodySpec {
+  double height_m = 1.75;
+  Material material;
+};
+
+/// Taller than a robot's laser; seen from above a disc, or a rectangle.
+struct ObstacleSpec {
+  std::string name;
+  double radius_m = 0.0;                             ///< 0 for a rectangle.
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< Of the rectangle.
+  double yaw_rad = 0.0;
+  /// Where its middle is, x and y; one position for one that stands. Before the first and after
+  /// the last it stays where that is.
+  Trajectory motion;
+  Time appears;
+  std::optional<Time> disappears;
+  std::optional<BodySpec> body;  ///< None: waves don't notice it.
+  Location location;
+};
+
+/// Whether it is there at `stamp`.
+bool is_there(const ObstacleSpec& spec, Time stamp);
+
+/// Those that are there at `stamp`, where they are then.
+Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp);
+
+/// Least distance from `p_W` to an obstacle's surface at `stamp` [m], negative inside; a large
+/// number where there is none.
+double distance_to_obstacles(const Obstacles& obstacles, const Eigen::Vector2d& p_W);
+
+struct Scenario;
+
+/// A part of the hall, such as a dock door or a shelf, and the readers that shall read it.
+struct ZoneSpec {
+  std::string name;
+  Eigen::AlignedBox3d box_W;         ///< [m]; unbounded in z where the scenario gives no heights.
+  std::vector<std::string> readers;  ///< Names as of reader_groups(); none: nobody's.
+  Location location;                 ///< Where it was written, for messages.
+};
+
+/// Who reads by each of the scenario's antennas: the antenna's reader, or where it rides on a robot
+/// the robot, whose antennas pass the same tags on the same way.
+std::vector<std::string> reader_groups(const Scenario& scenario);
+
+/// Each of `names` once, in the order in which they come.
+std::vector<std::string> distinct(const std::vector<std::string>& names);
+
+/// Throws Error where a zone names a reader that no antenna belongs to.
+void require_readers_of_zones(const Scenario& scenario);
+
+/// The first of the zones that holds `p_W`; their count where none does.
+std::size_t zone_at(const std::vector<ZoneSpec>& zones, const Eigen::Vector3d& p_W);
 
 struct NavigationSpec;
 struct RadioWorld;

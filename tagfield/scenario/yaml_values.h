@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/localization/tag_area.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/poses/rigid_transform.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/scenario/yaml_map.h"

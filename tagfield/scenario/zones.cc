@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/scenario/zones.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
 #include "tagfield/base/setting.h"
 
 namespace tagfield {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/reader/antenna.h"
 
 namespace tagfield {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield {

@@ -9,7 +9,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/scenario/obstacle.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/simulator/robot_clearance.h"
 
 namespace tagfield {

@@ -9,6 +9,7 @@
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/simulator/internal/self_driving.h"
 #include "tagfield/simulator/navigation_listener.h"
+#include "tagfield/simulator/pace.h"
 
 namespace tagfield {
 namespace {

@@ -10,7 +10,6 @@
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/simulator/navigation_world.h"
 #include "tagfield/simulator/place_watch.h"
-#include "tagfield/simulator/run_control.h"
 #include "tagfield/simulator/self_driver.h"
 #include "tagfield/simulator/simulation.h"
 #include "tagfield/simulator/survey.h"

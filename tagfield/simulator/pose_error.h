@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/scenario/pose_belief.h"
+#include "tagfield/scenario/robot_spec.h"
 
 namespace tagfield {
 

@@ -11,7 +11,7 @@
 #include "tagfield/laser/simulated_laser.h"
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/scenario/obstacle.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield {

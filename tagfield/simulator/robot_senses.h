@@ -13,7 +13,7 @@
 #include "tagfield/laser/simulated_laser.h"
 #include "tagfield/motion/odometry_noise.h"
 #include "tagfield/motion/unicycle.h"
-#include "tagfield/scenario/obstacle.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/world/ray_scene.h"
 
 namespace tagfield {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// The headless driver of a field: a clock with a fixed step, robots, lifts, and tags that move and
-/// come and go.
+/// come and go; and how to run it, as opposed to what.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,15 +17,31 @@
 #include "tagfield/field/field_driver.h"
 #include "tagfield/field/rfid_field.h"
 #include "tagfield/scenario/scenario.h"
+#include "tagfield/stream/listeners.h"
 
 namespace tagfield {
 
 struct MovingBody;
+class NavigationListener;
 class Robot;
 class TagSchedule;
 struct RadioWorld;
 struct RemoteDriving;
 struct SelfDriving;
+
+/// Threads, progress, and an early end.
+struct RunControl {
+  int threads = 1;
+  const std::atomic<bool>* stop = nullptr;         ///< Set by others to end early.
+  std::function<void(double share)> on_progress;   ///< Called now and then with 0 … 1, or empty.
+  Outlets outlets;                                 ///< Told of the first seed's run, as it goes.
+  std::shared_ptr<NavigationListener> navigation;  ///< Of that run, too; or null.
+  const RemoteDriving* remote = nullptr;           ///< Who drives a robot from outside, if anybody.
+  bool keeps_recording = true;  ///< Else memory does not grow with the run, and nothing is located.
+};
+
+/// Whether the run is to end early.
+inline bool stopped(const RunControl& control) { return control.stop != nullptr && *control.stop; }
 
 /// Runs a scenario step by step and tells its outlets what comes of it. Tags and antennas can be
 /// added and removed between any two steps. The same scenario and seed tell the same.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/tracking/passing.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "tagfield/localization/judgement.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 namespace {

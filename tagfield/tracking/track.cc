@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/tracking/track.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

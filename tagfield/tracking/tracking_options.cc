@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/tracking/tracking_options.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 namespace {

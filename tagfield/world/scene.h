@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield {

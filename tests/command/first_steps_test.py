@@ -35,6 +35,13 @@ def version_says_what_was_built_of_what(context):
 
 
 @case
+def what_few_runs_use_is_not_loaded_at_each_start(context):
+    linked = run(["ldd", context.tagfield]).out
+    for library in ("libCbc", "libddsc", "librosbag", "libarchive", "libmosquitto", "libcurl", "libpython", "libssl"):
+        check(library not in linked, f"each start loads {library}")
+
+
+@case
 def the_command_alone_says_what_to_do_next(context):
     result = context.run_well()
     for words in ("tagfield run ", "tagfield new ", "tagfield localize ", "tagfield doctor", "--help"):

@@ -15,7 +15,7 @@ import tempfile
 
 # docs/architecture.md has the same, in the same order: a room includes only itself and rooms above it.
 ROOMS = ["base", "poses", "stream", "epc", "files", "motion", "world", "sdf", "map", "laser",
-         "link", "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
+         "propagation", "channel", "gen2", "reader", "settings", "field", "fit", "localization",
          "tracking", "calibration", "report", "navigation", "scenario", "events", "simulator",
          "planning", "layout", "experiment", "live"]
 # What a room must not include although it stands above.
@@ -312,11 +312,11 @@ PLANTED = (  # a file, its content, what must be said of it
     ("tagfield/base/a.cc", '#include "tagfield/world/scene.h"\n', "world/ is below base/"),
     ("tagfield/channel/a.cc", '#include "tagfield/reader/antenna.h"\n', "reader/ is below channel/"),
     ("tagfield/report/a.cc", '#include "tagfield/simulator/run.h"\n', "simulator/ is below report/"),
-    ("tagfield/simulator/a.cc", '#include "tagfield/experiment/bench/run_bench.h"\n',
+    ("tagfield/simulator/a.cc", '#include "tagfield/experiment/bench/bench.h"\n',
      "experiment/ is below simulator/"),
     ("tagfield/files/a.cc", '#include "apps/tagfield/table.h"\n', "a room must not include it"),
     ("tagfield/simulator/a.cc", '#include "adapters/ros1/bag.h"\n', "a room must not include it"),
-    ("adapters/ros1/a.cc", '#include "tagfield/experiment/bench/run_bench.h"\n',
+    ("adapters/ros1/a.cc", '#include "tagfield/experiment/bench/bench.h"\n',
      "adapters/ must not know experiment/"),
     ("tagfield/localization/a.cc", '#include "tagfield/world/scene.h"\n',
      "localization/ must not know world/"),

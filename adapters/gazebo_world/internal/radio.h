@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "adapters/gazebo_world/internal/xml.h"
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/scenario/scenario.h"
 
 namespace tagfield::gazebo_world_internal {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/calibration/calibrate.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "tagfield/base/units.h"
+#include "tagfield/calibration/calibration.h"
 #include "tagfield/localization/locate.h"
 
 namespace tagfield {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/channel/optional_distribution.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,6 +10,7 @@
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/statistics.h"
 #include "tagfield/base/units.h"
+#include "tagfield/channel/paper_model.h"
 
 namespace tagfield {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What comes of a comparison of methods: each tag of each run, and what it was judged by.
+/// A comparison of methods, the door of this room: what it comes to, each tag of each run, and what
+/// it was judged by.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +14,12 @@
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {
+
+struct Method;         // of localization/method.h
+struct PreparedSuite;  // of prepared.h
+struct RunControl;     // of simulator/simulation.h
+class RunStore;        // of store/run_store.h
+struct Suite;          // of suite.h
 
 /// Which Cramér-Rao bound a method is judged by (tagfield/localization/bound.h).
 enum class BoundKind { kSingle, kJoint };
@@ -95,5 +102,16 @@ struct Bench {
   double wall_s = 0.0;
   int threads = 1;
 };
+
+/// Each condition with each seed is simulated once, and all its methods get the same problem. The
+/// result does not depend on the number of threads, times excepted. Runs that were not over when
+/// `control.stop` was set are left out. Warnings are those of each condition's first seed. What
+/// runs come to goes into `store`, where given, or is taken from there (its keys: place of the
+/// condition in the suite, seed).
+Bench run_bench(const PreparedSuite& prepared, const RunControl& control,
+                RunStore* store = nullptr);
+
+/// Reads scenarios, then runs. Throws Error as prepare() does, and on a recording that is there.
+Bench run_bench(const Suite& suite, const std::vector<Method>& methods, const RunControl& control);
 
 }  // namespace tagfield

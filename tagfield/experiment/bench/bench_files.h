@@ -21,4 +21,7 @@ std::string bench_to_csv(const Bench& bench, Timing timing);
 /// tags.csv: a row for each condition, method, seed and tag.
 std::string bench_tags_to_csv(const Bench& bench);
 
+/// A block for each condition with a line for each method. Errors in mm.
+std::string bench_to_text(const Bench& bench, Timing timing);
+
 }  // namespace tagfield

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/experiment/bench/bench_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/report/text.h"
 

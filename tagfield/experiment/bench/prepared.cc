@@ -8,7 +8,7 @@
 #include <set>
 
 #include "tagfield/base/spelling.h"
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/recorded_run.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/field/antenna_facts.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/experiment/bench/run_bench.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,10 +7,13 @@
 #include <mutex>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/experiment/bench/bench.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/condition_run.h"
 #include "tagfield/experiment/internal/faults.h"
 #include "tagfield/experiment/store/method_runs_json.h"
 #include "tagfield/experiment/store/run_store.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;

@@ -6,19 +6,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tagfield/base/error.h"
-#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/localization/problem.h"
-#include "tagfield/localization/tag_area.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
+
+struct SweepDesign;  // of sweep/design.h
 
 /// A method under a name of its own, with settings of its own.
 struct SuiteMethod {
@@ -98,7 +99,23 @@ struct Suite {
   std::vector<SuiteMethod> methods;
   std::vector<Condition> conditions;
   /// Of values that each condition is tried with, by `tagfield sweep`; a bench has none.
-  std::optional<SweepDesign> sweep;
+  std::shared_ptr<const SweepDesign> sweep;
 };
+
+/// Reads a suite. Paths of scenarios are relative to the file. Throws Error "FILE:LINE: …".
+Suite load_suite(const std::string& path);
+
+/// The same of a text, which was read from the file `path` here or elsewhere: whether scenarios are
+/// there is not asked.
+Suite suite_from_text(const std::string& text, const std::string& path);
+
+/// Only the methods and conditions of these names, in the suite's order; all where a list is empty.
+/// Conditions that none of the methods is left for go too. Throws Error on a name that there is
+/// not, with the nearest, and where nothing is left.
+Suite only(const Suite& suite, const std::vector<std::string>& methods,
+           const std::vector<std::string>& conditions);
+
+/// Whether the method runs in this condition.
+bool runs_in(const SuiteMethod& method, const Condition& condition);
 
 }  // namespace tagfield

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/experiment/bench/suite_yaml.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,9 @@
 
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/overrides_yaml.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/experiment/sweep/design_yaml.h"
 #include "tagfield/scenario/yaml_map.h"
 #include "tagfield/scenario/yaml_values.h"
@@ -303,7 +303,8 @@ Suite suite_of(YamlMap map, bool on_disk) {
     suite.methods.push_back(method_of(method));
   if (suite.methods.empty()) map.at("methods").fail("must have at least one method");
   if (map.has("sweep")) {
-    suite.sweep = sweep_design_of(map.at("sweep"), names_of(suite.methods), suite.count);
+    suite.sweep = std::make_shared<SweepDesign>(
+        sweep_design_of(map.at("sweep"), names_of(suite.methods), suite.count));
   }
   if (suite.sweep && !map.has("conditions")) {
     suite.conditions.push_back(only_condition(map, common));

@@ -9,7 +9,7 @@
 
 #include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/bench/prepared.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 

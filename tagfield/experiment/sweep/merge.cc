@@ -9,10 +9,11 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tagfield/experiment/bench/suite_yaml.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/experiment/internal/sweep_target.h"
 #include "tagfield/experiment/store/method_runs_json.h"
+#include "tagfield/experiment/sweep/design.h"
 
 namespace tagfield {
 namespace {

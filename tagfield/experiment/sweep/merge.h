@@ -12,6 +12,7 @@
 
 #include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/store/result_log.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/experiment/sweep/sweep_plan.h"
 
 namespace tagfield {

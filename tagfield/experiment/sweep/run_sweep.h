@@ -13,7 +13,7 @@
 #include "tagfield/experiment/bench/prepared.h"
 #include "tagfield/experiment/store/result_log.h"
 #include "tagfield/experiment/sweep/sweep_plan.h"
-#include "tagfield/simulator/run_control.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 

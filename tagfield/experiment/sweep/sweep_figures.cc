@@ -10,6 +10,7 @@
 
 #include "tagfield/base/number.h"
 #include "tagfield/experiment/internal/panels.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/report/style_sheet.h"
 #include "tagfield/report/text.h"
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/experiment/sweep/design_yaml.h"
 #include "tagfield/experiment/sweep/sweep_text.h"
 #include "tagfield/report/page.h"

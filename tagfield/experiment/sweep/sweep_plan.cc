@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "tagfield/base/random.h"
+#include "tagfield/experiment/sweep/design.h"
 
 namespace tagfield {
 namespace {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tagfield/experiment/internal/sweep_target.h"
+#include "tagfield/experiment/sweep/design.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {

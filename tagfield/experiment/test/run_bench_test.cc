@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/experiment/bench/run_bench.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,12 +6,15 @@
 #include <set>
 #include <string>
 
+#include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/prepared.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace {

@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/bench/bench_files.h"
 #include "tagfield/experiment/bench/prepared.h"
-#include "tagfield/experiment/bench/run_bench.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/store/method_runs_json.h"
 #include "tagfield/experiment/store/seed_run_json.h"
@@ -17,6 +18,7 @@
 #include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/scenario/scenario_yaml.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/experiment/bench/suite_yaml.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,10 +6,12 @@
 #include <string>
 
 #include "tagfield/base/units.h"
+#include "tagfield/experiment/bench/bench.h"
 #include "tagfield/experiment/bench/prepared.h"
-#include "tagfield/experiment/bench/run_bench.h"
+#include "tagfield/experiment/bench/suite.h"
 #include "tagfield/files/files.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;

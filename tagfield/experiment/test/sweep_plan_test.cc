@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tagfield/base/number.h"
+#include "tagfield/experiment/sweep/design.h"
 
 namespace tagfield {
 namespace {
@@ -21,7 +22,7 @@ Suite suite_with(const SweepDesign& design, std::uint64_t seeds = 4) {
   suite.count = seeds;
   suite.methods = {{"ml", "ml", {}, {}}};
   suite.conditions = {condition};
-  suite.sweep = design;
+  suite.sweep = std::make_shared<SweepDesign>(design);
   return suite;
 }
 

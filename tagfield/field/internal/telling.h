@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tagfield/base/time.h"
-#include "tagfield/field/field_step.h"
+#include "tagfield/field/rfid_field.h"
 #include "tagfield/field/tag_population.h"
 #include "tagfield/stream/listeners.h"
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tagfield/base/test/error_text.h"
+#include "tagfield/channel/paper_model.h"
 
 namespace tagfield {
 namespace {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "tagfield/localization/method.h"
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {

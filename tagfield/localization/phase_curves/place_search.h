@@ -12,7 +12,7 @@
 #include "tagfield/localization/phase_curves/plane_fit.h"
 #include "tagfield/localization/phase_curves/seeds.h"
 #include "tagfield/localization/phase_curves/unwrap.h"
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/localization/tag_phases.h"
 
 namespace tagfield {

@@ -8,9 +8,9 @@
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/localization/scan/pooled_distance.h"
 #include "tagfield/localization/scan/two_paths.h"
-#include "tagfield/localization/tag_area.h"
 
 namespace tagfield {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tagfield/base/units.h"
-#include "tagfield/localization/phase_sample.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield::made {
 

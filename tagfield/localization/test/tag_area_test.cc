@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/localization/tag_area.h"
-
 #include <gtest/gtest.h>
 
 #include "tagfield/base/error.h"
+#include "tagfield/localization/problem.h"
 
 namespace tagfield {
 namespace {

@@ -8,7 +8,7 @@
 #include "tagfield/planning/forecast.h"
 #include "tagfield/planning/internal/antenna_place.h"
 #include "tagfield/planning/moment.h"
-#include "tagfield/scenario/zones.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tagfield/channel/paper_model.h"
 #include "tagfield/planning/link_verdict.h"
 #include "tagfield/planning/test/radio_hall.h"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/report/inventory.h"
-
 #include <gtest/gtest.h>
 
 #include "tagfield/report/internal/inventory_section.h"
+#include "tagfield/report/summary.h"
 
 namespace tagfield {
 namespace {

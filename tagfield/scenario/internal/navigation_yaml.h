@@ -4,9 +4,8 @@
 #pragma once
 
 #include "tagfield/scenario/navigation_spec.h"
-#include "tagfield/scenario/obstacle.h"
-#include "tagfield/scenario/pose_belief.h"
 #include "tagfield/scenario/robot_spec.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/scenario/yaml_map.h"
 
 namespace tagfield {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tagfield/base/raw_parameter.h"
+#include "tagfield/base/setting.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/scenario.h"
 #include "tagfield/scenario/yaml_map.h"

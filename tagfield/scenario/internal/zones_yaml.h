@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/scenario/yaml_map.h"
-#include "tagfield/scenario/zones.h"
 
 namespace tagfield {
 

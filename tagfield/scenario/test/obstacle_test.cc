@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/scenario/obstacle.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tagfield/base/units.h"
 #include "tagfield/laser/simulated_laser.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/scenario/zones.h"
-
 #include <gtest/gtest.h>
 
 #include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tagfield/channel/moving_body.h"
-#include "tagfield/scenario/obstacle.h"
 #include "tagfield/scenario/robot_spec.h"
+#include "tagfield/scenario/scenario.h"
 
 namespace tagfield {
 

@@ -7,7 +7,7 @@
 
 #include "tagfield/fit/stretches.h"
 #include "tagfield/tracking/internal/pass.h"
-#include "tagfield/tracking/track.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tagfield/localization/problem.h"
-#include "tagfield/tracking/tracking_options.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

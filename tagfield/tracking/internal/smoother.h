@@ -11,8 +11,7 @@
 
 #include "tagfield/tracking/internal/line_search.h"
 #include "tagfield/tracking/internal/pass.h"
-#include "tagfield/tracking/track.h"
-#include "tagfield/tracking/tracking_options.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 

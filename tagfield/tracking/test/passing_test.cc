@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/tracking/passing.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 namespace {

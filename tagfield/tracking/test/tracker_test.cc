@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "tagfield/tracking/passing.h"
 #include "tagfield/tracking/test/made_pass.h"
 
 namespace tagfield {

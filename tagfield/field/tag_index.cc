@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/link/tag_index.h"
+#include "tagfield/field/tag_index.h"
 
 #include <fmt/format.h>
 

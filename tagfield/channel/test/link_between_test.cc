@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tagfield/link/link_geometry.h"
-
 #include <gtest/gtest.h>
+
+#include "tagfield/channel/paper_model.h"
 
 namespace tagfield {
 namespace {
