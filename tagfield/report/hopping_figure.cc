@@ -118,10 +118,12 @@ std::vector<double> hologram_at(const std::vector<PhaseSample>& samples,
   });
 }
 
-ColorBands agreement_bands() {
+/// Ten steps from 0 to the greatest value.
+ColorBands agreement_bands(const std::vector<double>& values) {
   ColorBands bands;
   bands.title = "agreement";
-  bands.edges = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  const double most = std::ceil(10.0 * *std::max_element(values.begin(), values.end()));
+  for (int i = 1; i < 10; ++i) bands.edges.push_back(0.01 * std::max(most, 1.0) * i);
   bands.colors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
                   "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
   for (const double edge : bands.edges) bands.labels.push_back(fmt::format("{:g}", edge));
@@ -197,9 +199,9 @@ std::string carriers_words(const Shown& shown) {
 Figure hologram_figure(const Shown& shown, const HoppingReads& reads, const TagOutcome& outcome) {
   const Eigen::Vector3d middle = *known_place(outcome);
   Figure figure{"hologram", "", "Hologram of " + shortened(shown.tag, 24), "", {}, ""};
-  const ColorBands bands = agreement_bands();
   const MapView map = hologram_map(figure.name, middle);
   const std::vector<double> values = hologram_at(reads.samples, middle);
+  const ColorBands bands = agreement_bands(values);
   figure.svg.height = map.axes.y.from + 48.0;
   draw_band_bar(figure.svg, 2.0, bands);
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");

@@ -47,13 +47,13 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                    {view ? view->script_hash : "", table_script().hash, figure_script().hash}) +
          "<body>\n" + page_header(summary, run.tracked) + "<main>\n" +
          (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
-         run_facts(summary) + (run.tracked ? passings_table(run.tracked->orders) : "") +
-         inventory_tables(summary) + methods_table(summary) + navigation_table(summary) +
-         effects_table(summary) +
+         run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
+         navigation_table(summary) + effects_table(summary) +
          (view ? "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html +
                      "</section>\n"
                : "") +
          "<h2>Figures</h2>\n" + figures_html(figures) +
+         (run.tracked ? passings_table(run.tracked->orders) : "") +
          (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +
          page_footer() + script_html(table_script()) + script_html(figure_script()) +
          "</body>\n</html>\n";

@@ -488,10 +488,10 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
   std::string maps = "<div class=\"figures\">\n";
   for (const Figure& figure : figures) maps += figure_html(figure);
   maps += "</div>\n";
-  std::string html = page_head(plan.scenario + " – Tagfield plan",
-                               {table_script().hash, figure_script().hash, plan_script().hash}) +
-                     "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" +
-                     breakable(plan.scenario) + "</bdi></h1>\n";
+  std::string html =
+      page_head(plan.scenario + " – Tagfield plan", {table_script().hash, plan_script().hash}) +
+      "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" +
+      breakable(plan.scenario) + "</bdi></h1>\n";
   if (!plan.description.empty())
     html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
@@ -506,8 +506,8 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
   return html +
          "</main>\n<footer>\n<p>Made by Tagfield; the same tables lie beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +
-         plan_data(plan) + script_html(table_script()) + script_html(figure_script()) +
-         script_html(plan_script()) + "</body>\n</html>\n";
+         plan_data(plan) + script_html(table_script()) + script_html(plan_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

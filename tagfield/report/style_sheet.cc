@@ -76,8 +76,8 @@ figcaption strong{color:var(--ink);font-weight:600}
 .table{overflow-x:auto;border:1px solid var(--grid);border-radius:10px;
 background:linear-gradient(to right,var(--paper) 40%,transparent) left/4rem 100% no-repeat local,
 linear-gradient(to left,var(--paper) 40%,transparent) right/4rem 100% no-repeat local,
-linear-gradient(to right,var(--wall-edge),transparent) left/.9rem 100% no-repeat scroll,
-linear-gradient(to left,var(--wall-edge),transparent) right/.9rem 100% no-repeat scroll}
+linear-gradient(to right,var(--wall-edge),transparent) left/.6rem 100% no-repeat scroll,
+linear-gradient(to left,var(--wall-edge),transparent) right/.6rem 100% no-repeat scroll}
 .hint{margin:.3rem 0 0;font-size:.85rem;color:var(--muted)}
 .data{font-size:.85rem;white-space:nowrap;color:var(--estimate)}
 table{border-collapse:collapse;width:100%;font-size:.92rem;font-variant-numeric:tabular-nums;

@@ -178,7 +178,9 @@ std::string order_words(const PassingOrder& order) {
   for (std::size_t i = 0; i < shown; ++i) {
     names += (names.empty() ? "" : ", ") + clean_text(order.passings[i].tag);
   }
-  if (shown < order.passings.size()) names += " …";
+  if (shown < order.passings.size()) {
+    names += fmt::format(" and {} more", grouped(order.passings.size() - shown));
+  }
   return fmt::format(" {} passed {}, first to last: {}.", counted(order.passings.size(), "tag"),
                      order.name == "line" ? "the line" : clean_text(order.name), names);
 }
