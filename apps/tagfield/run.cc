@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -31,6 +32,7 @@
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/tracks_page.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -166,13 +168,15 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
 }
 
 /// Where the scenario says where its tags run, what moved past the antennas is tracked, too: it has
-/// no one place. Of the first seed.
-void stage_moving_tags(const Scenario& scenario, const SeedRun& run, const RunArguments& arguments,
-                       const Summary& summary, StagedFolder& folder, Diagnostics& diagnostics) {
+/// no one place. Of the first seed. Gives back what came out in a line; "" where nothing is
+/// tracked.
+std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
+                              const RunArguments& arguments, const Summary& summary,
+                              StagedFolder& folder, Diagnostics& diagnostics) {
   const TrackingSpec& spec = scenario.tracking;
   const bool moved = std::any_of(run.outcomes.begin(), run.outcomes.end(),
                                  [](const TagOutcome& outcome) { return outcome.moved; });
-  if (!moved || !summary.inventory || interrupted() || !(spec.options.lane || spec.line)) return;
+  if (!moved || !summary.inventory || interrupted() || !(spec.options.lane || spec.line)) return "";
   TrackingRun tracked;
   tracked.seed = run.seed;
   tracked.reads = run.recording.reads;
@@ -186,13 +190,15 @@ void stage_moving_tags(const Scenario& scenario, const SeedRun& run, const RunAr
   judged.tags = tracked.outcomes;
   judged.orders = tracked.order_outcomes;
   stage_tracks(judged, tracked, !arguments.no_page, folder);
+  return tracks_sentence(numbers_of(judged), tracked.orders) + "\n";
 }
 
-void print_result(const Summary& summary, const std::string& out, bool page) {
+void print_result(const Summary& summary, const std::string& tracks, const std::string& out,
+                  bool page) {
   fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
              summary.real_time_factor);
-  fmt::print("{}", table_of(summary));
+  fmt::print("{}{}", table_of(summary), tracks);
   if (!summary.complete) {
     fmt::print("INCOMPLETE: the run was interrupted{}\n",
                summary.seeds.size() > 1 ? "; --resume goes on" : "");
@@ -275,7 +281,8 @@ int run(const RunArguments& arguments) {
   Summary summary = summarize(scenario, runs, wall_s, diagnostics, ways);
   summary.effects = effects;
   add_leave_one_out(arguments, scenario, diagnostics, summary);
-  stage_moving_tags(scenario, runs.front(), arguments, summary, folder, diagnostics);
+  const std::string tracks =
+      stage_moving_tags(scenario, runs.front(), arguments, summary, folder, diagnostics);
   summary.warnings = alike_as_one(diagnostics.warnings());
   summary.complete = summary.complete && runs.size() == arguments.seeds;
   print_warnings(diagnostics);
@@ -288,7 +295,7 @@ int run(const RunArguments& arguments) {
   }
   folder.commit(stale_files());
   if (store && summary.complete) store->drop();
-  print_result(summary, out, !arguments.no_page);
+  print_result(summary, tracks, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
 }
 
