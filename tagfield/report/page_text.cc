@@ -152,7 +152,7 @@ std::string page_header(const Summary& summary, const std::optional<TrackedTags>
                         : outcome_sentence(summary));
   if (tracked) {
     html += paragraph(tracks_sentence(tracked->numbers, tracked->orders) +
-                      (summary.seeds.size() > 1 ? " All that in the first run, of which" : "") +
+                      (summary.seeds.size() > 1 ? " That is of the first run;" : "") +
                       " tracks.html has the tracks.");
   }
   return html + "</header>\n";
