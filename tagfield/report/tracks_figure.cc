@@ -8,6 +8,7 @@
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/figure_data.h"
+#include "tagfield/report/internal/map_view.h"
 #include "tagfield/report/style_sheet.h"
 #include "tagfield/report/svg.h"
 
@@ -131,12 +132,15 @@ void draw_antennas_of_tracks(Svg& svg, const Axes& axes, const std::vector<Anten
     const Eigen::Vector3d& p = pose.X_WA.translation;
     places.emplace(pose.antenna, place_in(axes, p.x(), p.y()));
   }
+  MapView map;
+  map.axes = axes;
   for (const auto& [antenna, place] : places) {
     add_diamond(svg, place, 7.0, styled("ink"), clean_text(antenna));
-    const bool right = place.x() + 10.0 + text_width(antenna) < kDrawingWidth;
-    if (places.size() > kMostRows) continue;
-    add_rimmed_text(svg, place + Place(right ? 10.0 : -10.0, 5.0), shortened(antenna, 18),
-                    right ? Anchor::kStart : Anchor::kEnd);
+    take_place(map, place, 8.0);
+  }
+  if (places.size() > kMostRows) return;
+  for (const auto& [antenna, place] : places) {
+    draw_label(svg, map, place, shortened(antenna, 18));
   }
 }
 
@@ -174,7 +178,7 @@ Figure speeds_figure(const std::vector<TagTrack>& tracks) {
   Figure figure{"speeds", "", "Speed over time", "", {}, ""};
   std::vector<const TagTrack*> followed;
   std::vector<double> times;
-  std::vector<double> speeds = {0.0};
+  std::vector<double> speeds;
   for (const TagTrack& tag : tracks) {
     const auto* points = points_of(tag);
     if (points == nullptr) continue;
@@ -197,8 +201,10 @@ Figure speeds_figure(const std::vector<TagTrack>& tracks) {
   }
   const double top = named ? draw_legend(svg, legend) : 0.0;
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
+  const double margin = std::max(0.02 * *fastest, 1e-3);  // Noise alone should not fill it.
   Axes axes{tight_scale(*first, std::max(*last, *first + 1e-3), 6),
-            round_scale(0.0, std::max(*std::max_element(speeds.begin(), speeds.end()), 1e-3), 5)};
+            round_scale(std::max(*slowest - margin, 0.0), *fastest + margin, 5)};
   axes.x.from = 58.0;
   axes.x.to = kDrawingWidth - 20.0;
   axes.y.to = top + 30.0;

@@ -123,9 +123,10 @@ std::string track_row(const TagTrack& tag, const TrackOutcome& outcome, bool tru
       grouped(tag.reads));
   const auto velocity = velocity_of(tag);
   if (velocity) {
-    const double heading = degrees(std::atan2(velocity->y(), velocity->x()));
-    row += fmt::format("<td>{:.3f}</td><td>{:.1f}</td><td>{:.1f}</td>", velocity->norm(),
-                       heading + 0.0, 1e3 * outcome.expected_error_m);
+    const double heading = std::round(10.0 * degrees(std::atan2(velocity->y(), velocity->x())));
+    row += fmt::format("<td>{:.3f}</td><td>{}{:.1f}</td><td>{:.1f}</td>", velocity->norm(),
+                       heading < 0.0 ? "−" : "", 0.1 * std::abs(heading),
+                       1e3 * outcome.expected_error_m);
   } else {
     row += "<td>–</td><td>–</td><td>–</td>";
   }
@@ -227,8 +228,8 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
          passings_table(*shown.orders) + "<h2>Tags</h2>\n" + tracks_table(shown) +
          tracks_facts(*shown.summary) +
          "</main>\n<footer>\n<p>Made by Tagfield; tracks.csv, verdicts.csv, order.csv and "
-         "tracks.json lie beside this page, the figures in figures/ as SVG "
-         "files.</p>\n</footer>\n" +
+         "tracks.json lie beside this page; tracks.svg and figures/ are the "
+         "figures.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
 }
 
