@@ -70,7 +70,7 @@ for(const svg of document.querySelectorAll("figure svg")){
   key.addEventListener("keydown",event=>{if(event.key==="Enter"||event.key===" "){event.preventDefault();turn()}});
  }
  let marks=null;
- const ring=document.createElementNS("http://www.w3.org/2000/svg","circle");
+ const ring=document.createElementNS(svg.namespaceURI,"circle");
  ring.setAttribute("class","ring");ring.setAttribute("r","6");ring.style.display="none";svg.append(ring);
  const collect=()=>{
   marks=[];
@@ -131,7 +131,7 @@ for(const svg of document.querySelectorAll("figure svg")){
 }
 addEventListener("scroll",()=>{tip.hidden=true},{passive:true});
 })();)js",
-                                 "sha256-2VRN7Uuv80QqMxqT/4hsga8+X5x4xQqEwN/goJkb9ck="};
+                                 "sha256-Ti2hSCWupsPC7ZazxaIGwlKQI7kauT79fE08rb6Okik="};
 
 constexpr PageScript kPlan = {R"js((()=>{
 const data=JSON.parse(document.getElementById("plan-data").textContent);

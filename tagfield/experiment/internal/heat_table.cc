@@ -104,7 +104,11 @@ std::string heat_row(const Bench& bench, const BenchCondition& condition,
   std::string html = fmt::format(
       "<tr><th scope=\"row\" title=\"{}\"><bdi>{}</bdi></th><td class=\"words\">{}</td>",
       escaped(condition.name), escaped(shortened(condition.name, kMostHeatName)),
-      winner ? escaped(shortened(winner->entry->name, kMostHeatName)) : "none");
+      winner ? escaped(shortened(winner->entry->name, kMostHeatName)) +
+                   (winner->alike.empty() ? ""
+                                          : fmt::format("<br><small>≈ {}</small>",
+                                                        counted(winner->alike.size(), "other")))
+             : "none");
   for (const std::string& method : methods) {
     const BenchEntry* const entry = entry_named(entries, method);
     html += heat_cell(entry, scale, winner && entry == winner->entry);
@@ -157,7 +161,8 @@ std::string heat_table(const Bench& bench) {
   return html + "</tbody></table></div>\n" + heat_legend(scale) +
          "<p class=\"muted\">Mean error of the located tags [mm]; a fraction says how many were, "
          "where not all. The winner has the least mean error of the methods that got at least 95 % "
-         "as many tags right (located, within 0.3 m) as the best. " +
+         "as many tags right (located, within 0.3 m) as the best; ≈ counts the others "
+         "whose errors don’t differ from its beyond chance, which the folds below name. " +
          data_link("heatmap.csv", "Data as CSV", heat_data(bench)) + "</p>\n";
 }
 
