@@ -148,7 +148,7 @@ std::string heat_table(const Bench& bench) {
   const std::vector<std::string> methods = method_names(bench);
   const HeatScale scale = scale_of_means(bench);
   std::string html =
-      "<div class=\"table heat\" role=\"region\" aria-label=\"Mean errors by condition and "
+      "<div class=\"table heat told\" role=\"region\" aria-label=\"Mean errors by condition and "
       "method\" tabindex=\"0\"><table>\n<thead><tr><th scope=\"col\">Condition</th>"
       "<th scope=\"col\" class=\"words\">Winner</th>";
   for (const std::string& method : methods) {
