@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -14,6 +15,7 @@
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "apps/tagfield/track_files.h"
 #include "tagfield/experiment/effect_breakdown.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -21,6 +23,7 @@
 #include "tagfield/experiment/store/run_store.h"
 #include "tagfield/experiment/store/work_hash.h"
 #include "tagfield/experiment/tracing_forecast.h"
+#include "tagfield/experiment/tracking_run.h"
 #include "tagfield/files/csv_outlet.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/staged_folder.h"
@@ -29,6 +32,7 @@
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/estimates_csv.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/tracks_page.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -163,11 +167,38 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
       leave_one_out(scenario, arguments.seed.value_or(scenario.seed), arguments.seeds, control);
 }
 
-void print_result(const Summary& summary, const std::string& out, bool page) {
+/// Where the scenario says where its tags run, what moved past the antennas is tracked, too: it has
+/// no one place. Of the first seed. Gives back what came out in a line; "" where nothing is
+/// tracked.
+std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
+                              const RunArguments& arguments, const Summary& summary,
+                              StagedFolder& folder, Diagnostics& diagnostics) {
+  const TrackingSpec& spec = scenario.tracking;
+  const bool moved = std::any_of(run.outcomes.begin(), run.outcomes.end(),
+                                 [](const TagOutcome& outcome) { return outcome.moved; });
+  if (!moved || !summary.inventory || interrupted() || !(spec.options.lane || spec.line)) return "";
+  TrackingRun tracked;
+  tracked.seed = run.seed;
+  tracked.reads = run.recording.reads;
+  tracked.believed_poses = run.recording.believed_poses;
+  tracked.truth = run.recording.truth;
+  track(spec, known_beforehand(scenario), arguments.threads, tracked, diagnostics);
+  TrackSummary judged;
+  judged.name = scenario.name;
+  judged.method = to_string(spec.options.method);
+  judged.seeds = {run.seed};
+  judged.tags = tracked.outcomes;
+  judged.orders = tracked.order_outcomes;
+  stage_tracks(judged, tracked, !arguments.no_page, folder);
+  return tracks_sentence(numbers_of(judged), tracked.orders) + "\n";
+}
+
+void print_result(const Summary& summary, const std::string& tracks, const std::string& out,
+                  bool page) {
   fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
              summary.real_time_factor);
-  fmt::print("{}", table_of(summary));
+  fmt::print("{}{}", table_of(summary), tracks);
   if (!summary.complete) {
     fmt::print("INCOMPLETE: the run was interrupted{}\n",
                summary.seeds.size() > 1 ? "; --resume goes on" : "");
@@ -181,7 +212,13 @@ const std::vector<std::filesystem::path>& stale_files() {
       "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json", "map.pgm",
       "map.yaml",        "mapping_path.csv",   "truth/mapping_path.csv", "report.html",   "figures",
       "scene.json",      "INCOMPLETE"};
-  return all;
+  static const std::vector<std::filesystem::path> with_tracks = [] {
+    std::vector<std::filesystem::path> names = all;
+    const auto& tracks = track_file_names();
+    names.insert(names.end(), tracks.begin(), tracks.end());
+    return names;
+  }();
+  return with_tracks;
 }
 
 /// Reads, poses and the truth are all there is.
@@ -244,6 +281,8 @@ int run(const RunArguments& arguments) {
   Summary summary = summarize(scenario, runs, wall_s, diagnostics, ways);
   summary.effects = effects;
   add_leave_one_out(arguments, scenario, diagnostics, summary);
+  const std::string tracks =
+      stage_moving_tags(scenario, runs.front(), arguments, summary, folder, diagnostics);
   summary.warnings = alike_as_one(diagnostics.warnings());
   summary.complete = summary.complete && runs.size() == arguments.seeds;
   print_warnings(diagnostics);
@@ -256,7 +295,7 @@ int run(const RunArguments& arguments) {
   }
   folder.commit(stale_files());
   if (store && summary.complete) store->drop();
-  print_result(summary, out, !arguments.no_page);
+  print_result(summary, tracks, out, !arguments.no_page);
   return summary.complete ? kExitOk : kExitInterrupted;
 }
 

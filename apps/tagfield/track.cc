@@ -9,6 +9,7 @@
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/track_files.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -18,8 +19,6 @@
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/truth_csv.h"
-#include "tagfield/report/tracks_csv.h"
-#include "tagfield/report/tracks_figure.h"
 #include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
@@ -47,6 +46,7 @@ struct TrackArguments {
   std::size_t seeds = 1;
   std::string out;
   int threads = default_threads();
+  bool no_page = false;
 };
 
 bool is_scenario(const std::string& path) {
@@ -237,14 +237,10 @@ int track_command(const TrackArguments& arguments) {
     folder.add("antenna_poses.csv", poses_to_csv(result.first.believed_poses));
     stage_truth(result.first.truth, folder);
   }
-  folder.add("tracks.csv", tracks_to_csv(result.first.tracks));
-  folder.add("verdicts.csv", verdicts_to_csv(result.first.tracks));
-  folder.add("order.csv", orders_to_csv(result.first.orders));
-  folder.add("tracks.json", to_json(result.summary));
-  folder.add("tracks.svg",
-             tracks_figure(result.first.tracks, result.first.believed_poses, result.first.truth));
-  folder.commit();
-  fmt::print("{}folder: {}\n", table_of(result.summary), out);
+  stage_tracks(result.summary, result.first, !arguments.no_page, folder);
+  folder.commit(track_file_names());
+  fmt::print("{}{}: {}\n", table_of(result.summary), arguments.no_page ? "folder" : "page",
+             arguments.no_page ? out : out + "/tracks.html");
   if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
   return result.complete ? kExitOk : kExitInterrupted;
 }
@@ -311,10 +307,12 @@ void add_track_command(CLI::App& app, Action& chosen) {
                       "Folder for the results (default runs/tracked, of a scenario runs/NAME)");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  command->add_flag("--no-page", arguments->no_page, "Write the data only, no tracks.html");
   command->footer(
       "Writes tracks.csv (a row for each stamp), verdicts.csv, order.csv (who passed the line, "
       "and\n"
-      "each antenna at rest, when, and how surely before the next), tracks.json and tracks.svg.\n"
+      "each antenna at rest, when, and how surely before the next), tracks.json, tracks.svg, and\n"
+      "tracks.html, a page with the tracks, when they passed what, their order and their speeds.\n"
       "From antennas in one vertical plane a tag and its mirror image look alike: then say by\n"
       "--lane where tags run. For example, a belt along x with its middle at y = 0:\n"
       "  tagfield track reads.csv --poses poses.csv --lane 0 0 0 0.1 --line 0 0 90 --tag-height "

@@ -34,7 +34,7 @@ PICTURES = [
     ("Tags on a conveyor",
      "Twelve parcels followed past two fixed antennas ([tracking](tracking.md)).",
      "track scenarios/conveyor.yaml --out DIR",
-     [("tracks.svg", "tracks from above")]),
+     [("tracks.svg", "tracks from above"), ("figures/passings.svg", "when each passed the gates and the line")]),
     ("Methods compared",
      "Errors of three methods with exact poses and with a pose error of 1 cm ([benchmarks](bench.md)).",
      "bench scenarios/bench/paper_warehouse.yaml --seeds 3 --methods hyperbola,ml,joint "

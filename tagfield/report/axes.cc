@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/report/axes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +60,31 @@ void draw_symbol(Svg& svg, const LegendEntry& entry, const Place& center) {
   }
 }
 
+std::string span_of(const Scale& scale) {
+  return fmt::format("{:.7g} {:.7g} {} {} {}", scale.low, scale.high, compact(scale.from),
+                     compact(scale.to), scale.logarithmic ? "log" : "lin");
+}
+
+/// data-x, data-y: "low high from to lin|log", places in the drawing; data-x-name … the titles.
+void describe_axes(Svg& svg, const Axes& axes, const std::string& x_title,
+                   const std::string& y_title) {
+  begin_group(svg,
+              fmt::format("class=\"axes\" data-x=\"{}\" data-y=\"{}\" data-x-name=\"{}\" "
+                          "data-y-name=\"{}\"",
+                          span_of(axes.x), span_of(axes.y), escaped(x_title), escaped(y_title)));
+  end_group(svg);
+}
+
+void draw_x_grid(Svg& svg, const Axes& axes, const std::string& title) {
+  const std::vector<std::string> labels = labels_of(axes.x);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const double x = place_on(axes.x, axes.x.ticks[i]);
+    add_line(svg, {x, axes.y.from}, {x, axes.y.to}, styled("grid"));
+    add_text(svg, {x, axes.y.from + 18.0}, labels[i], Anchor::kMiddle, "faint");
+  }
+  add_text(svg, {axes.x.to, axes.y.from + 40.0}, title, Anchor::kEnd);
+}
+
 }  // namespace
 
 double row_height(std::size_t rows) {
@@ -96,17 +123,13 @@ Scale logarithmic_scale(double low, double high) {
 }
 
 void draw_x_axis(Svg& svg, const Axes& axes, const std::string& title) {
-  const std::vector<std::string> labels = labels_of(axes.x);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const double x = place_on(axes.x, axes.x.ticks[i]);
-    add_line(svg, {x, axes.y.from}, {x, axes.y.to}, styled("grid"));
-    add_text(svg, {x, axes.y.from + 18.0}, labels[i], Anchor::kMiddle, "faint");
-  }
-  add_text(svg, {axes.x.to, axes.y.from + 40.0}, title, Anchor::kEnd);
+  describe_axes(svg, axes, title, "");
+  draw_x_grid(svg, axes, title);
 }
 
 void draw_axes(Svg& svg, const Axes& axes, const std::string& x_title, const std::string& y_title) {
-  draw_x_axis(svg, axes, x_title);
+  describe_axes(svg, axes, x_title, y_title);
+  draw_x_grid(svg, axes, x_title);
   const std::vector<std::string> labels = labels_of(axes.y);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const double y = place_on(axes.y, axes.y.ticks[i]);
@@ -126,8 +149,10 @@ double draw_legend(Svg& svg, const std::vector<LegendEntry>& entries) {
       x = 2.0;
       y += kLegendRow;
     }
+    begin_group(svg, fmt::format("class=\"key\" data-key=\"{}\"", escaped(entry.css_class)));
     draw_symbol(svg, entry, {x + 11.0, y});
     add_text(svg, {x + kSymbolWidth, y + 5.0}, entry.text, Anchor::kStart);
+    end_group(svg);
     x += width + kLegendGap;
   }
   return y + kLegendRow - 8.0;

@@ -35,7 +35,8 @@ Scale tight_scale(double low, double high, int count);
 /// Like round_scale, but logarithmic, with 0 < low, ends at ticks of 1, 2 or 5 times powers of ten.
 Scale logarithmic_scale(double low, double high);
 
-/// Draws grid, tick labels, and titles (with units): x below the right end, y above the left.
+/// Draws grid, tick labels, and titles (with units): x below the right end, y above the left. An
+/// empty group with the class "axes" says what they span, for a page's script to read values off.
 void draw_axes(Svg& svg, const Axes& axes, const std::string& x_title, const std::string& y_title);
 /// Only the vertical lines of the grid, with labels and title: for rows with names.
 void draw_x_axis(Svg& svg, const Axes& axes, const std::string& title);
@@ -52,6 +53,7 @@ struct LegendEntry {
 };
 
 /// Draws the entries from the top left on, in rows that fit the width; returns the height used.
+/// Each is a group with the class "key", and with the series' own class as data-key.
 double draw_legend(Svg& svg, const std::vector<LegendEntry>& entries);
 
 /// A horizontal bar of the colours from `low` to `high` [dBm], its top at `y`. Needs 44 of height.

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_outline.h"
 #include "tagfield/report/internal/map_view.h"
 #include "tagfield/report/text.h"
@@ -216,6 +217,23 @@ void draw_tag_names(Svg& svg, MapView& map, const Coverage& coverage) {
   }
 }
 
+constexpr std::size_t kMostDataCells = 5000;  ///< That a page carries as text.
+
+std::string data_of_cells(const Coverage& coverage, const CoverageLayer& layer) {
+  const CoverageGrid& grid = coverage.grid;
+  std::string csv = "x_m,y_m,probability,margin_db,power_dbm\n";
+  for (std::size_t i = 0; i < layer.cells.size(); ++i) {
+    const CoverageCell& cell = layer.cells[i];
+    const auto column = static_cast<double>(i % grid.columns) + 0.5;
+    const auto row = static_cast<double>(i / grid.columns) + 0.5;
+    const bool reached = cell.antenna >= 0;
+    add_data(csv, grid.corner_m.x() + grid.step_m * column, grid.corner_m.y() + grid.step_m * row,
+             cell.probability, reached ? std::optional(cell.margin_db) : std::nullopt,
+             reached ? std::optional(cell.power_dbm) : std::nullopt);
+  }
+  return csv;
+}
+
 }  // namespace
 
 std::string spoken(const Coverage& coverage, const TagCoverage& tag) {
@@ -254,6 +272,7 @@ Figure coverage_figure(const Coverage& coverage, const CoverageLayer& layer,
   } else {
     draw_quantity(figure, coverage, layer, quantity, top_view);
   }
+  if (layer.cells.size() <= kMostDataCells) figure.data = data_of_cells(coverage, layer);
   return figure;
 }
 
@@ -281,6 +300,12 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
   }
   draw_antennas(figure.svg, map, coverage);
   draw_tag_names(figure.svg, map, coverage);
+  figure.data = "tag,x_m,y_m,z_m,probability,margin_db,who\n";
+  for (std::size_t i = 0; i < coverage.tags.size(); i += step) {
+    const TagCoverage& tag = coverage.tags[i];
+    add_data(figure.data, tag.id, tag.p_WT.x(), tag.p_WT.y(), tag.p_WT.z(), tag.probability,
+             tag.best.margin_db, spoken(coverage, tag));
+  }
   if (step > 1) figure.caption += fmt::format(" One tag in {} is drawn.", step);
   return figure;
 }

@@ -150,7 +150,7 @@ std::string figures_html(const std::vector<Figure>& figures, std::size_t first, 
 
 std::string header(const Coverage& coverage) {
   std::string html = "<header>\n<p class=\"kind\">Tagfield coverage</p>\n<h1><bdi>" +
-                     escaped(coverage.scenario) + "</bdi></h1>\n";
+                     breakable(coverage.scenario) + "</bdi></h1>\n";
   if (!coverage.description.empty()) {
     html += "<p class=\"muted\">" + escaped(coverage.description) + "</p>\n";
   }
@@ -179,13 +179,14 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
     maps += figures_html(figures, next, next + quantities_of(coverage).size());
     next += quantities_of(coverage).size();
   }
-  return page_head(coverage.scenario + " – Tagfield coverage", {table_script().hash}) + "<body>\n" +
-         header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) + warnings(coverage) +
-         maps + "<h2>The scenario’s tags</h2>\n" + figures_html(figures, next, figures.size()) +
-         table(coverage) +
+  return page_head(coverage.scenario + " – Tagfield coverage",
+                   {table_script().hash, figure_script().hash}) +
+         "<body>\n" + header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) +
+         warnings(coverage) + maps + "<h2>The scenario’s tags</h2>\n" +
+         figures_html(figures, next, figures.size()) + table(coverage) +
          "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
          "maps in figures/ as SVG files.</p>\n</footer>\n" +
-         script_html(table_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

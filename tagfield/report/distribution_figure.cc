@@ -6,6 +6,7 @@
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/error_rows.h"
+#include "tagfield/report/internal/figure_data.h"
 
 namespace tagfield {
 namespace {
@@ -66,6 +67,12 @@ Figure distribution_figure(const RunFiles& run) {
   draw_mark(svg, axes, kFarOff, "0.3 m", 150.0);
   draw_mark(svg, axes, 1e3 * numbers->p95, "95 % " + spoken_length(numbers->p95), 240.0);
   draw_mark(svg, axes, 1e3 * numbers->mean, "mean " + spoken_length(numbers->mean), 290.0);
+  figure.data = "error_mm,share\n";
+  const std::size_t step = thinning(errors.size(), kSteps);
+  for (std::size_t i = step - 1; i < errors.size(); i += step) {
+    add_data(figure.data, 1e3 * errors[i],
+             static_cast<double>(i + 1) / static_cast<double>(errors.size()));
+  }
   const std::size_t over = count_over(run.summary, 1e-3 * kFarOff);
   figure.caption = fmt::format(
       "Share of the {} that are no greater than the value below. Marked are the mean, the 95th"

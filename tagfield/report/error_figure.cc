@@ -7,6 +7,7 @@
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/error_rows.h"
+#include "tagfield/report/internal/figure_data.h"
 
 namespace tagfield {
 namespace {
@@ -110,6 +111,14 @@ void draw_rows(Figure& figure, const std::vector<TagRow>& rows, const ErrorStati
     draw_row(figure.svg, axes, rows[i], row_center(i, rows.size()), seeds > 1);
   }
   draw_mean(figure.svg, axes, errors.mean);
+  figure.data = "tag,seed,error_mm\n";
+  for (const TagRow& row : rows) {
+    for (const TagOutcome* outcome : row.outcomes) {
+      const auto error = error_of(*outcome);
+      add_data(figure.data, row.tag, std::to_string(outcome->seed),
+               error ? std::optional(1e3 * *error) : std::nullopt);
+    }
+  }
   figure.caption = "Distance between the estimated and the true place of each tag.";
   if (seeds > 1) {
     figure.caption += fmt::format(
@@ -148,7 +157,9 @@ void draw_histogram(Figure& figure, std::vector<double> errors) {
   axes.y.to = 34.0;
   figure.svg.height = 358.0;
   draw_axes(figure.svg, axes, "error [mm], logarithmic", "number of errors");
+  figure.data = "from_mm,to_mm,errors\n";
   for (std::size_t i = 0; i < counts.size(); ++i) {
+    add_data(figure.data, bounds[i], bounds[i + 1], counts[i]);
     if (counts[i] == 0) continue;
     const Place low = place_in(axes, bounds[i], 0.0);
     const Place high = place_in(axes, bounds[i + 1], static_cast<double>(counts[i]));

@@ -5,6 +5,7 @@
 
 #include "tagfield/report/internal/inventory_figures.h"
 #include "tagfield/report/internal/inventory_section.h"
+#include "tagfield/report/passings_figure.h"
 
 namespace tagfield {
 namespace {
@@ -31,12 +32,14 @@ void add_navigation(const RunFiles& run, std::vector<Figure>& figures) {
 
 std::vector<Figure> all_figures(const RunFiles& run) {
   std::vector<Figure> figures;
+  if (run.tracked) figures.push_back(passings_figure(run.reads, run.tracked->orders));
   if (run.summary.inventory) {
     figures.push_back(inventory_curve_figure(run));
     figures.push_back(inventory_antennas_figure(run));
   }
   if (is_inventory_alone(run.summary)) {
     figures.push_back(fixed_rssi_figure(run));
+    if (hops(run)) figures.push_back(hopping_figure(run));
     return figures;
   }
   figures.push_back(map_figure(run));
@@ -48,7 +51,7 @@ std::vector<Figure> all_figures(const RunFiles& run) {
   }
   add_navigation(run, figures);
   if (moves_vertically(busiest_track(run, true))) figures.push_back(height_figure(run));
-  figures.push_back(phase_figure(run));
+  figures.push_back(hops(run) ? hopping_figure(run) : phase_figure(run));
   figures.push_back(path_rssi_figure(run));
   figures.push_back(fixed_rssi_figure(run));
   if (figures.back().missing.empty()) figures.push_back(fixed_strip_figure(run));

@@ -19,6 +19,7 @@ struct Figure {
   std::string caption;  ///< What is seen, plain text.
   Svg svg;
   std::string missing;  ///< Why it can't be drawn; "" where it is.
+  std::string data{};   ///< What is drawn, as CSV with a head; "" where it is not offered.
 };
 
 inline constexpr std::size_t kMostRows = 40;     ///< Tags shown one by one, with their names.
@@ -44,6 +45,13 @@ Figure height_figure(const RunFiles& run);
 
 /// Fig. 12: unwrapped phase distance of the tag with the most reads, and the true change.
 Figure phase_figure(const RunFiles& run);
+
+/// Whether that tag's phases are of several carriers, between which eq. (9) can't follow them.
+bool hops(const RunFiles& run);
+
+/// In place of Fig. 12 where the reader hops: how well the phases agree with each place about the
+/// tag, or, where that can't be drawn, the phases by carrier.
+Figure hopping_figure(const RunFiles& run);
 
 /// Fig. 13: RSSI of that tag along the path of the moving antenna.
 Figure path_rssi_figure(const RunFiles& run);

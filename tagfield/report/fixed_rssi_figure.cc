@@ -5,6 +5,7 @@
 
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/fixed_rssi.h"
 #include "tagfield/report/internal/map_view.h"
 
@@ -77,6 +78,10 @@ Figure fixed_rssi_figure(const RunFiles& run) {
   const AntennaTrack* track = fixed_track(run, figure.missing);
   if (track == nullptr) return figure;
   const std::vector<TagStrength> strengths = strengths_at(run, *track);
+  if (count_without_place(strengths) == strengths.size()) {
+    figure.missing = "no tag that it read has a place, such as where all of them move.";
+    return figure;
+  }
   const Eigen::Vector3d p_WA = track->best().front().X_WB.translation;
   MapView map = make_map(figure.name, content_of(p_WA, strengths), run.top_view, kColorBar);
   const Place antenna = on_map(map, p_WA);
@@ -90,6 +95,12 @@ Figure fixed_rssi_figure(const RunFiles& run) {
   take_place(map, antenna, 8.0);
   draw_label(figure.svg, map, antenna, shortened(track->antenna, 18));
   draw_names(figure.svg, map, strengths);
+  figure.data = "tag,x_m,y_m,reads,mean_rssi_dbm\n";
+  for (const TagStrength& strength : strengths) {
+    if (!strength.p_WT) continue;
+    add_data(figure.data, strength.tag, strength.p_WT->x(), strength.p_WT->y(),
+             strength.rssi_dbm.size(), strength.mean_dbm);
+  }
   figure.caption = caption_of(strengths, shortened(track->antenna, 32));
   return figure;
 }

@@ -6,6 +6,7 @@
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/fixed_rssi.h"
 
 namespace tagfield {
@@ -76,6 +77,16 @@ Figure fixed_strip_figure(const RunFiles& run) {
   figure.caption =
       "Every value received from each tag: a spot for each that occurs, the larger "
       "the greater its share.";
+  figure.data = "tag,rssi_dbm,reads\n";
+  for (const TagStrength& strength : shown) {
+    std::map<double, std::size_t> counts;
+    for (const double value : strength.rssi_dbm) ++counts[value];
+    const std::size_t step = thinning(counts.size(), kMostMarks / shown.size());
+    std::size_t index = 0;
+    for (const auto& [value, count] : counts) {
+      if (index++ % step == 0) add_data(figure.data, strength.tag, value, count);
+    }
+  }
   if (shown.size() < all.size()) {
     figure.caption +=
         fmt::format(" The {} strongest of {} tags.", shown.size(), grouped(all.size()));

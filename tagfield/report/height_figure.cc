@@ -3,6 +3,7 @@
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/figure_data.h"
 
 namespace tagfield {
 namespace {
@@ -49,6 +50,11 @@ Figure height_figure(const RunFiles& run) {
   figure.svg.height = 318.0;
   draw_axes(figure.svg, axes, "time since the start [s]", "height [m]");
   add_polyline(figure.svg, curve_of(axes, track->best(), start), styled("path"));
+  const Trajectory& path = track->best();
+  figure.data = "time_s,height_m\n";
+  for (std::size_t i = 0; i < path.size(); i += thinning(path.size(), kMostMarks)) {
+    add_data(figure.data, to_seconds(path[i].stamp) - start, path[i].X_WB.translation.z());
+  }
   figure.caption = "Height of " + clean_text(track->antenna) +
                    " above the world's origin while the robot drives: the antenna moves vertically "
                    "too.";

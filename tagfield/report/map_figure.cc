@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_view.h"
 
 namespace tagfield {
@@ -222,6 +223,30 @@ std::string caption_of(const RunFiles& run, const Outcomes& outcomes, const Find
   return text;
 }
 
+std::string data_of(const RunFiles& run, const Outcomes& outcomes) {
+  std::string csv = "what,name,time_s,x_m,y_m,z_m\n";
+  for (const AntennaTrack& track : run.tracks) {
+    const Trajectory& path = track.best();
+    const std::size_t step = track.moving ? thinning(path.size(), kMostMarks) : path.size();
+    for (std::size_t i = 0; i < path.size(); i += step) {
+      const Eigen::Vector3d& p = path[i].X_WB.translation;
+      add_data(csv, "antenna", track.antenna, to_seconds(path[i].stamp), p.x(), p.y(), p.z());
+    }
+  }
+  const std::size_t step = thinning(outcomes.size(), kMostMarks / 2);
+  for (std::size_t i = 0; i < outcomes.size(); i += step) {
+    const TagEstimate& estimate = outcomes[i]->estimate;
+    if (const auto& p = outcomes[i]->truth_m) {
+      add_data(csv, "true place", estimate.tag, std::nullopt, p->x(), p->y(), p->z());
+    }
+    for (const Candidate& candidate : estimate.candidates) {
+      const Eigen::Vector3d& p = candidate.p_WT;
+      add_data(csv, "estimate", estimate.tag, std::nullopt, p.x(), p.y(), p.z());
+    }
+  }
+  return csv;
+}
+
 }  // namespace
 
 Figure map_figure(const RunFiles& run) {
@@ -243,6 +268,7 @@ Figure map_figure(const RunFiles& run) {
   draw_antennas(figure.svg, map, run, outcomes.size() <= kMostRows);
   draw_names(figure.svg, map, run, outcomes);
   figure.caption = caption_of(run, outcomes, found);
+  figure.data = data_of(run, outcomes);
   return figure;
 }
 

@@ -10,6 +10,7 @@
 #include "tagfield/report/internal/tables.h"
 #include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
+#include "tagfield/report/passings_figure.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/report/style_sheet.h"
 
@@ -38,18 +39,24 @@ std::string figures_html(const std::vector<Figure>& figures) {
   return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
 }
 
-std::string page_of(const Summary& summary, const std::vector<Figure>& figures,
+std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
+  const Summary& summary = run.summary;
   const bool is_inventory = is_inventory_alone(summary);
   return page_head(summary.scenario + " – Tagfield report",
-                   {view ? view->script_hash : "", table_script().hash}) +
-         "<body>\n" + page_header(summary) + "<main>\n" +
+                   {view ? view->script_hash : "", table_script().hash, figure_script().hash}) +
+         "<body>\n" + page_header(summary, run.tracked) + "<main>\n" +
          (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
          run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
          navigation_table(summary) + effects_table(summary) +
-         (view ? "<h2>The run over time</h2>\n" + view->html : "") + "<h2>Figures</h2>\n" +
-         figures_html(figures) + (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) +
-         "</main>\n" + page_footer() + script_html(table_script()) + "</body>\n</html>\n";
+         (view ? "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html +
+                     "</section>\n"
+               : "") +
+         "<h2>Figures</h2>\n" + figures_html(figures) +
+         (run.tracked ? passings_table(run.tracked->orders) : "") +
+         (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +
+         page_footer() + script_html(table_script()) + script_html(figure_script()) +
+         "</body>\n</html>\n";
 }
 
 /// Nothing is made where there is no run.
@@ -76,7 +83,7 @@ void stage_report(const std::string& run_folder, const std::optional<RunView>& v
     folder.add("figures/" + figure.name + ".svg",
                standalone_svg(figure.svg, figure.title, figure.caption));
   }
-  folder.add("report.html", page_of(run.summary, figures, view));
+  folder.add("report.html", page_of(run, figures, view));
 }
 
 void write_report(const std::string& run_folder, const std::optional<RunView>& view) {

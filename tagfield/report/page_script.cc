@@ -7,6 +7,10 @@ namespace {
 constexpr PageScript kTables = {R"js((()=>{
 const number=text=>{const n=parseFloat(text.replace(/[,\s]/g,"").replace("−","-"));return isNaN(n)?null:n};
 for(const box of document.querySelectorAll(".table")){
+ const hint=document.createElement("p");
+ hint.className="hint";hint.textContent="The table goes on to the right: scroll it sideways →";box.after(hint);
+ const look=()=>{hint.hidden=box.scrollWidth<=box.clientWidth+1};
+ new ResizeObserver(look).observe(box);look();
  const table=box.querySelector("table"),body=table&&table.tBodies[0];
  if(!body||body.rows.length<2||body.querySelector("[colspan],[rowspan]")||!table.tHead||table.tHead.rows.length>1)continue;
  const rows=[...body.rows];
@@ -36,7 +40,98 @@ for(const box of document.querySelectorAll(".table")){
  box.before(filter);
 }
 })();)js",
-                                "sha256-n6JsRp95gn0wOuwH5KanHkagI4Iwtlali81EpcSFzAg="};
+                                "sha256-O1QJJf+qCmaSxnD6NjjHkfT62NojrdA704eylgsZj1E="};
+
+constexpr PageScript kFigures = {R"js((()=>{
+const put=(tag,name)=>{const made=document.createElement(tag);made.className=name;return made};
+const tip=put("div","tip");tip.hidden=true;tip.setAttribute("aria-hidden","true");document.body.append(tip);
+const spoken=v=>(v!==0&&(Math.abs(v)<1e-3||Math.abs(v)>=1e6)?v.toExponential(2):String(+v.toPrecision(4))).replace("-","−");
+const value=(span,at)=>{
+ const [low,high,from,to]=span.map(Number),t=(at-from)/(to-from);
+ return span[4]==="log"?low*(high/low)**t:low+t*(high-low);
+};
+const within=(span,at)=>{const ends=[+span[2],+span[3]];return at>=Math.min(...ends)-1&&at<=Math.max(...ends)+1};
+const reach=24;
+for(const svg of document.querySelectorAll("figure svg")){
+ const names={},panels=[...svg.querySelectorAll("g.axes")].map(g=>({x:g.dataset.x.split(" "),y:g.dataset.y.split(" "),xn:g.dataset.xName,yn:g.dataset.yName}));
+ for(const key of svg.querySelectorAll("g.key")){
+  const kind=key.dataset.key,drawn=[...svg.getElementsByClassName(kind)].filter(e=>!e.closest(".key"));
+  names[kind]=key.textContent.trim();
+  if(!drawn.length)continue;
+  svg.setAttribute("role","group");
+  key.tabIndex=0;key.setAttribute("role","button");key.setAttribute("aria-pressed","true");
+  key.setAttribute("aria-label","Show "+names[kind]);
+  const turn=()=>{
+   const shown=key.getAttribute("aria-pressed")!=="true";
+   key.setAttribute("aria-pressed",shown);
+   for(const e of drawn)e.style.display=shown?"":"none";
+  };
+  key.addEventListener("click",turn);
+  key.addEventListener("keydown",event=>{if(event.key==="Enter"||event.key===" "){event.preventDefault();turn()}});
+ }
+ let marks=null;
+ const ring=document.createElementNS(svg.namespaceURI,"circle");
+ ring.setAttribute("class","ring");ring.setAttribute("r","6");ring.style.display="none";svg.append(ring);
+ const collect=()=>{
+  marks=[];
+  for(const e of svg.querySelectorAll("circle,polyline,path,rect,line")){
+   if(e===ring||e.closest(".key,[transform],clipPath"))continue;
+   const title=e.querySelector("title"),text=title?title.textContent:"";
+   if(title)title.remove();
+   if(e.tagName==="polyline"){
+    const line=e.getAttribute("points").trim().split(/[\s,]+/).map(Number),at=[];
+    for(let i=0;i+1<line.length;i+=2)at.push([line[i],line[i+1]]);
+    marks.push({e,text,line:at});
+   }else if(e.tagName==="circle")marks.push({e,text,line:[[+e.getAttribute("cx"),+e.getAttribute("cy")]]});
+   else if(text){const b=e.getBBox();marks.push(e.tagName==="line"?{e,text,line:["1","2"].map(n=>[+e.getAttribute("x"+n),+e.getAttribute("y"+n)])}:{e,text,box:b})}
+  }
+ };
+ const nearest=(mark,p)=>{
+  if(mark.box){
+   const b=mark.box,x=Math.min(Math.max(p.x,b.x),b.x+b.width),y=Math.min(Math.max(p.y,b.y),b.y+b.height);
+   return [x,y];
+  }
+  let best=mark.line[0],least=Infinity;
+  mark.line.forEach((a,i)=>{
+   const b=mark.line[i+1]||a,dx=b[0]-a[0],dy=b[1]-a[1],n=dx*dx+dy*dy;
+   const t=n?Math.min(Math.max(((p.x-a[0])*dx+(p.y-a[1])*dy)/n,0),1):0,q=[a[0]+t*dx,a[1]+t*dy];
+   const d=Math.hypot(q[0]-p.x,q[1]-p.y);
+   if(d<least){least=d;best=q}
+  });
+  return best;
+ };
+ const hide=()=>{tip.hidden=true;ring.style.display="none"};
+ const look=event=>{
+  if(!marks)collect();
+  const p=new DOMPoint(event.clientX,event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  let found=null,least=reach;
+  for(const mark of marks){
+   if(mark.e.style.display==="none")continue;
+   const q=nearest(mark,p),d=Math.hypot(q[0]-p.x,q[1]-p.y)+(mark.text?0:2);
+   if(d<least){least=d;found={mark,q}}
+  }
+  if(!found)return hide();
+  const [x,y]=found.q,panel=panels.find(a=>within(a.x,x)&&within(a.y,y)),lines=[];
+  const has=found.mark.e.classList,name=names[Object.keys(names).find(k=>k.split(" ").every(c=>has.contains(c)))];
+  if(found.mark.text)lines.push(found.mark.text);
+  else if(name)lines.push(name);
+  if(panel&&!found.mark.text){
+   const xn=panel.xn||(panels.find(a=>a.xn)||{}).xn||"x";
+   lines.push(xn+": "+spoken(value(panel.x,x)));
+   if(panel.yn)lines.push(panel.yn+": "+spoken(value(panel.y,y)));
+  }
+  if(!lines.length)return hide();
+  tip.textContent=lines.join("\n");tip.hidden=false;
+  const w=tip.offsetWidth,h=tip.offsetHeight;
+  tip.style.left=Math.max(4,Math.min(event.clientX+14,innerWidth-w-4))+"px";
+  tip.style.top=(event.clientY-h-12<4?event.clientY+18:event.clientY-h-12)+"px";
+  ring.setAttribute("cx",x);ring.setAttribute("cy",y);ring.style.display=found.mark.box?"none":"";
+ };
+ svg.addEventListener("pointermove",look);svg.addEventListener("pointerdown",look);svg.addEventListener("pointerleave",hide);
+}
+addEventListener("scroll",()=>{tip.hidden=true},{passive:true});
+})();)js",
+                                 "sha256-Ti2hSCWupsPC7ZazxaIGwlKQI7kauT79fE08rb6Okik="};
 
 constexpr PageScript kPlan = {R"js((()=>{
 const data=JSON.parse(document.getElementById("plan-data").textContent);
@@ -73,6 +168,8 @@ show();
 }  // namespace
 
 const PageScript& table_script() { return kTables; }
+
+const PageScript& figure_script() { return kFigures; }
 
 const PageScript& plan_script() { return kPlan; }
 

@@ -12,8 +12,13 @@ struct PageScript {
   const char* hash;  ///< "sha256-…" of `text`; tests/command/plan_test.py computes it again.
 };
 
-/// Tables sort by a click on a column's head; long ones get a field to filter their rows.
+/// Tables sort by a click on a column's head; long ones get a field to filter their rows, wide ones
+/// a line that says that they scroll.
 const PageScript& table_script();
+
+/// Figures say the value under the pointer, by their marks' tooltips or by their axes; a click on
+/// an entry of the legend hides the series, and shows it again.
+const PageScript& figure_script();
 
 /// The slider and the comparison of a plan's page.
 const PageScript& plan_script();

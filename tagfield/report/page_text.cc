@@ -10,6 +10,7 @@
 #include "tagfield/localization/locate.h"
 #include "tagfield/report/internal/inventory_section.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/tracks_page.h"
 
 namespace tagfield {
 namespace {
@@ -19,10 +20,31 @@ constexpr std::size_t kMostSeeds = 6;
 
 std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>\n", escaped(text)); }
 
+std::size_t count_read(const Summary& summary) {
+  return static_cast<std::size_t>(
+      std::count_if(summary.tags.begin(), summary.tags.end(),
+                    [](const TagOutcome& tag) { return tag.reads > 0; }));
+}
+
+bool all_moved(const Summary& summary) {
+  return !summary.tags.empty() && std::all_of(summary.tags.begin(), summary.tags.end(),
+                                              [](const TagOutcome& tag) { return tag.moved; });
+}
+
+/// There is no one place that a moving tag could be located at.
+std::string moved_sentence(const Summary& summary) {
+  return fmt::format(
+      "{} of {} read, {} in all. All of them moved, so none has one place; tagfield track follows "
+      "tags past antennas at rest.",
+      grouped(count_read(summary)), counted(summary.tags.size(), "tag"),
+      counted(summary.reads, "read"));
+}
+
 std::string outcome_sentence(const Summary& summary) {
   const std::size_t located = count(summary, Verdict::kLocated);
   const std::size_t ambiguous = count(summary, Verdict::kAmbiguous);
   const std::size_t lost = count(summary, Verdict::kNotLocated);
+  if (located + ambiguous == 0 && all_moved(summary)) return moved_sentence(summary);
   std::string text =
       fmt::format("{} of {} located", grouped(located),
                   counted(summary.tags.size(), summary.seeds.size() > 1 ? "outcome" : "tag"));
@@ -100,12 +122,27 @@ std::string spoken_duration(double seconds) {
   return fmt::format("{:.1f} min", seconds / 60.0);
 }
 
+/// As in an address (RFC 3986).
+std::string percent_encoded(const std::string& text) {
+  std::string encoded;
+  for (const char c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       c == ',' || c == '.' || c == '_' || c == '-';
+    if (plain) {
+      encoded += c;
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    }
+  }
+  return encoded;
+}
+
 }  // namespace
 
-std::string page_header(const Summary& summary) {
+std::string page_header(const Summary& summary, const std::optional<TrackedTags>& tracked) {
   const std::string name = summary.scenario.empty() ? "A run" : summary.scenario;
-  std::string html = "<header>\n<p class=\"kind\">Tagfield report</p>\n<h1><bdi>" + escaped(name) +
-                     "</bdi></h1>\n";
+  std::string html = "<header>\n<p class=\"kind\">Tagfield report</p>\n<h1><bdi>" +
+                     breakable(name) + "</bdi></h1>\n";
   if (!summary.description.empty()) {
     html += "<p class=\"muted\">" + escaped(summary.description) + "</p>\n";
   }
@@ -113,6 +150,11 @@ std::string page_header(const Summary& summary) {
   html += paragraph(is_inventory_alone(summary)
                         ? inventory_sentence(*summary.inventory, summary.seeds.size())
                         : outcome_sentence(summary));
+  if (tracked) {
+    html += paragraph(tracks_sentence(tracked->numbers, tracked->orders) +
+                      (summary.seeds.size() > 1 ? " That is of the first run;" : "") +
+                      " tracks.html has the tracks.");
+  }
   return html + "</header>\n";
 }
 
@@ -123,8 +165,14 @@ std::string key_numbers(const Summary& summary) {
     html += big("95 % within", spoken_length(errors->p95));
     html += big("Greatest error", spoken_length(errors->max));
   }
-  html += big("Located", fmt::format("{} of {}", grouped(count(summary, Verdict::kLocated)),
-                                     grouped(summary.tags.size())));
+  if (count(summary, Verdict::kLocated) == 0 && all_moved(summary)) {
+    html += big("Tags read",
+                fmt::format("{} of {}", grouped(count_read(summary)), grouped(summary.tags.size())),
+                true);
+  } else {
+    html += big("Located", fmt::format("{} of {}", grouped(count(summary, Verdict::kLocated)),
+                                       grouped(summary.tags.size())));
+  }
   html += big("Reads", grouped(summary.reads));
   html += big("Path", fmt::format("{:.1f} m", summary.path_length_m));
   if (summary.simulated_s > 0.0) html += big("Simulated", spoken_duration(summary.simulated_s));
@@ -194,6 +242,12 @@ std::string run_facts(const Summary& summary) {
   return html + warnings_note(summary.warnings);
 }
 
+std::string data_link(const std::string& file, const std::string& words, const std::string& csv) {
+  return fmt::format(
+      "<a class=\"data\" download=\"{}\" href=\"data:text/csv;charset=utf-8,{}\">{}</a>",
+      escaped(file), percent_encoded(csv), escaped(words));
+}
+
 std::string figure_html(const Figure& figure) {
   const std::string number = escaped(figure.number);
   if (!figure.missing.empty()) {
@@ -202,10 +256,11 @@ std::string figure_html(const Figure& figure) {
                        escaped(figure.missing));
   }
   return fmt::format(
-      "<figure id=\"{}\">\n{}<figcaption><strong>{}.</strong> {}{}</figcaption>\n</figure>\n",
+      "<figure id=\"{}\">\n{}<figcaption><strong>{}.</strong> {}{}{}</figcaption>\n</figure>\n",
       escaped(figure.name), inline_svg(figure.svg, figure.title), escaped(figure.title),
       escaped(figure.caption),
-      number.empty() ? "" : fmt::format(" <span class=\"muted\">({} of the paper)</span>", number));
+      number.empty() ? "" : fmt::format(" <span class=\"muted\">({} of the paper)</span>", number),
+      figure.data.empty() ? "" : " " + data_link(figure.name + ".csv", "Data as CSV", figure.data));
 }
 
 std::string page_footer() {

@@ -11,8 +11,8 @@
 
 namespace tagfield {
 
-/// Title, description, what came out in a sentence, warnings, and that the run is incomplete.
-std::string page_header(const Summary& summary);
+/// Title, description, what came out in a sentence or two, and that the run is incomplete.
+std::string page_header(const Summary& summary, const std::optional<TrackedTags>& tracked);
 
 /// The big numbers.
 std::string key_numbers(const Summary& summary);
@@ -27,7 +27,10 @@ std::string compared_pose_text(const Summary& summary);
 /// Method, poses, seeds.
 std::string run_facts(const Summary& summary);
 
-/// One figure with its caption, or the words why it is missing.
+/// A link with these words that saves `csv` under this name; the page itself holds what it saves.
+std::string data_link(const std::string& file, const std::string& words, const std::string& csv);
+
+/// One figure with its caption and its data, or the words why it is missing.
 std::string figure_html(const Figure& figure);
 
 /// How to cite the paper.

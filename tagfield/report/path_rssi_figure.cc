@@ -5,6 +5,7 @@
 
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_view.h"
 
 namespace tagfield {
@@ -98,6 +99,11 @@ Figure path_rssi_figure(const RunFiles& run) {
   draw_path(figure.svg, map, track->best(), "thin");
   draw_reads(figure.svg, map, reads);
   draw_tag(figure.svg, map, outcome);
+  figure.data = "time_s,x_m,y_m,rssi_dbm\n";
+  for (std::size_t i = 0; i < reads.size(); i += thinning(reads.size(), kMostMarks)) {
+    add_data(figure.data, to_seconds(reads[i].read->stamp), reads[i].p_WA.x(), reads[i].p_WA.y(),
+             reads[i].read->rssi_dbm);
+  }
   figure.title += fmt::format(", {}", shortened(tag, 24));
   figure.caption = fmt::format(
       "Strength of {}'s answers where {} received them, over {}; the colours span the middle 90 % "

@@ -10,6 +10,7 @@
 #include "tagfield/localization/problem.h"
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/figure_data.h"
 
 namespace tagfield {
 namespace {
@@ -233,6 +234,14 @@ Figure phase_figure(const RunFiles& run) {
   const bool truth_known = segments.front().front().true_m.has_value();
   figure.title += " of " + shortened(tag, 24);
   draw_segments(figure.svg, segments, truth_known);
+  figure.data = "segment,time_s,distance_m,true_m\n";
+  const std::size_t step = thinning(size_of(segments), kMostMarks);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    for (std::size_t i = 0; i < segments[k].size(); i += step) {
+      const PhasePoint& point = segments[k][i];
+      add_data(figure.data, k + 1, point.time_s, point.measured_m, point.true_m);
+    }
+  }
   figure.caption = caption_of(segments, left_out, shortened(tag, 32), shortened(track->antenna, 32),
                               truth_known);
   return figure;

@@ -435,25 +435,6 @@ std::string check_text(const AntennaPlan& plan) {
       std::floor(layout.read.high));
 }
 
-std::string percent_encoded(const std::string& text) {
-  std::string encoded;
-  for (const char c : text) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                       c == ',' || c == '.' || c == '_' || c == '-';
-    if (plain) {
-      encoded += c;
-    } else {
-      encoded += fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    }
-  }
-  return encoded;
-}
-
-std::string download(const std::string& name, const std::string& words, const std::string& text) {
-  return fmt::format("<a download=\"{}\" href=\"data:text/csv;charset=utf-8,{}\">{}</a>", name,
-                     percent_encoded(text), words);
-}
-
 std::string plan_warnings(const AntennaPlan& plan) {
   if (plan.warnings.empty()) return "";
   std::string html = "<div class=\"note\"><p><strong>Warnings</strong></p><ul>\n";
@@ -509,8 +490,8 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
   maps += "</div>\n";
   std::string html =
       page_head(plan.scenario + " – Tagfield plan", {table_script().hash, plan_script().hash}) +
-      "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" + escaped(plan.scenario) +
-      "</bdi></h1>\n";
+      "<body>\n<header>\n<p class=\"kind\">Tagfield plan</p>\n<h1><bdi>" +
+      breakable(plan.scenario) + "</bdi></h1>\n";
   if (!plan.description.empty())
     html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
@@ -519,9 +500,9 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
           "over orientations and fading, before contention for slots.</p>\n" +
           controls(plan) + maps + layouts_table(plan) + zones_of_plan(plan) + antennas_table(plan) +
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
-          download("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
-          download("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
-          download("plan_places.csv", "places", plan_places_to_csv(plan)) + " (CSV)</p>\n";
+          data_link("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
+          data_link("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
+          data_link("plan_places.csv", "places", plan_places_to_csv(plan)) + " (CSV)</p>\n";
   return html +
          "</main>\n<footer>\n<p>Made by Tagfield; the same tables lie beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +

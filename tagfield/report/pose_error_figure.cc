@@ -7,6 +7,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/figure_data.h"
 
 namespace tagfield {
 namespace {
@@ -152,6 +153,18 @@ std::string caption_of(const RunFiles& run, const Panel& panel) {
   return text;
 }
 
+std::string data_of(const Panel& position, const Panel& yaw) {
+  std::string csv = "antenna,time_s,horizontal_mm,heading_deg\n";
+  for (std::size_t k = 0; k < position.courses.size(); ++k) {
+    const Course& course = position.courses[k];
+    const std::size_t step = thinning(course.values.size(), kMostMarks);
+    for (std::size_t i = 0; i < course.values.size(); i += step) {
+      add_data(csv, k + 1, course.times_s[i], course.values[i], yaw.courses[k].values[i]);
+    }
+  }
+  return csv;
+}
+
 }  // namespace
 
 Figure pose_error_figure(const RunFiles& run) {
@@ -166,6 +179,7 @@ Figure pose_error_figure(const RunFiles& run) {
   draw_panel(figure.svg, position);
   draw_panel(figure.svg, yaw);
   figure.caption = caption_of(run, position);
+  figure.data = data_of(position, yaw);
   return figure;
 }
 

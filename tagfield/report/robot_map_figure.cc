@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tagfield/report/figures.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_outline.h"
 #include "tagfield/report/internal/map_view.h"
 
@@ -115,6 +116,15 @@ Figure robot_map_figure(const RunFiles& run) {
   draw_cells(figure.svg, map, coarsened(*run.map, static_cast<int>(step)));
   draw_way(figure.svg, map, run.mapping_way);
   figure.caption = caption_of(run, step);
+  figure.data = "what,time_s,x_m,y_m\n";
+  for (const auto& [name, path] : {std::pair("believed", &run.mapping_way.believed),
+                                   std::pair("true", &run.mapping_way.truth)}) {
+    for (std::size_t i = 0; i < path->size(); i += thinning(path->size(), kMostMarks)) {
+      const StampedPose& pose = (*path)[i];
+      add_data(figure.data, name, to_seconds(pose.stamp), pose.X_WB.translation.x(),
+               pose.X_WB.translation.y());
+    }
+  }
   return figure;
 }
 

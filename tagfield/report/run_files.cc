@@ -12,6 +12,7 @@
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/report/text.h"
+#include "tagfield/report/tracks_csv.h"
 
 namespace tagfield {
 namespace {
@@ -138,6 +139,11 @@ RunFiles read_run_files(const std::string& folder) {
     run.top_view = read_top_view(folder + "/top_view.json");
   }
   if (run.summary.navigation) take_map(folder, run);
+  const std::string tracks = folder + "/tracks.json";
+  if (fs::exists(tracks) && fs::exists(folder + "/order.csv")) {
+    run.tracked = {track_numbers_from_json(read_text_file(tracks), tracks),
+                   read_orders_csv(folder + "/order.csv")};
+  }
   run.tracks = tracks_of(run.reads, believed, std::move(truth));
   return run;
 }

@@ -12,6 +12,7 @@
 #include "tagfield/map/top_view.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/report/summary.h"
+#include "tagfield/report/track_judgement.h"
 #include "tagfield/stream/tag_read.h"
 #include "tagfield/stream/truth.h"
 
@@ -35,6 +36,12 @@ struct MappingWay {
   Trajectory truth;     ///< Empty where unknown.
 };
 
+/// Tags that moved, as they were tracked.
+struct TrackedTags {
+  TrackNumbers numbers;
+  std::vector<PassingOrder> orders;
+};
+
 /// All that a page is made of. Not to be copied: tracks point into `reads`.
 struct RunFiles {
   Summary summary;
@@ -45,6 +52,7 @@ struct RunFiles {
   std::vector<AntennaTrack> tracks;  ///< By name.
   std::optional<OccupancyGrid> map;  ///< That robots found their way by.
   MappingWay mapping_way;
+  std::optional<TrackedTags> tracked;
 
   RunFiles() = default;
   RunFiles(const RunFiles&) = delete;
@@ -56,8 +64,8 @@ struct RunFiles {
 /// Reads summary.json, reads.csv and antenna_poses.csv, and truth/ and top_view.json where they
 /// are. Where a run with the true poses was compared with the believed ones, those come from
 /// compared_poses.csv. The map and the way of mapping come from map.yaml and mapping_path.csv where
-/// the summary has `navigation`. Throws Error if one is malformed, or one of the first three is
-/// missing.
+/// the summary has `navigation`, tracks from tracks.json and order.csv where those are. Throws
+/// Error if one is malformed, or one of the first three is missing.
 RunFiles read_run_files(const std::string& folder);
 
 /// A recording as a run in which nothing was located: its reads, where its antennas were believed

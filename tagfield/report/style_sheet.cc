@@ -47,7 +47,8 @@ overflow-wrap:anywhere}
 main,header,footer{max-width:1216px;margin:0 auto;padding:0 14px}
 header{padding-top:28px}
 .kind{margin:0;color:var(--muted);font-size:.9rem}
-h1{margin:0;font-size:1.9rem;line-height:1.2;font-weight:650;letter-spacing:-.01em}
+h1{margin:0;font-size:clamp(1.3rem,6vw,1.9rem);line-height:1.2;font-weight:650;letter-spacing:-.01em}
+h1,h2,summary,figcaption strong{overflow-wrap:break-word}
 h2{margin:2.6rem 0 .8rem;font-size:1.25rem;font-weight:650}
 p{margin:.5rem 0;max-width:46rem}
 .muted,footer{color:var(--muted)}
@@ -72,7 +73,13 @@ figure{margin:0 0 2.4rem;break-inside:avoid}
 figure svg{display:block;width:100%;height:auto}
 figcaption{margin-top:.5rem;font-size:.92rem;line-height:1.45;color:var(--muted)}
 figcaption strong{color:var(--ink);font-weight:600}
-.table{overflow-x:auto;border:1px solid var(--grid);border-radius:10px}
+.table{overflow-x:auto;border:1px solid var(--grid);border-radius:10px;
+background:linear-gradient(to right,var(--paper) 40%,transparent) left/4rem 100% no-repeat local,
+linear-gradient(to left,var(--paper) 40%,transparent) right/4rem 100% no-repeat local,
+linear-gradient(to right,var(--wall-edge),transparent) left/.6rem 100% no-repeat scroll,
+linear-gradient(to left,var(--wall-edge),transparent) right/.6rem 100% no-repeat scroll}
+.hint{margin:.3rem 0 0;font-size:.85rem;color:var(--muted)}
+.data{font-size:.85rem;white-space:nowrap;color:var(--estimate)}
 table{border-collapse:collapse;width:100%;font-size:.92rem;font-variant-numeric:tabular-nums;
 overflow-wrap:normal}
 th,td{padding:.4rem .75rem;text-align:right;white-space:nowrap;
@@ -91,6 +98,21 @@ td.words:last-child{white-space:normal;min-width:15rem}
 footer{padding-top:1.5rem;padding-bottom:2.5rem;font-size:.9rem}
 .filter{font:inherit;font-size:.92rem;width:100%;max-width:22rem;margin:.2rem 0 .6rem;padding:.35rem .6rem;
 color:var(--ink);background:var(--paper);border:1px solid var(--grid);border-radius:8px}
+details{margin:.5rem 0;border:1px solid var(--grid);border-radius:10px;padding:.45rem .8rem}
+details[open]{padding-bottom:.8rem}
+summary{cursor:pointer}
+summary strong{font-weight:600}
+details .table{margin-top:.6rem}
+.heat td{font-weight:500;border:1px solid var(--paper)}
+.heat td.best{font-weight:700;outline:2px solid var(--ink);outline-offset:-3px}
+.heat td.none{color:var(--muted);font-weight:400}
+.heat td.words{font-weight:600}
+.tip{position:fixed;z-index:9;max-width:min(20rem,90vw);padding:.3rem .55rem;border-radius:6px;
+background:var(--ink);color:var(--paper);font-size:.85rem;line-height:1.35;white-space:pre-line;
+pointer-events:none}
+.key[role]{cursor:pointer}
+.key[aria-pressed=false] text{text-decoration:line-through}
+.key[aria-pressed=false]>:not(text){opacity:.3}
 th[aria-sort=ascending]::after{content:" ↑"}
 th[aria-sort=descending]::after{content:" ↓"}
 .controls{display:flex;flex-wrap:wrap;gap:.6rem 1.6rem;align-items:center;margin:1rem 0}
@@ -102,7 +124,22 @@ margin-right:.35rem}
 @media (min-width:900px){.figures{columns:2;column-gap:36px}}
 @media (max-width:600px){tbody th{max-width:38vw;overflow:hidden;text-overflow:ellipsis}
 .told tbody th{white-space:normal}}
-@media print{.figures{columns:1}#tagfield-view{display:none}}
+@page{size:A4;margin:11mm}
+@media print{html,body{font-size:9.6px}
+main,header,footer{max-width:none;padding:0}
+header{padding-top:0}
+h2{margin:1rem 0 .5rem;break-after:avoid}
+.numbers{margin:.8rem 0}
+.numbers dd{font-size:1.25rem}
+.figures{columns:2;column-gap:7mm}
+figure{margin-bottom:1.1rem}
+figcaption{margin-top:.2rem}
+th,td{padding:.12rem .5rem}
+tr{break-inside:avoid}
+.table{overflow:visible;background:none}
+footer{padding:.6rem 0 0}
+.screen,.filter,.hint,.data,.tip,.controls{display:none}
+.heat td,.numbers,.note{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
 }  // namespace
@@ -162,14 +199,19 @@ std::string figure_style(const Palette& c) {
       "svg .cover-wrong{{fill:#c2419e}}\n"
       "svg .cover-never{{fill:none;stroke:#e0452f;stroke-width:2.6}}\n",
       c.ink, c.paper, c.ink, c.ink, c.paper);
-  rules += fmt::format("svg .band{{fill:{};fill-opacity:0.28}}\n", c.muted);
+  rules += fmt::format(
+      "svg .band{{fill:{};fill-opacity:0.28}}\n"
+      "svg .ring{{fill:none;stroke:{};stroke-width:2;pointer-events:none}}\n"
+      "svg .key{{pointer-events:bounding-box}}\n",
+      c.muted, c.ink);
   return rules + series_style();
 }
 
 std::string page_style() {
   return ":root{color-scheme:light dark;" + properties(light_palette()) + "}\n" +
-         "@media (prefers-color-scheme:dark){:root{" + properties(dark_palette()) + "}}\n" +
-         kLayout + ".on-map{" + properties(light_palette()) + "}\n" + figure_style(page_palette());
+         "@media screen and (prefers-color-scheme:dark){:root{" + properties(dark_palette()) +
+         "}}\n" + kLayout + ".on-map{" + properties(light_palette()) + "}\n" +
+         figure_style(page_palette());
 }
 
 }  // namespace tagfield

@@ -117,6 +117,18 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
+std::string breakable(std::string_view text) {
+  std::string safe;
+  for (const char character : clean_text(text)) {
+    const std::string_view name = entity(character);
+    safe += name.empty() ? std::string_view(&character, 1) : name;
+    if (character == '_' || character == '-' || character == '/' || character == '.') {
+      safe += "<wbr>";
+    }
+  }
+  return safe;
+}
+
 std::size_t length_of(std::string_view text) {
   const auto inner = std::count_if(text.begin(), text.end(), continues);
   return text.size() - static_cast<std::size_t>(inner);

@@ -17,6 +17,9 @@ std::string clean_text(std::string_view text);
 /// of both HTML and XML.
 std::string escaped(std::string_view text);
 
+/// The same for a name in a heading: lines may break after "_", "-", "/" and ".".
+std::string breakable(std::string_view text);
+
 /// `text`, cleaned, of at most `most` ≥ 3 characters: the middle of a longer one becomes "…".
 std::string shortened(std::string_view text, std::size_t most);
 

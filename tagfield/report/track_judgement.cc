@@ -7,6 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tagfield/report/internal/checked_json.h"
+
 namespace tagfield {
 namespace {
 
@@ -217,6 +219,42 @@ std::string to_json(const TrackSummary& summary) {
   for (const TrackOutcome& outcome : summary.tags) json["tags"].push_back(tag_json(outcome));
   json["warnings"] = summary.warnings;
   return json.dump(2) + "\n";
+}
+
+TrackNumbers numbers_of(const TrackSummary& summary) {
+  TrackNumbers numbers;
+  numbers.tracked = count(summary, TrackVerdict::kTracked);
+  numbers.ambiguous = count(summary, TrackVerdict::kAmbiguous);
+  numbers.not_tracked = count(summary, TrackVerdict::kNotTracked);
+  if (const auto along = track_statistics(summary, &TrackOutcome::along_m)) {
+    numbers.along_m = along->mean;
+  }
+  if (const auto across = track_statistics(summary, &TrackOutcome::across_m)) {
+    numbers.across_m = across->mean;
+  }
+  numbers.orders = summary.orders;
+  return numbers;
+}
+
+TrackNumbers track_numbers_from_json(const std::string& text, const std::string& file) {
+  const nlohmann::json json = parsed_json(text, file);
+  const JsonPlace top{&json, file, ""};
+  const auto mean_of = [&](const char* key) -> std::optional<double> {
+    const JsonPlace place = member(top, key);
+    if (is_null(place)) return std::nullopt;
+    return number_at(member(place, "mean"));
+  };
+  TrackNumbers numbers;
+  numbers.tracked = whole_at(member(top, "tracked"));
+  numbers.ambiguous = whole_at(member(top, "ambiguous"));
+  numbers.not_tracked = whole_at(member(top, "not_tracked"));
+  numbers.along_m = mean_of("along_m");
+  numbers.across_m = mean_of("across_m");
+  for (const JsonPlace& order : elements(member(top, "orders"))) {
+    numbers.orders.push_back({text_at(member(order, "passed")), whole_at(member(order, "pairs")),
+                              whole_at(member(order, "right"))});
+  }
+  return numbers;
 }
 
 }  // namespace tagfield

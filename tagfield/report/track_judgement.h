@@ -71,4 +71,19 @@ std::optional<double> mean_nees(const TrackSummary& summary);
 
 std::string to_json(const TrackSummary& summary);
 
+/// What a page says of tracks in a sentence. Errors are means over all tracked tags [m].
+struct TrackNumbers {
+  std::size_t tracked = 0;
+  std::size_t ambiguous = 0;
+  std::size_t not_tracked = 0;
+  std::optional<double> along_m;
+  std::optional<double> across_m;
+  std::vector<OrderOutcome> orders;
+};
+
+TrackNumbers numbers_of(const TrackSummary& summary);
+
+/// The same from tracks.json. Throws Error naming the file and the place in it.
+TrackNumbers track_numbers_from_json(const std::string& text, const std::string& file);
+
 }  // namespace tagfield

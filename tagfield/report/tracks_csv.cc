@@ -84,4 +84,20 @@ std::string orders_to_csv(const std::vector<PassingOrder>& orders) {
   return text;
 }
 
+std::vector<PassingOrder> read_orders_csv(const std::string& path) {
+  const CsvTable table = read_csv(path);
+  const std::size_t passed = table.column("passed");
+  const std::size_t tag = table.column("tag");
+  const std::size_t stamp = table.column("stamp_s");
+  const std::size_t sigma = table.column("sigma_s");
+  std::vector<PassingOrder> orders;
+  for (const CsvRow& row : table.rows) {
+    const std::string& name = table.text(row, passed);
+    if (orders.empty() || orders.back().name != name) orders.push_back({name, {}});
+    orders.back().passings.push_back(
+        {table.text(row, tag), table.stamp(row, stamp), table.number(row, sigma)});
+  }
+  return orders;
+}
+
 }  // namespace tagfield

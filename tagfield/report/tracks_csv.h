@@ -23,4 +23,7 @@ std::string verdicts_to_csv(const std::vector<TagTrack>& tracks);
 /// before the one that follows, empty for the last.
 std::string orders_to_csv(const std::vector<PassingOrder>& orders);
 
+/// The orders in such a file. Throws Error "FILE:LINE: …" on what is none.
+std::vector<PassingOrder> read_orders_csv(const std::string& path);
+
 }  // namespace tagfield

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/report/tracks_figure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
 #include "tagfield/report/axes.h"
+#include "tagfield/report/internal/figure_data.h"
+#include "tagfield/report/internal/map_view.h"
+#include "tagfield/report/style_sheet.h"
 #include "tagfield/report/svg.h"
 
 namespace tagfield {
 namespace {
 
 constexpr double kTracksLeft = 50.0;
-constexpr double kTracksTop = 60.0;
+constexpr double kTracksTop = 66.0;
 constexpr double kPlotHeight = 300.0;
 
 struct Bounds {
@@ -60,10 +65,90 @@ std::map<std::string, std::vector<Place>> true_ways(const std::vector<TagTrack>&
   return ways;
 }
 
+constexpr std::size_t kMostSpeeds = 12;  ///< That get a colour and a name.
+
+const std::vector<TrackPoint>* points_of(const TagTrack& tag) {
+  if (tag.tracks.empty() || tag.tracks.front().points.empty()) return nullptr;
+  return &tag.tracks.front().points;
+}
+
+/// So that all tracks together come to about as many points as a figure holds.
+std::size_t thinning_of(const std::vector<TagTrack>& tracks) {
+  std::size_t count = 0;
+  for (const TagTrack& tag : tracks) {
+    if (const auto* points = points_of(tag)) count += points->size();
+  }
+  return thinning(count, 2 * kMostMarks);
+}
+
+std::string tracks_data(const std::vector<TagTrack>& tracks, std::size_t step) {
+  std::string csv = "tag,time_s,x_m,y_m,z_m,vx_m_s,vy_m_s\n";
+  for (const TagTrack& tag : tracks) {
+    const auto* points = points_of(tag);
+    for (std::size_t i = 0; points != nullptr && i < points->size(); i += step) {
+      const TrackPoint& point = (*points)[i];
+      add_data(csv, tag.tag, format_stamp(point.stamp), point.p_WT.x(), point.p_WT.y(),
+               point.p_WT.z(), point.v_WT.x(), point.v_WT.y());
+    }
+  }
+  return csv;
+}
+
+std::vector<LegendEntry> tracks_legend(const std::vector<TagTrack>& tracks, bool truth_known) {
+  std::vector<LegendEntry> legend;
+  const auto any = [&](TrackVerdict verdict) {
+    return std::any_of(tracks.begin(), tracks.end(), [&](const TagTrack& tag) {
+      return points_of(tag) != nullptr && tag.verdict == verdict;
+    });
+  };
+  if (any(TrackVerdict::kTracked)) legend.push_back({Symbol::kLine, "line0", "track"});
+  if (any(TrackVerdict::kAmbiguous)) {
+    legend.push_back({Symbol::kLine, "line1", "ambiguous: the likeliest"});
+  }
+  if (truth_known) legend.push_back({Symbol::kLine, "true-line", "true path"});
+  legend.push_back({Symbol::kDiamond, "ink", "antenna"});
+  return legend;
+}
+
+void draw_tracks(Svg& svg, const Axes& axes, const std::vector<TagTrack>& tracks,
+                 std::size_t step) {
+  for (const TagTrack& tag : tracks) {
+    const auto* points = points_of(tag);
+    if (points == nullptr) continue;
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < points->size(); i += step) {
+      places.push_back(place_in(axes, (*points)[i].p_WT.x(), (*points)[i].p_WT.y()));
+    }
+    const bool sure = tag.verdict == TrackVerdict::kTracked;
+    add_polyline(svg, places, styled(sure ? "line0" : "line1"));
+    add_circle(svg, places.back(), 3.0, styled(sure ? "line0" : "line1"),
+               clean_text(tag.tag) + ": its last read");
+  }
+}
+
+void draw_antennas_of_tracks(Svg& svg, const Axes& axes, const std::vector<AntennaPose>& antennas) {
+  std::map<std::string, Place> places;
+  for (const AntennaPose& pose : antennas) {
+    const Eigen::Vector3d& p = pose.X_WA.translation;
+    places.emplace(pose.antenna, place_in(axes, p.x(), p.y()));
+  }
+  MapView map;
+  map.axes = axes;
+  for (const auto& [antenna, place] : places) {
+    add_diamond(svg, place, 7.0, styled("ink"), clean_text(antenna));
+    take_place(map, place, 8.0);
+  }
+  if (places.size() > kMostRows) return;
+  for (const auto& [antenna, place] : places) {
+    draw_label(svg, map, place, shortened(antenna, 18));
+  }
+}
+
 }  // namespace
 
-std::string tracks_figure(const std::vector<TagTrack>& tracks,
-                          const std::vector<AntennaPose>& antennas, const Truth& truth) {
+Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas,
+                     const Truth& truth) {
+  Figure figure{"tracks", "", "Tracks from above", "", {}, ""};
   const Bounds box = bounds_of(tracks, antennas);
   Axes axes;
   axes.x = tight_scale(box.low[0], box.high[0], 6);
@@ -72,33 +157,74 @@ std::string tracks_figure(const std::vector<TagTrack>& tracks,
   axes.x.to = kDrawingWidth - 15.0;
   axes.y.from = kTracksTop + kPlotHeight;
   axes.y.to = kTracksTop;
-  Svg svg;
+  Svg& svg = figure.svg;
   svg.height = kTracksTop + kPlotHeight + 50.0;
+  const auto ways = true_ways(tracks, truth, axes);
+  const std::size_t step = thinning_of(tracks);
+  draw_legend(svg, tracks_legend(tracks, !ways.empty()));
   draw_axes(svg, axes, "x [m]", "y [m]");
-  for (const auto& [tag, way] : true_ways(tracks, truth, axes)) {
-    add_polyline(svg, way, stroked("#909090", 0.8, 3.0));
-  }
+  for (const auto& [tag, way] : ways) add_polyline(svg, way, styled("true-line"));
+  draw_tracks(svg, axes, tracks, step);
+  draw_antennas_of_tracks(svg, axes, antennas);
+  figure.caption =
+      "Each tag’s likeliest track from its first read to its last, which is a ring. x and y are "
+      "scaled apart.";
+  if (step > 1) figure.caption += fmt::format(" One point in {} is drawn.", step);
+  figure.data = tracks_data(tracks, step);
+  return figure;
+}
+
+Figure speeds_figure(const std::vector<TagTrack>& tracks) {
+  Figure figure{"speeds", "", "Speed over time", "", {}, ""};
+  std::vector<const TagTrack*> followed;
+  std::vector<double> times;
+  std::vector<double> speeds;
   for (const TagTrack& tag : tracks) {
-    if (tag.tracks.empty()) continue;
-    std::vector<Place> places;
-    for (const TrackPoint& point : tag.tracks.front().points) {
-      places.push_back(place_in(axes, point.p_WT.x(), point.p_WT.y()));
+    const auto* points = points_of(tag);
+    if (points == nullptr) continue;
+    followed.push_back(&tag);
+    for (const TrackPoint& point : *points) {
+      times.push_back(to_seconds(point.stamp));
+      speeds.push_back(point.v_WT.head<2>().norm());
     }
-    const bool sure = tag.verdict == TrackVerdict::kTracked;
-    add_polyline(svg, places, stroked(sure ? "#0060c0" : "#c07000", 0.9, 1.2));
   }
-  std::map<std::string, Place> places;
-  for (const AntennaPose& pose : antennas) {
-    places.emplace(pose.antenna,
-                   place_in(axes, pose.X_WA.translation.x(), pose.X_WA.translation.y()));
+  if (followed.empty()) {
+    figure.missing = "no tag was tracked.";
+    return figure;
   }
-  for (const auto& [antenna, place] : places) {
-    add_diamond(svg, place, 6.0, filled("#b00020", 1.0), antenna);
-    add_rimmed_text(svg, place + Place(8.0, 4.0), antenna, Anchor::kStart);
+  Svg& svg = figure.svg;
+  const bool named = followed.size() <= kMostSpeeds;
+  std::vector<LegendEntry> legend;
+  for (std::size_t i = 0; named && i < followed.size(); ++i) {
+    legend.push_back({Symbol::kLine, fmt::format("line{} tag{}", i % kSeriesColors, i),
+                      shortened(followed[i]->tag, 16)});
   }
-  return standalone_svg(svg, "Tracks from above",
-                        "Tracks of the tags (blue; orange: ambiguous), where they truly went "
-                        "(grey), and the antennas (red).");
+  const double top = named ? draw_legend(svg, legend) : 0.0;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const auto [slowest, fastest] = std::minmax_element(speeds.begin(), speeds.end());
+  const double margin = std::max(0.02 * *fastest, 1e-3);  // Noise alone should not fill it.
+  Axes axes{tight_scale(*first, std::max(*last, *first + 1e-3), 6),
+            round_scale(std::max(*slowest - margin, 0.0), *fastest + margin, 5)};
+  axes.x.from = 58.0;
+  axes.x.to = kDrawingWidth - 20.0;
+  axes.y.to = top + 30.0;
+  axes.y.from = axes.y.to + 230.0;
+  svg.height = axes.y.from + 48.0;
+  draw_axes(svg, axes, "time [s]", "level speed [m/s]");
+  const std::size_t step = thinning_of(tracks);
+  for (std::size_t i = 0; i < followed.size(); ++i) {
+    const std::vector<TrackPoint>& points = *points_of(*followed[i]);
+    std::vector<Place> places;
+    for (std::size_t k = 0; k < points.size(); k += step) {
+      places.push_back(
+          place_in(axes, to_seconds(points[k].stamp), points[k].v_WT.head<2>().norm()));
+    }
+    add_polyline(svg, places, styled(fmt::format("line{} tag{}", i % kSeriesColors, i)));
+  }
+  figure.caption = "Of each tag’s likeliest track, as smoothed over all of its reads.";
+  if (step > 1) figure.caption += fmt::format(" One point in {} is drawn.", step);
+  figure.data = tracks_data(tracks, step);
+  return figure;
 }
 
 }  // namespace tagfield

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tracks from above, as a drawing of its own.
+/// Tracks of tags as figures.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "tagfield/report/figures.h"
 #include "tagfield/stream/truth.h"
 #include "tagfield/tracking/tracker.h"
 
 namespace tagfield {
 
-/// An SVG file: the likeliest track of each tag, its true way where that is known, the antennas.
-std::string tracks_figure(const std::vector<TagTrack>& tracks,
-                          const std::vector<AntennaPose>& antennas, const Truth& truth);
+/// From above: the likeliest track of each tag, its true path where that is known, the antennas.
+Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<AntennaPose>& antennas,
+                     const Truth& truth);
+
+/// The level speed of each tag's likeliest track over time; a colour and an entry of the legend for
+/// each where they are few.
+Figure speeds_figure(const std::vector<TagTrack>& tracks);
 
 }  // namespace tagfield

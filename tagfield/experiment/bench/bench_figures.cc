@@ -9,6 +9,7 @@
 
 #include "tagfield/experiment/internal/series.h"
 #include "tagfield/experiment/internal/statistics.h"
+#include "tagfield/files/csv.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -117,6 +118,32 @@ std::vector<Cost> costs_of(const Bench& bench) {
   return costs;
 }
 
+std::string errors_data(const std::vector<const BenchEntry*>& entries) {
+  std::string csv = "method,error_m,share\n";
+  for (const BenchEntry* entry : entries) {
+    const std::vector<double> errors = errors_of(*entry);
+    const auto tags = static_cast<double>(count_tags(*entry));
+    const std::size_t step = thinning(errors.size(), kSteps);
+    for (std::size_t i = step - 1; i < errors.size(); i += step) {
+      csv += fmt::format("{},{:.6g},{:.6g}\n", csv_field(entry->name), errors[i],
+                         static_cast<double>(i + 1) / tags);
+    }
+  }
+  return csv;
+}
+
+std::string groups_data(const std::vector<MarkGroup>& groups, bool bands) {
+  std::string csv;
+  for (const MarkGroup& group : groups) {
+    for (const RowMark& mark : group.marks) {
+      csv += fmt::format("{},{},{:.6g}", csv_field(group.condition), csv_field(mark.entry->name),
+                         mark.value);
+      csv += bands ? fmt::format(",{:.6g},{:.6g}\n", mark.band_low, mark.band_high) : "\n";
+    }
+  }
+  return csv;
+}
+
 }  // namespace
 
 std::vector<std::string> method_names(const Bench& bench) {
@@ -152,6 +179,7 @@ Figure errors_figure(const Bench& bench, std::size_t condition) {
     add_polyline(svg, curve_of(axes, errors, count_tags(*entry)),
                  styled(series_of(bench, entry->name).line));
   }
+  figure.data = errors_data(entries);
   figure.caption = counted(count_tags(*entries.front()), "tag") + " for each method.";
   return figure;
 }
@@ -164,6 +192,7 @@ Figure ratio_figure(const Bench& bench) {
     return figure;
   }
   draw_groups(figure.svg, bench, groups, "mean error / expected at the bound");
+  figure.data = "condition,method,mean_error_over_bound\n" + groups_data(groups, false);
   figure.caption =
       "1 is what an unbiased estimator can reach at best from these reads: each tag by itself, or, "
       "for methods that locate all tags together, all of them with the pose error.";
@@ -178,6 +207,7 @@ Figure nees_figure(const Bench& bench) {
     return figure;
   }
   draw_groups(figure.svg, bench, groups, "mean NEES / degrees of freedom");
+  figure.data = "condition,method,nees_over_dof,band_low,band_high\n" + groups_data(groups, true);
   figure.caption =
       "Squared errors over the covariances that the methods state. 1 is right; within the "
       "grey band, chance explains the rest (95 %). Right of it a method is too bold, left of it "
@@ -209,6 +239,11 @@ Figure time_figure(const Bench& bench) {
                styled(series_of(bench, cost.entry->name).dot),
                fmt::format("{}, {}: {:.1f} mm, {:.2f} ms", cost.entry->condition, cost.entry->name,
                            cost.error_mm, cost.time_ms));
+  }
+  figure.data = "condition,method,time_per_tag_ms,mean_error_mm\n";
+  for (const Cost& cost : costs) {
+    figure.data += fmt::format("{},{},{:.6g},{:.6g}\n", csv_field(cost.entry->condition),
+                               csv_field(cost.entry->name), cost.time_ms, cost.error_mm);
   }
   figure.caption =
       "A dot for each condition and method: median over the runs of a method’s time for each tag, "

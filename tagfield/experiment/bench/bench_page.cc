@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "tagfield/experiment/bench/bench_figures.h"
+#include "tagfield/experiment/internal/heat_table.h"
 #include "tagfield/experiment/internal/statistics.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
 
@@ -20,7 +22,7 @@ constexpr const char* kErrorsText =
 
 std::string header(const Bench& bench) {
   std::string html = "<header>\n<p class=\"kind\">Tagfield bench</p>\n<h1><bdi>" +
-                     escaped(bench.name) + "</bdi></h1>\n";
+                     breakable(bench.name) + "</bdi></h1>\n";
   if (!bench.description.empty()) {
     html += "<p class=\"muted\">" + escaped(bench.description) + "</p>\n";
   }
@@ -85,10 +87,6 @@ struct Columns {
   bool height = false;
   bool aligned = false;
   bool times = false;
-
-  [[nodiscard]] int count() const {
-    return 13 + (height ? 1 : 0) + (aligned ? 1 : 0) + (times ? 1 : 0);
-  }
 };
 
 Columns columns_of(const Bench& bench, Timing timing) {
@@ -148,26 +146,28 @@ std::string row_of(const BenchEntry& entry, const Columns& columns) {
 std::string title_of(const Bench& bench, const BenchCondition& condition) {
   const std::vector<const BenchEntry*> entries = entries_of(bench, condition.name);
   const std::size_t runs = entries.empty() ? 0 : entries.front()->runs.size();
-  return fmt::format("{} <span class=\"muted\">({}, pose: {})</span>", escaped(condition.name),
-                     counted(runs, "run"), escaped(condition.pose));
+  return fmt::format(
+      "<strong><bdi>{}</bdi></strong> <span class=\"muted\">({}, pose: {})</span> Winner: {}",
+      escaped(condition.name), counted(runs, "run"), escaped(condition.pose),
+      escaped(winner_words(bench, condition)));
 }
 
-std::string table(const Bench& bench, Timing timing) {
+/// All numbers, folded: the first condition is open.
+std::string tables(const Bench& bench, Timing timing) {
   const Columns columns = columns_of(bench, timing);
-  std::string html =
-      "<div class=\"table\" role=\"region\" aria-label=\"Results\" tabindex=\"0\"><table>\n" +
-      head_of(columns);
+  std::string html;
   for (const BenchCondition& condition : bench.conditions) {
     html += fmt::format(
-        "<tbody>\n<tr><th class=\"group\" scope=\"rowgroup\" colspan=\"{}\"><span>{}</span></th>"
-        "</tr>\n",
-        columns.count(), title_of(bench, condition));
+        "<details{}><summary>{}</summary>\n<div class=\"table\" role=\"region\" "
+        "aria-label=\"{}\" tabindex=\"0\"><table>\n",
+        html.empty() ? " open" : "", title_of(bench, condition), escaped(condition.name));
+    html += head_of(columns) + "<tbody>\n";
     for (const BenchEntry* entry : entries_of(bench, condition.name)) {
       html += row_of(*entry, columns);
     }
-    html += "</tbody>\n";
+    html += "</tbody></table></div></details>\n";
   }
-  return html + "</table></div>\n";
+  return html;
 }
 
 /// What the bounds leave out, by condition.
@@ -219,14 +219,16 @@ std::string figures_html(const std::vector<Figure>& figures, bool of_errors) {
 }  // namespace
 
 std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, Timing timing) {
-  return page_head(bench.name + " – Tagfield bench") + "<body>\n" + header(bench) + "<main>\n" +
-         numbers(bench, timing) + warnings(bench) + table(bench, timing) +
-         legend(columns_of(bench, timing)) + bound_notes(bench) + "<h2>Figures</h2>\n" +
-         figures_html(figures, false) + "<h2>Errors by condition</h2>\n" + kErrorsText +
+  return page_head(bench.name + " – Tagfield bench", {table_script().hash, figure_script().hash}) +
+         "<body>\n" + header(bench) + "<main>\n" + heat_table(bench) + numbers(bench, timing) +
+         warnings(bench) + "<h2>Figures</h2>\n" + figures_html(figures, false) +
+         "<h2>All numbers</h2>\n" + tables(bench, timing) + legend(columns_of(bench, timing)) +
+         bound_notes(bench) + "<h2>Errors by condition</h2>\n" + kErrorsText +
          figures_html(figures, true) +
          "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv lie beside "
          "this "
-         "page, the figures in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
+         "page, the figures in figures/ as SVG files.</p>\n</footer>\n" +
+         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -11,6 +11,7 @@
 #include "tagfield/base/number.h"
 #include "tagfield/experiment/internal/panels.h"
 #include "tagfield/experiment/sweep/design.h"
+#include "tagfield/files/csv.h"
 #include "tagfield/report/style_sheet.h"
 #include "tagfield/report/text.h"
 
@@ -314,6 +315,19 @@ std::vector<LegendEntry> legend_of_methods(const SweepResults& results) {
   return legend;
 }
 
+std::string data_of_panels(const std::vector<Panel>& panels,
+                           const std::vector<LegendEntry>& legend) {
+  std::string csv = "panel,method,x,y,low,high\n";
+  for (const Panel& panel : panels) {
+    for (const PanelMark& mark : panel.marks) {
+      const std::string method = mark.series < legend.size() ? legend[mark.series].text : "";
+      csv += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", csv_field(panel.title),
+                         csv_field(method), mark.x, mark.y, mark.low, mark.high);
+    }
+  }
+  return csv;
+}
+
 Figure figure_of(const SweepResults& results, const Metric& metric) {
   Figure figure{metric.name, "", metric.title, metric.caption, {}, ""};
   Multiples all = multiples_of(results, metric);
@@ -330,6 +344,7 @@ Figure figure_of(const SweepResults& results, const Metric& metric) {
   for (Panel& panel : all.panels) panel.title = shortened(panel.title, kMostTitle);
   const double top = draw_legend(figure.svg, legend_of_methods(results)) + 4.0;
   draw_panels(figure.svg, all.panels, all.forms, top);
+  figure.data = data_of_panels(all.panels, legend_of_methods(results));
   figure.caption += all.caption;
   return figure;
 }

@@ -9,6 +9,7 @@
 #include "tagfield/experiment/sweep/design_yaml.h"
 #include "tagfield/experiment/sweep/sweep_text.h"
 #include "tagfield/report/page.h"
+#include "tagfield/report/page_script.h"
 #include "tagfield/report/page_text.h"
 #include "tagfield/report/text.h"
 
@@ -37,7 +38,7 @@ std::string incomplete_note(const SweepResults& results) {
 std::string sweep_header(const SweepResults& results) {
   const Suite& suite = results.plan.suite;
   std::string html = "<header>\n<p class=\"kind\">Tagfield sweep</p>\n<h1><bdi>" +
-                     escaped(suite.name) + "</bdi></h1>\n";
+                     breakable(suite.name) + "</bdi></h1>\n";
   if (!suite.description.empty()) {
     html += "<p class=\"muted\">" + escaped(suite.description) + "</p>\n";
   }
@@ -188,13 +189,15 @@ std::string sweep_figures_html(const std::vector<Figure>& figures) {
 }  // namespace
 
 std::string sweep_page(const SweepResults& results, const std::vector<Figure>& figures) {
-  return page_head(results.plan.suite.name + " – Tagfield sweep") + "<body>\n" +
-         sweep_header(results) + "<main>\n" + sweep_numbers(results) + sweep_warnings(results) +
-         sweep_failures(results) + sweep_figures_html(figures) + "<h2>Points</h2>\n" +
-         sweep_table(results) +
+  return page_head(results.plan.suite.name + " – Tagfield sweep",
+                   {table_script().hash, figure_script().hash}) +
+         "<body>\n" + sweep_header(results) + "<main>\n" + sweep_numbers(results) +
+         sweep_warnings(results) + sweep_failures(results) + sweep_figures_html(figures) +
+         "<h2>Points</h2>\n" + sweep_table(results) +
          "</main>\n<footer>\n<p>Made by Tagfield; results.sqlite (tables points, results, runs, "
          "tags, failures), results.json, points.csv and runs.csv lie beside this page, the figures "
-         "in figures/ as SVG files.</p>\n</footer>\n</body>\n</html>\n";
+         "in figures/ as SVG files.</p>\n</footer>\n" +
+         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -7,6 +7,7 @@
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -67,6 +68,10 @@ Figure inventory_curve_figure(const RunFiles& run) {
   }
   places.emplace_back(place_on(axes.x, inventory.duration_s), places.back().y());
   add_polyline(figure.svg, places, styled("curve"));
+  figure.data = "time_s,share\n";
+  for (const InventoryMoment& moment : inventory.curve) {
+    add_data(figure.data, moment.time_s, moment.share);
+  }
   figure.caption = "The share of all tags that had been read at least once by then";
   figure.caption += run.summary.seeds.size() > 1 ? ", in the first run." : ".";
   return figure;
@@ -90,6 +95,10 @@ Figure inventory_antennas_figure(const RunFiles& run) {
   for (std::size_t i = 0; i < shown; ++i) {
     draw_antenna(figure.svg, axes, *rows[i], axes.y.to + height * (static_cast<double>(i) + 0.5),
                  color_of_kind(number_of_reader(inventory, rows[i]->reader)));
+  }
+  figure.data = "antenna,reader,tags,only_by_it,reads\n";
+  for (const InventoryShare* const row : rows) {
+    add_data(figure.data, row->name, row->reader, row->tags, row->only, row->reads);
   }
   figure.caption =
       "Tags that each antenna read at least once, a colour a reader; the full part is of tags that "

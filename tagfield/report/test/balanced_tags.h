@@ -12,7 +12,7 @@ namespace tagfield {
 /// The first tag that is not closed or was never opened; "" where all is well. Knows HTML's
 /// elements without an end.
 inline std::string unbalanced_tag(const std::string& markup) {
-  static const std::set<std::string> without_end = {"meta", "br", "!DOCTYPE", "?xml"};
+  static const std::set<std::string> without_end = {"meta", "br", "wbr", "!DOCTYPE", "?xml"};
   std::vector<std::string> open;
   for (std::size_t at = markup.find('<'); at != std::string::npos; at = markup.find('<', at + 1)) {
     const std::size_t end = markup.find('>', at);

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
 
 #include "tagfield/report/test/balanced_tags.h"
 #include "tagfield/report/test/run_folder.h"
@@ -71,6 +74,58 @@ TEST(AllFigures, WithoutAMovingAntennaSaySo) {
   FolderPlan plan;
   plan.moving = false;
   EXPECT_EQ(make(plan).missing, (Names{"fig12_phase_distance", "fig13_rssi_path"}));
+}
+
+TEST(AllFigures, OfAReaderThatHopsHoldAHologramForThePhase) {
+  FolderPlan plan;
+  plan.carriers_hz = {865.7e6, 866.3e6, 866.9e6};
+  const Made made = make(plan);
+  EXPECT_EQ(std::count(made.drawn.begin(), made.drawn.end(), "fig12_phase_distance"), 0);
+  ASSERT_EQ(std::count(made.drawn.begin(), made.drawn.end(), "hologram"), 1);
+  EXPECT_NE(find(made, "hologram").caption.find("on 3 carriers"), std::string::npos);
+}
+
+TEST(AllFigures, OfAReaderThatHopsAtRestHoldThePhaseByCarrier) {
+  FolderPlan plan;
+  plan.moving = false;
+  const RunFolder folder(plan);
+  folder.put("reads.csv",
+             "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
+             "0,reader,fixed,tag1,865.7e6,1,-50\n0.1,reader,fixed,tag1,866.3e6,2,-50\n");
+  Made made;
+  for (const Figure& figure : all_figures(read_run_files(folder.path()))) {
+    made.drawn.push_back(figure.name);
+  }
+  EXPECT_EQ(std::count(made.drawn.begin(), made.drawn.end(), "phase_by_carrier"), 1);
+}
+
+TEST(Hologram, IsBrightestWhereThePhasesComeFrom) {
+  FolderPlan plan;
+  plan.carriers_hz = {865.7e6, 866.3e6, 866.9e6};
+  const Made made = make(plan);
+  // By the data that the page offers: the cells about the true place, at the middle, which all
+  // phases of the made run agree with, whatever each carrier's offset.
+  std::istringstream rows(find(made, "hologram").data);
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "x_m,y_m,agreement");
+  double most = 0.0;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int count = 0;
+  while (std::getline(rows, row)) {
+    std::array<double, 3> cell{};
+    std::sscanf(row.c_str(), "%lf,%lf,%lf", &cell[0], &cell[1], &cell[2]);
+    sum += Eigen::Vector2d(cell[0], cell[1]);
+    ++count;
+    if (cell[2] <= most) continue;
+    most = cell[2];
+    at = {cell[0], cell[1]};
+  }
+  ASSERT_EQ(count, 64 * 64);
+  // The true place is the window's middle, a corner of cells of 2 cm.
+  EXPECT_LT((at - sum / count).norm(), 0.05);
+  EXPECT_GT(most, 0.9);
 }
 
 TEST(AllFigures, WithoutReadsSaySo) {

@@ -29,15 +29,16 @@ std::size_t scripts_in(const std::string& page) {
   return count;
 }
 
-TEST(WriteReport, LetsNoScriptRunButTheViewsOwnAndThatSortsTables) {
+TEST(WriteReport, LetsNoScriptRunButTheViewsAndItsOwn) {
   const RunFolder folder(FolderPlan{});
   write_report(folder.path());
-  const std::string tables = table_script().hash;
-  EXPECT_TRUE(holds(folder.text("report.html"), "; script-src '" + tables + "'; "));
+  const std::string own =
+      std::string("'") + table_script().hash + "' '" + figure_script().hash + "'";
+  EXPECT_TRUE(holds(folder.text("report.html"), "; script-src " + own + "; "));
   write_report(folder.path(), RunView{"<div id=\"view\"></div>\n", "sha256-abc="});
   const std::string page = folder.text("report.html");
-  EXPECT_TRUE(holds(page, "default-src 'none'; script-src 'sha256-abc=' '" + tables + "'; "));
-  EXPECT_TRUE(holds(page, "<h2>The run over time</h2>\n<div id=\"view\"></div>\n"));
+  EXPECT_TRUE(holds(page, "default-src 'none'; script-src 'sha256-abc=' " + own + "; "));
+  EXPECT_TRUE(holds(page, "<h2>The run over time</h2>\n<div id=\"view\"></div>\n</section>\n"));
   EXPECT_EQ(unbalanced_tag(page), "");
 }
 
@@ -60,17 +61,72 @@ TEST(WriteReport, GivesTheSameBytes) { EXPECT_EQ(page_of({}), page_of({})); }
 TEST(WriteReport, AsksForNothing) {
   const std::string page = page_of({});
   EXPECT_TRUE(holds(page, "default-src 'none'"));
-  EXPECT_EQ(scripts_in(page), 1U);  // That sorts tables.
-  for (const std::string alien : {"<link", "<img", "src=", "href=", "http://", "https://"}) {
+  EXPECT_EQ(scripts_in(page), 2U);  // Of tables and of figures.
+  for (const std::string alien : {"<link", "<img", "src=", "http://", "https://"}) {
     EXPECT_FALSE(holds(page, alien)) << alien;
   }
+  // Links save what the page itself holds.
+  for (std::size_t at = page.find("href="); at != std::string::npos;
+       at = page.find("href=", at + 1)) {
+    EXPECT_EQ(page.substr(at, 20), "href=\"data:text/csv;");
+  }
+}
+
+TEST(WriteReport, OffersWhatEachFigureShows) {
+  FolderPlan plan;
+  plan.error_m = 0.0125;
+  const std::string page = page_of(plan);
+  EXPECT_TRUE(holds(page,
+                    "download=\"fig10_errors.csv\" href=\"data:text/csv;charset=utf-8,"
+                    "tag,seed,error_mm%0Atag1,1,12.5%0A"));
+  for (const std::string name : {"fig09_map", "fig12_phase_distance", "fig13_rssi_path",
+                                 "fig14_rssi_fixed", "fig14_rssi_values"}) {
+    EXPECT_TRUE(holds(page, std::string("download=\"").append(name).append(".csv\""))) << name;
+  }
+}
+
+TEST(WriteReport, OpensWithTracksWhereTheyLieBesideIt) {
+  const RunFolder folder(FolderPlan{});
+  folder.put("tracks.json",
+             R"({"tracked":2,"ambiguous":1,"not_tracked":0,"along_m":{"mean":0.004},"across_m":)"
+             R"({"mean":0.006},"orders":[{"passed":"line","pairs":1,"right":1}]})");
+  folder.put("order.csv",
+             "passed,rank,tag,stamp_s,sigma_s,before_next\nline,1,tag2,1.0,0.01,0.99\n"
+             "line,2,<b>,1.5,0.01,\n");
+  write_report(folder.path());
+  const std::string page = folder.text("report.html");
+  EXPECT_TRUE(holds(page, "2 of 3 tags tracked, 1 ambiguous."));
+  EXPECT_TRUE(holds(page, "2 tags passed the line, first to last: tag2, &lt;b&gt;."));
+  EXPECT_TRUE(holds(page, "Neighbours in the right order: at the line 1 of 1."));
+  EXPECT_TRUE(holds(page, "<figure id=\"passings\">"));
+  EXPECT_TRUE(holds(page, "<h2>Order</h2>"));
+  EXPECT_EQ(unbalanced_tag(page), "");
+  folder.put("order.csv", "passed,tag\nline,tag2\n");
+  EXPECT_THROW(write_report(folder.path()), Error);
+}
+
+TEST(WriteReport, OfTagsThatMovedDoesNotOpenWithNoneLocated) {
+  const RunFolder folder(FolderPlan{});
+  Summary summary = summary_of({});
+  for (TagOutcome& tag : summary.tags) {
+    tag.moved = true;
+    tag.truth_m.reset();
+    tag.estimate.verdict = Verdict::kNotLocated;
+    tag.estimate.candidates.clear();
+    tag.reads = 7;
+  }
+  folder.put("summary.json", to_json(summary));
+  write_report(folder.path());
+  const std::string page = folder.text("report.html");
+  EXPECT_FALSE(holds(page, "0 of 3"));
+  EXPECT_TRUE(holds(page, "3 of 3 tags read, "));
 }
 
 TEST(WriteReport, MakesHostileNamesHarmless) {
   FolderPlan plan;
   plan.tags = {"<script>alert(1)</script>", "\"><img src=x onerror=alert(1)>", "'"};
   const std::string page = page_of(plan);
-  EXPECT_EQ(scripts_in(page), 1U);
+  EXPECT_EQ(scripts_in(page), 2U);
   EXPECT_FALSE(holds(page, "<img"));
   EXPECT_EQ(unbalanced_tag(page), "");
 }
@@ -110,9 +166,9 @@ TEST(WriteReport, NeedsItsFiles) {
 
 TEST(PageHeader, MarksAnInterruptedRun) {
   Summary summary = summary_of({});
-  EXPECT_FALSE(holds(page_header(summary), "Incomplete"));
+  EXPECT_FALSE(holds(page_header(summary, std::nullopt), "Incomplete"));
   summary.complete = false;
-  EXPECT_TRUE(holds(page_header(summary), "Incomplete run."));
+  EXPECT_TRUE(holds(page_header(summary, std::nullopt), "Incomplete run."));
 }
 
 TEST(PoseErrorText, SaysPlainlyWhatSetsTheError) {

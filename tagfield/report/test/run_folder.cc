@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 constexpr int kSteps = 200;
 constexpr double kStep = 0.1;   ///< [s]
 constexpr double kSpeed = 0.4;  ///< [m/s]
-constexpr double kFrequency = 865.7e6;
 const Eigen::Vector3d kFixed(6.0, 1.0, 1.5);
 
 Eigen::Vector3d tag_place(std::size_t index) {
@@ -46,17 +45,21 @@ std::vector<AntennaPose> poses_of(const FolderPlan& plan) {
   return poses;
 }
 
-TagRead read_at(const AntennaPose& pose, const std::string& tag, const Eigen::Vector3d& p_WT) {
+TagRead read_at(const AntennaPose& pose, const std::string& tag, const Eigen::Vector3d& p_WT,
+                double carrier_hz, double offset_rad) {
   const double distance = (p_WT - pose.X_WA.translation).norm();
-  const double phase = wrap_to_two_pi(2.0 * kTwoPi * distance / wavelength(kFrequency));
-  return {pose.stamp, "reader", pose.antenna, tag, kFrequency, phase, -50.0 - 4.0 * distance};
+  const double phase =
+      wrap_to_two_pi(offset_rad + 2.0 * kTwoPi * distance / wavelength(carrier_hz));
+  return {pose.stamp, "reader", pose.antenna, tag, carrier_hz, phase, -50.0 - 4.0 * distance};
 }
 
 std::vector<TagRead> reads_of(const FolderPlan& plan, const std::vector<AntennaPose>& poses) {
   std::vector<TagRead> reads;
-  for (const AntennaPose& pose : poses) {
+  for (std::size_t k = 0; k < poses.size(); ++k) {
     for (std::size_t i = 0; plan.reads && i < plan.tags.size(); ++i) {
-      reads.push_back(read_at(pose, plan.tags[i], tag_place(i)));
+      const std::size_t channel = k % plan.carriers_hz.size();
+      reads.push_back(read_at(poses[k], plan.tags[i], tag_place(i), plan.carriers_hz[channel],
+                              1.3 * static_cast<double>(channel)));
     }
   }
   return reads;

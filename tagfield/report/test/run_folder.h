@@ -22,6 +22,8 @@ struct FolderPlan {
   bool reads = true;      ///< The antennas read anything.
   double lift_m = 0.0;    ///< The moving antenna rises by that on its way.
   double error_m = 0.01;  ///< Of every estimate, along x.
+  /// One update after the other; each has a phase offset of its own.
+  std::vector<double> carriers_hz = {865.7e6};
 };
 
 /// A folder that vanishes with this.

@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pages in headless Chromium: no barriers that axe (npm) calls serious; what figures answer; print.
+
+    figures_page_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
+"""
+
+import base64
+import pathlib
+import re
+import sys
+import time
+import urllib.parse
+
+HERE = pathlib.Path(__file__).parent
+sys.path[:0] = [str(HERE.parent / "command"), str(HERE.parent / "live")]
+
+from browser import NO_WEBGL, browser  # noqa: E402
+from common import case, check, check_equal, check_in, check_near, main, read_csv  # noqa: E402
+from npm import npm_packages  # noqa: E402
+
+SUITE = """scenario: {scenario}
+seeds: 2
+methods: [hyperbola, ml, sar]
+conditions:
+  - {{name: true pose}}
+  - {{name: noise 0.5 rad, set: {{antennas.mobile.phase_noise_rad: 0.5}}}}
+"""
+AXE = """
+const done = arguments[arguments.length - 1];
+axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violations
+  .filter(one => one.impact === 'serious' || one.impact === 'critical')
+  .map(one => one.id + ': ' + one.help + ': ' + one.nodes.map(node => node.target.flat().join(' ')).slice(0, 3).join(', '))),
+  error => done(['axe failed: ' + error]));
+"""
+
+
+def pages_of(context):
+    """The pages of a run, a bench and of tracks."""
+    suite = context.write("suite.yaml", SUITE.format(scenario=context.shipped("paper_warehouse")))
+    context.run_well("run", context.shipped("paper_warehouse"), "--out", "run")
+    context.run_well("bench", suite, "--out", "bench")
+    context.run_well("track", context.shipped("conveyor"), "--out", "track")
+    return [context.folder / page for page in ("run/report.html", "bench/bench.html", "track/tracks.html")]
+
+
+def open_page(one, page, width=1400, theme="light"):
+    one.screen(width, 900, width < 500, theme)
+    one.driver.get("about:blank")
+    one.driver.get(page.as_uri())
+    end = time.monotonic() + 60
+    while one.driver.execute_script("return document.readyState") != "complete":
+        check(time.monotonic() < end, f"{page} was not loaded within a minute")
+        time.sleep(0.1)
+
+
+def pointed_at(one, figure, share_x, share_y):
+    """What the page says with the pointer there in a figure, by shares of its width and height."""
+    left, top, width, height = one.driver.execute_script(
+        "const svg = document.querySelector(`#${arguments[0]} svg`); svg.scrollIntoView({block: 'center'});"
+        "const box = svg.getBoundingClientRect(); return [box.left, box.top, box.width, box.height];", figure)
+    for step in (1, 0):
+        one.command("Input.dispatchMouseEvent", type="mouseMoved", x=left + share_x * width - step,
+                    y=top + share_y * height)
+    return one.driver.execute_script(
+        "const tip = document.querySelector('.tip'); return tip.hidden ? '' : tip.textContent")
+
+
+@case
+def no_barrier_is_serious(context):
+    axe = (npm_packages(context.build, HERE, "page") / "node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
+    pages = pages_of(context)
+    with browser(NO_WEBGL) as one:
+        for page in pages:
+            for width, theme in ((1400, "light"), (390, "dark")):
+                open_page(one, page, width, theme)
+                one.driver.execute_script("for (const one of document.querySelectorAll('details')) one.open = true;")
+                one.driver.execute_script(axe)
+                check_equal(one.driver.execute_async_script(AXE), [], f"{page.name}, {width} px, {theme}: barriers")
+                check(one.driver.execute_script(
+                    "return document.scrollingElement.scrollWidth <= window.innerWidth"),
+                    f"{page.name} scrolls sideways at {width} px")
+
+
+@case
+def figures_say_values_and_hide_series(context):
+    context.run_well("track", context.shipped("conveyor"), "--out", "track")
+    rows = read_csv(context.folder / "track/tracks.csv")
+    with browser(NO_WEBGL) as one:
+        open_page(one, context.folder / "track/tracks.html")
+        said = pointed_at(one, "speeds", 0.5, 0.55)
+        for _ in range(30):  # Wherever the lines are; all run at about 1 m/s.
+            if said:
+                break
+            said = pointed_at(one, "speeds", 0.5, 0.2 + 0.02 * _)
+        check_in("level speed [m/s]", said, "what the figure says")
+        name, stamp, speed = said.split("\n")
+        check_near(float(speed.split(": ")[1]), 1.0, 0.05, "speed under the pointer")
+        stamps = [float(row["stamp_s"]) for row in rows if row["tag"] == name]
+        check(stamps and min(stamps) <= float(stamp.split(": ")[1]) <= max(stamps), f"it says {said!r}")
+
+        shown = "return [...document.querySelectorAll('#speeds polyline')].filter(e => e.style.display !== 'none').length"
+        check_equal(one.driver.execute_script(shown), 12, "lines")
+        key = one.driver.find_element("css selector", "#speeds g.key")
+        key.send_keys("\n")
+        check_equal(one.driver.execute_script(shown), 11, "lines with one hidden by the keyboard")
+        check_equal(key.get_attribute("aria-pressed"), "false", "what the entry tells")
+        one.driver.execute_script("arguments[0].dispatchEvent(new MouseEvent('click'))", key)
+        check_equal(one.driver.execute_script(shown), 12, "lines with all shown again")
+        check_equal(one.complaints(), [], "the console")
+
+
+@case
+def data_is_saved_without_the_network(context):
+    context.run_well("track", context.shipped("conveyor"), "--out", "track")
+    order = {(row["passed"], row["tag"]): row for row in read_csv(context.folder / "track/order.csv")}
+    saved = context.folder / "saved"
+    saved.mkdir()
+    with browser(NO_WEBGL) as one:
+        open_page(one, context.folder / "track/tracks.html")
+        one.command("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(saved))
+        one.driver.execute_script("document.querySelector('#passings a.data').click()")
+        end = time.monotonic() + 20
+        while not (saved / "passings.csv").exists() and time.monotonic() < end:
+            time.sleep(0.1)
+        one.complaints()
+    rows = read_csv(saved / "passings.csv")
+    check_equal(len(rows), len(order), "rows")
+    for row in rows:
+        check_equal(row["time_s"], order[row["passed"], row["tag"]]["stamp_s"], f"{row['tag']} at {row['passed']}")
+
+
+@case
+def a_run_prints_to_two_pages(context):
+    folder = context.simulate("paper_warehouse")
+    with browser(NO_WEBGL) as one:
+        open_page(one, folder / "report.html", theme="dark")
+        printed = base64.b64decode(one.command("Page.printToPDF", preferCSSPageSize=True, printBackground=True)["data"])
+    check_equal(len(re.findall(rb"/Type\s*/Page\b(?!s)", printed)), 2, "printed pages")
+
+
+@case
+def each_figure_has_its_data(context):
+    for page in pages_of(context):
+        text = page.read_text(encoding="utf-8")
+        for figure in re.findall(r'<figure id="([^"]+)">.*?</figure>', text, re.DOTALL):
+            link = re.search(rf'download="{figure}\.csv" href="data:text/csv;charset=utf-8,([^"]*)"', text)
+            if check(link is not None, f"{page.name}: {figure} has no data"):
+                lines = urllib.parse.unquote(link.group(1)).splitlines()
+                check(len(lines) > 1 and len({line.count(",") for line in lines}) == 1,
+                      f"{page.name}: data of {figure}: {lines[:3]}")
+
+
+if __name__ == "__main__":
+    main()
