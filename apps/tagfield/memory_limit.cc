@@ -11,12 +11,8 @@
 #include <string_view>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/sanitized.h"
 #include "tagfield/files/files.h"
-
-// Sanitizers reserve memory by the terabyte.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TAGFIELD_SANITIZED 1
-#endif
 
 namespace tagfield {
 namespace {

@@ -17,16 +17,8 @@
 #include <sstream>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/sanitized.h"
 #include "tagfield/files/files.h"
-
-// Sanitizers reserve memory by the terabyte.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TAGFIELD_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TAGFIELD_SANITIZED 1
-#endif
-#endif
 
 namespace tagfield {
 namespace {
