@@ -61,7 +61,7 @@ std::optional<std::uint64_t> left_in_container() {
 }  // namespace
 
 void limit_memory_to_what_is_left() {
-#ifndef TAGFIELD_SANITIZED
+  if constexpr (kSanitized) return;
   std::optional<std::uint64_t> left = left_on_machine();
   const std::optional<std::uint64_t> in_container = left_in_container();
   if (in_container && (!left || *in_container < *left)) left = in_container;
@@ -69,7 +69,6 @@ void limit_memory_to_what_is_left() {
   if (!left || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, *left);
   (void)::setrlimit(RLIMIT_DATA, &limit);
-#endif
 }
 
 }  // namespace tagfield

@@ -113,9 +113,7 @@ TEST(ParallelForOnOneThread, StaysOnTheCallersThread) {
 }
 
 TEST(ParallelFor, GoesOnWithTheThreadsThereAre) {
-#ifdef TAGFIELD_SANITIZED
-  GTEST_SKIP() << "sanitizers need the address space that this takes away";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers need the address space that this takes away";
   EXPECT_EXIT(loop_with_few_threads(), testing::ExitedWithCode(0), "");
 }
 

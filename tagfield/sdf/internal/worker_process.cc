@@ -171,11 +171,9 @@ void WorkerProcess::answer_all(int requests, int answers) const {
     set_limit(RLIMIT_CPU, seconds, taken_seconds() + head.limits.seconds);
     head.is_complaint = false;
     try {
-#ifndef TAGFIELD_SANITIZED
-      if (const auto taken = taken_memory()) {
+      if (const auto taken = taken_memory(); taken && !kSanitized) {
         set_limit(RLIMIT_DATA, memory, *taken + head.limits.memory_bytes);
       }
-#endif
       text = work_(text);
     } catch (const std::bad_alloc&) {
       text.clear();  // Which says so.
