@@ -192,13 +192,16 @@ class Outcomes:
         self.campaign.clear()
         shutil.copytree(self.saved, self.campaign.folder / "out")
 
-    def which(self):
+    def which(self, cut_off=False):
+        """Beside an old result there may be what --resume goes on from, where a command was cut off."""
         found = self.campaign.out()
+        if cut_off and found != self.new:
+            found.pop("resume.log", None)
         return "old" if found == self.old else "new" if found == self.new else "neither"
 
     def look(self, what, allowed=("old", "new")):
         """Looks at what is there, has the command do its work, and looks again."""
-        outcome = self.which()
+        outcome = self.which(cut_off=True)
         if outcome not in allowed:
             self.campaign.find(f"{self.command.name}, {what}", f"the folder holds {outcome}")
         code, said = self.campaign.run(self.command.now)
@@ -264,7 +267,7 @@ def interrupted(campaign, outcomes):
         left = campaign.left_over()
         if left and after > 0.1:
             campaign.find(what, f"left over: {left}")
-        outcome = outcomes.which()
+        outcome = outcomes.which(cut_off=True)
         if outcome == "neither" and says_so:
             outcome = "marked as incomplete"
         seen[outcome] += 1
