@@ -121,7 +121,6 @@ Bench run_with_progress(const PreparedSuite& prepared, int threads, RunStore& st
   control.threads = threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
-  catch_interrupts();
   return run_bench(prepared, control, &store);
 }
 
@@ -151,6 +150,7 @@ int bench(const BenchArguments& arguments) {
       [&](const SuiteRecording& recording) { return read_recording(recording, diagnostics); });
   const std::string out =
       arguments.out.empty() ? "runs/bench_" + folder_name(suite.name) : arguments.out;
+  catch_interrupts();  // From here on something would be left in the folder.
   StagedFolder folder(out);
   const std::unique_ptr<RunStore> store = store_of(arguments, suite, out);
   Bench result = run_with_progress(prepared, arguments.threads, *store);

@@ -35,7 +35,6 @@ Coverage compute(const Scenario& scenario, const std::vector<DriveSample>& sampl
   ProgressBar bar("coverage");
   worded.request.stop = &interrupted();
   worded.request.on_progress = [&bar](double share) { bar.show(share); };
-  catch_interrupts();
   Coverage coverage = cover(scenario, samples, worded.request);
   coverage.tag_kind = worded.tag_kind;
   coverage.orientation = worded.orientation;
@@ -114,6 +113,7 @@ int coverage(const CoverageArguments& arguments) {
                               ? "runs/" + folder_name(loaded.scenario.name) + "_coverage"
                               : arguments.out;
   require_own_folder(out, loaded.scenario.name, arguments.force);
+  catch_interrupts();  // From here on something would be left in the folder.
   StagedFolder folder(out);
   Coverage result;
   try {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -227,6 +228,20 @@ RecordingToLocalize recording_of(const LocalizeArguments& arguments, Diagnostics
   return recording;
 }
 
+/// Says now that nothing can be written there. SIGINT and SIGTERM, which end the program while it
+/// computes, wait until nothing is left of the trial.
+void try_folder(const std::string& out) {
+  sigset_t ending{};
+  sigset_t before{};
+  (void)::sigemptyset(&ending);
+  (void)::sigaddset(&ending, SIGINT);
+  (void)::sigaddset(&ending, SIGTERM);
+  (void)::pthread_sigmask(SIG_BLOCK, &ending, &before);
+  const std::shared_ptr<void> restored(
+      nullptr, [&before](void*) { (void)::pthread_sigmask(SIG_SETMASK, &before, nullptr); });
+  const StagedFolder tried(out);
+}
+
 }  // namespace
 
 int localize(const LocalizeArguments& arguments) {
@@ -244,7 +259,7 @@ int localize(const LocalizeArguments& arguments) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
   const std::string out = folder_of(arguments);
-  { const StagedFolder tried(out); }  // Says now that nothing can be written there.
+  try_folder(out);
   const std::vector<std::string> order = order_of(loaded);
   LocalizationResult result =
       locate_tags(recording.reads, recording.poses.poses, options, diagnostics);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -69,11 +70,22 @@ void open_standard_streams() {
   }
 }
 
-/// Without memory an exception may be thrown where none may leave, as in destructors of libraries.
+// What is called where nothing can be handed over reaches only what is static.
+std::atomic<bool> memory_ran_out{false};
+
+/// As operator new does without it.
+[[noreturn]] void throw_without_memory() {
+  memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+/// Without memory an exception may be thrown where none may leave: in destructors of libraries, and
+/// in the C++ library's iterator over folders. GCC 12 does not tell there which one it was.
 [[noreturn]] void end_without_exception() {
   constexpr std::string_view kNoMemory = "tagfield: there is not enough memory for this\n";
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    if (memory_ran_out) throw std::bad_alloc();
   } catch (const std::bad_alloc&) {
     // As it was in the middle of something, it ends here and now.
     if (::write(STDERR_FILENO, kNoMemory.data(), kNoMemory.size()) >= 0) {
@@ -96,6 +108,7 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+  std::set_new_handler(throw_without_memory);
   std::set_terminate(end_without_exception);
   // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
   std::signal(SIGXFSZ, SIG_IGN);

@@ -11,12 +11,8 @@
 #include <string_view>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/sanitized.h"
 #include "tagfield/files/files.h"
-
-// Sanitizers reserve memory by the terabyte.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TAGFIELD_SANITIZED 1
-#endif
 
 namespace tagfield {
 namespace {
@@ -65,7 +61,7 @@ std::optional<std::uint64_t> left_in_container() {
 }  // namespace
 
 void limit_memory_to_what_is_left() {
-#ifndef TAGFIELD_SANITIZED
+  if constexpr (kSanitized) return;
   std::optional<std::uint64_t> left = left_on_machine();
   const std::optional<std::uint64_t> in_container = left_in_container();
   if (in_container && (!left || *in_container < *left)) left = in_container;
@@ -73,7 +69,6 @@ void limit_memory_to_what_is_left() {
   if (!left || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, *left);
   (void)::setrlimit(RLIMIT_DATA, &limit);
-#endif
 }
 
 }  // namespace tagfield

@@ -182,8 +182,8 @@ int plan(const PlanArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) + "_plan" : arguments.out;
   require_own_folder(out, scenario.name, arguments.force);
-  StagedFolder folder(out);
   catch_interrupts();
+  StagedFolder folder(out);
   AntennaPlan made;
   try {
     const LinkMatrix matrix = links_of(arguments, to_plan, seed, out, diagnostics);

@@ -119,7 +119,6 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
   control.threads = arguments.threads;
   control.stop = &interrupted();
   control.on_progress = [&bar](double share) { bar.show(share); };
-  catch_interrupts();
   const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
   std::vector<SeedRun> runs =
       arguments.record_only
@@ -261,6 +260,7 @@ int run(const RunArguments& arguments) {
   const std::string out =
       arguments.out.empty() ? "runs/" + folder_name(scenario.name) : arguments.out;
   require_own_folder(out, scenario.name, arguments.force);
+  catch_interrupts();  // From here on something would be left in the folder.
   StagedFolder folder(out);
   std::optional<NavigationWorld> world;
   if (scenario.pose.source == PoseSource::kSlam) {

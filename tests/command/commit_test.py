@@ -3,7 +3,7 @@
 the old result or the new one.
 
 Faults are made by a library loaded before the C library (faults.c): a kill at the Nth rename, a disk
-that is full from the Nth write on. scripts/faults tries many more.
+that is full from the Nth write on, a signal at the first fsync, the Nth allocation without memory. scripts/faults tries many more.
 """
 
 import os
@@ -130,6 +130,37 @@ def kill_at_each_rename(context, library, others=()):
     context.simulate("z_axis", name="out")
     check_equal([name for name in files_in(context.folder) if is_left_over(name)], [], "left over")
     return steps, as_left, looked_at
+
+
+@case
+def ended_as_soon_as_something_lies_in_the_folder(context):
+    """SIGTERM while a command makes the folder that its results gather in."""
+    library = fault_library(context.folder)
+    for name, command in commands(context).items():
+        code, said = run_with(context, library, [*command, "--out", name], "sync:1:TERM")
+        check_in(code, (-15, 0, 130), f"{name}: exit code ({said})")
+        left = [file for file in files_in(context.folder / name) if is_left_over(file)]
+        check_equal(left, [], f"what {name} leaves")
+
+
+@case
+def without_memory_while_a_folder_is_looked_through(context):
+    """Where C++ ends the program, as an exception is thrown where none may leave."""
+    library = fault_library(context.folder)
+    context.simulate("z_axis", "--no-page", name="input")
+    command = ["localize", "input/reads.csv", "--poses", "input/antenna_poses.csv", "--method", "sar",
+               "--out", "out"]
+    (context.folder / "out").mkdir()
+    # The first folder that is made comes right after the look.
+    path = context.folder / "counts"
+    code, said = run_with(context, library, command, "mkdir:1:ENOSPC", path)
+    check_equal(code, 2, f"exit code where no folder can be made ({said})")
+    after = counts_in(path)["alloc"]
+    for number in range(after - 60, after):
+        code, said = run_with(context, library, command, f"alloc:{number}:ENOMEM")
+        check_in(code, (0, 2), f"exit code without memory at allocation {number} ({said})")
+        if code == 2:
+            check_equal(said, "tagfield: there is not enough memory for this\n", "complaint")
 
 
 @case

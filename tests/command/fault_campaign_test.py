@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets things go wrong around each command, many times, and looks at what is left.
 
-    fault_campaign_test.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]…
+    fault_campaign_test.py --tagfield PROGRAM --source SOURCE_DIR [--times N] [--seed N] [--only WORD]… [--kind KIND]…
 
 Of each command that writes something: killed (SIGKILL) at random moments, ended by SIGINT and SIGTERM,
 errors at each kind of call (faults.c), few files, little memory, little room for a file, a clock that
@@ -64,6 +64,7 @@ class Campaign:
         self.source = arguments.source.resolve()
         self.times = arguments.times
         self.only = arguments.only
+        self.kinds = arguments.kind
         self.folder = folder
         self.random = random.Random(arguments.seed)
         self.library = fault_library(folder)
@@ -148,9 +149,9 @@ def prepare(campaign):
 
     out = ["--out", "out"]
     commands = [
-        Command("run", ["run", two, *out], ["run", axis, *out]),
+        Command("run", ["run", two, *out], ["run", axis, "--force", *out]),
         Command("run --record-only", ["run", two, "--record-only", *out],
-                ["run", axis, "--record-only", *out]),
+                ["run", axis, "--record-only", "--force", *out]),
         Command("localize", ["localize", *reads("two"), *out],
                 ["localize", *reads("axis"), "--method", "sar", *out]),
         Command("track", ["track", *reads("two"), "--lane", "0", "0", "0", *out],
@@ -191,13 +192,16 @@ class Outcomes:
         self.campaign.clear()
         shutil.copytree(self.saved, self.campaign.folder / "out")
 
-    def which(self):
+    def which(self, cut_off=False):
+        """Beside an old result there may be what --resume goes on from, where a command was cut off."""
         found = self.campaign.out()
+        if cut_off and found != self.new:
+            found.pop("resume.log", None)
         return "old" if found == self.old else "new" if found == self.new else "neither"
 
     def look(self, what, allowed=("old", "new")):
         """Looks at what is there, has the command do its work, and looks again."""
-        outcome = self.which()
+        outcome = self.which(cut_off=True)
         if outcome not in allowed:
             self.campaign.find(f"{self.command.name}, {what}", f"the folder holds {outcome}")
         code, said = self.campaign.run(self.command.now)
@@ -263,7 +267,7 @@ def interrupted(campaign, outcomes):
         left = campaign.left_over()
         if left and after > 0.1:
             campaign.find(what, f"left over: {left}")
-        outcome = outcomes.which()
+        outcome = outcomes.which(cut_off=True)
         if outcome == "neither" and says_so:
             outcome = "marked as incomplete"
         seen[outcome] += 1
@@ -407,14 +411,18 @@ def serving(campaign, commands):
     return told(seen)
 
 
+KINDS = (killed, interrupted, faulty_calls, limited)
+
+
 def run_campaigns(campaign):
     commands = prepare(campaign)
     for command in commands:
         outcomes = Outcomes(campaign, command)
-        for each in (killed, interrupted, faulty_calls, limited):
-            measured(campaign, command.name, each, outcomes)
+        for each in KINDS:
+            if not campaign.kinds or each.__name__ in campaign.kinds:
+                measured(campaign, command.name, each, outcomes)
     for each in (nobody_reads_on, serving):
-        if not campaign.only or each.__name__ in campaign.only:
+        if each.__name__ in campaign.only or not (campaign.only or campaign.kinds):
             measured(campaign, "", each, commands)
 
 
@@ -437,6 +445,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="of the moments and calls")
     parser.add_argument("--only", action="append", default=[],
                         help="only commands with this in their name, or nobody_reads_on, serving")
+    parser.add_argument("--kind", action="append", default=[],
+                        choices=[each.__name__ for each in KINDS], help="only this around a command")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="tagfield-") as folder:
         campaign = Campaign(arguments, pathlib.Path(folder))

@@ -11,7 +11,8 @@
          alloc   malloc, calloc and realloc of over 100 bytes
          thread  pthread_create
          clock   clock_gettime of CLOCK_REALTIME
-   WHAT  an error: ENOSPC, EIO, EMFILE, ENOMEM, EACCES, EAGAIN; KILL; or, of clock, seconds that it is off by
+   WHAT  an error: ENOSPC, EIO, EMFILE, ENOMEM, EACCES, EAGAIN; KILL or TERM, a signal before
+         the call; or, of clock, seconds that it is off by
    COUNT_FILE=PATH       says at the end of the program how many there were, a line "CALL COUNT" each.
    Of fork()ed programs only the first counts. */
 #define _GNU_SOURCE
@@ -44,7 +45,7 @@ static int faulty = -1; /* the call that goes wrong */
 static long first;
 static int goes_on;
 static int error_number;
-static int kills;
+static int signal_number;
 static long jump_s;
 
 __attribute__((constructor)) static void begin(void) {
@@ -59,7 +60,8 @@ __attribute__((constructor)) static void begin(void) {
     fprintf(stderr, "faults.c: FAULT=%s is not CALL:N:WHAT\n", fault);
     _exit(99);
   }
-  kills = strcmp(what, "KILL") == 0;
+  if (strcmp(what, "KILL") == 0) signal_number = SIGKILL;
+  if (strcmp(what, "TERM") == 0) signal_number = SIGTERM;
   jump_s = atol(what);
   for (size_t i = 0; i < sizeof errors / sizeof *errors; ++i) {
     if (strcmp(what, errors[i].name) == 0) error_number = errors[i].number;
@@ -67,14 +69,14 @@ __attribute__((constructor)) static void begin(void) {
   for (int i = 0; i < CALLS; ++i) {
     if (strcmp(call, names[i]) == 0) faulty = i;
   }
-  if (faulty < 0 || (!kills && error_number == 0 && jump_s == 0)) _exit(99);
+  if (faulty < 0 || (signal_number == 0 && error_number == 0 && jump_s == 0)) _exit(99);
 }
 
 /* Whether this call goes wrong; the program may not live to learn it. */
 static int goes_wrong(int call) {
   const long now = atomic_fetch_add(&counts[call], 1) + 1;
   if (call != faulty || (goes_on ? now < first : now != first)) return 0;
-  if (kills) raise(SIGKILL);
+  if (signal_number != 0) return raise(signal_number);
   errno = error_number;
   return 1;
 }

@@ -17,16 +17,8 @@
 #include <sstream>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/sanitized.h"
 #include "tagfield/files/files.h"
-
-// Sanitizers reserve memory by the terabyte.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TAGFIELD_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TAGFIELD_SANITIZED 1
-#endif
-#endif
 
 namespace tagfield {
 namespace {
@@ -179,11 +171,9 @@ void WorkerProcess::answer_all(int requests, int answers) const {
     set_limit(RLIMIT_CPU, seconds, taken_seconds() + head.limits.seconds);
     head.is_complaint = false;
     try {
-#ifndef TAGFIELD_SANITIZED
-      if (const auto taken = taken_memory()) {
+      if (const auto taken = taken_memory(); taken && !kSanitized) {
         set_limit(RLIMIT_DATA, memory, *taken + head.limits.memory_bytes);
       }
-#endif
       text = work_(text);
     } catch (const std::bad_alloc&) {
       text.clear();  // Which says so.
