@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What is built with sanitizers, by GCC or Clang.
 #pragma once
 
 namespace tagfield {
