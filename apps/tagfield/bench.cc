@@ -109,7 +109,7 @@ std::unique_ptr<RunStore> store_of(const BenchArguments& arguments, const Suite&
   for (const Condition& condition : suite.conditions) words.push_back(condition.name);
   const LogHead head{TAGFIELD_VERSION, work_hash(read_text_file(arguments.suite), suite, words)};
   Diagnostics of_store;
-  auto store = std::make_unique<RunStore>(out + "/resume.log", head,
+  auto store = std::make_unique<RunStore>(out + "/" + kResumeLog, head,
                                           arguments.resume ? Resume::kYes : Resume::kNo, of_store);
   print_warnings(of_store);
   return store;
@@ -153,6 +153,7 @@ int bench(const BenchArguments& arguments) {
   catch_interrupts();  // From here on something would be left in the folder.
   StagedFolder folder(out);
   const std::unique_ptr<RunStore> store = store_of(arguments, suite, out);
+  folder.keep(kResumeLog);
   Bench result = run_with_progress(prepared, arguments.threads, *store);
   for (const std::string& warning : result.warnings) diagnostics.warn(warning);
   result.warnings = diagnostics.warnings();

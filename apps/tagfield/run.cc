@@ -98,7 +98,7 @@ std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
   const LogHead head{TAGFIELD_VERSION,
                      work_hash(arguments.scenario, overrides, scene, arguments.without)};
   Diagnostics of_store;
-  auto store = std::make_unique<RunStore>(out + "/resume.log", head,
+  auto store = std::make_unique<RunStore>(out + "/" + kResumeLog, head,
                                           arguments.resume ? Resume::kYes : Resume::kNo, of_store);
   print_warnings(of_store);
   return store;
@@ -271,6 +271,7 @@ int run(const RunArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const std::unique_ptr<RunStore> store = store_of(arguments, overrides, loaded.scene, out);
+  if (store) folder.keep(kResumeLog);
   const std::vector<SeedRun> runs =
       run_with_progress(arguments, loaded, ways, store.get(), folder, diagnostics);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -248,6 +248,8 @@ void StagedFolder::add(const fs::path& name, const std::string& text) {
   added_.insert(name);
 }
 
+void StagedFolder::keep(const fs::path& name) { kept_.insert(name); }
+
 const fs::path& StagedFolder::staging() const {
   for (const auto& file : growing_) file->flush();
   return staging_;
@@ -270,6 +272,8 @@ void StagedFolder::commit(const std::vector<fs::path>& stale) {
   after.insert(kept.begin(), kept.end());
   write_through(staging_ / kOwnList, own_list_of(after), folder_ / kOwnList);
   growing_.clear();
+  own_.insert(kept_.begin(), kept_.end());  // As for staying where it is.
+  kept.insert(kept_.begin(), kept_.end());
   if (!files_internal::swap_in(folder_, staging_, own_, kept)) move_in(folder_, staging_);
   added_.clear();
   if (lock_ >= 0) ::close(std::exchange(lock_, -1));  // It would be one on `folder_` by now.

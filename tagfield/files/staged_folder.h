@@ -73,6 +73,10 @@ class StagedFolder {
   /// Adds a file that grows until commit().
   std::shared_ptr<GrowingFile> grow(const std::filesystem::path& name);
 
+  /// A file that the work keeps in the folder besides its results, such as a log of what is done.
+  /// It stays there, and does not keep commit() from its one step.
+  void keep(const std::filesystem::path& name);
+
   /// Where the added files are until commit(), all that was appended to them among it.
   [[nodiscard]] const std::filesystem::path& staging() const;
 
@@ -91,6 +95,7 @@ class StagedFolder {
   int lock_ = -1;  ///< Held on `staging_` while it is in use.
   OwnFiles own_;   ///< Of earlier commits.
   OwnFiles added_;
+  OwnFiles kept_;  ///< By keep().
   std::vector<std::shared_ptr<GrowingFile>> growing_;
 };
 

@@ -224,8 +224,9 @@ std::string data_of_cells(const Coverage& coverage, const CoverageLayer& layer) 
   std::string csv = "x_m,y_m,probability,margin_db,power_dbm\n";
   for (std::size_t i = 0; i < layer.cells.size(); ++i) {
     const CoverageCell& cell = layer.cells[i];
+    const std::size_t rows_below = i / grid.columns;
     const auto column = static_cast<double>(i % grid.columns) + 0.5;
-    const auto row = static_cast<double>(i / grid.columns) + 0.5;
+    const auto row = static_cast<double>(rows_below) + 0.5;
     const bool reached = cell.antenna >= 0;
     add_data(csv, grid.corner_m.x() + grid.step_m * column, grid.corner_m.y() + grid.step_m * row,
              cell.probability, reached ? std::optional(cell.margin_db) : std::nullopt,

@@ -93,6 +93,7 @@ std::vector<std::vector<SearchRead>> by_carrier(const std::vector<PhaseSample>& 
     carriers[std::llround(sample.frequency_hz)].push_back(read);
   }
   std::vector<std::vector<SearchRead>> groups;
+  groups.reserve(carriers.size());
   for (auto& [carrier, reads] : carriers) groups.push_back(std::move(reads));
   return groups;
 }

@@ -15,6 +15,9 @@ namespace tagfield {
 /// Whether runs that were done earlier count.
 enum class Resume { kNo, kYes };
 
+/// The log's name in a folder of results, which keeps it (StagedFolder::keep()).
+inline constexpr const char* kResumeLog = "resume.log";
+
 /// Safe to be used by several threads, but for drop().
 class RunStore {
  public:

@@ -125,6 +125,10 @@ void move_out_and_delete(const fs::path& gone, const fs::path& place) {
   std::error_code error;
   for (const fs::path& name : files_below(gone)) {
     if (own.count(name) > 0 || name == kOwnList) continue;
+    if (fs::equivalent(gone / name, place / name, error)) {  // Kept in both.
+      if (!fs::remove(gone / name, error)) return;
+      continue;
+    }
     if (fs::exists(fs::symlink_status(place / name, error))) return;
     make_folder((place / name).parent_path());
     fs::rename(gone / name, place / name, error);

@@ -257,6 +257,27 @@ TEST(StagedFolder, IsSwappedForAnotherWhereAllInItIsItsOwn) {
   EXPECT_EQ(files_of(folder), (Files{{"out/a", "new"}, {"out/c/d", "new"}, {"out/kept/b", "old"}}));
 }
 
+TEST(StagedFolder, IsSwappedBesideWhatTheWorkKeepsThere) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  commit(out, {{"a", "old"}});
+  const ino_t before = inode_of(out);
+  StagedFolder staged(out);
+  std::ofstream log(out / "log");
+  log << "half" << std::flush;
+  staged.keep("log");
+  staged.keep("not_there");
+  staged.add("a", "new");
+  staged.commit();
+  log << " done" << std::flush;
+  EXPECT_NE(inode_of(out), before);
+  EXPECT_EQ(folder.names(), (Names{"out", "out/.tagfield", "out/a", "out/log"}));
+  EXPECT_EQ(files_of(folder), (Files{{"out/a", "new"}, {"out/log", "half done"}}));
+  // It is none of the results: the next commit leaves it, and the folder, as they are.
+  commit(out, {{"a", "newer"}}, {"log"});
+  EXPECT_EQ(folder.text_of("out/log"), "half done");
+}
+
 TEST(StagedFolder, StaysTheSameFolderWhereOthersAreInIt) {
   using Prepare = std::function<void(const fs::path&)>;
   const std::map<std::string, Prepare> others = {
