@@ -311,7 +311,7 @@ def ellipses_hold_95_percent(context, one, address, shared):
 
 @with_page()
 def beam_ends_at_half_power(context, one, address, shared):
-    one.wait("view.stage.frames > 1", "a frame was drawn")
+    one.wait("view.drawing.antennas.items[0]?.beam?.children[0]", "an antenna's beam was drawn")
     points = one.ask(
         "[...view.drawing.antennas.items[0].beam.children[0].geometry.attributes.position.array]")
     points = [points[i:i + 3] for i in range(3, len(points), 3)]  # The first is the antenna.
