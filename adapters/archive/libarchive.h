@@ -37,10 +37,6 @@ struct LibArchive : LoadedLibrary {
       function("archive_read_support_format_tar");
 };
 
-/// Loaded the first time that it is called. From any thread. Throws Error where it is not there.
-inline const LibArchive& libarchive() {
-  static const LibArchive library;
-  return library;
-}
+inline const LibArchive& libarchive() { return loaded<LibArchive>(); }
 
 }  // namespace tagfield

@@ -11,9 +11,6 @@ LibCurl::LibCurl() : LoadedLibrary("EPCIS capture", TAGFIELD_LIBCURL) {
   }
 }
 
-const LibCurl& libcurl() {
-  static const LibCurl curl;
-  return curl;
-}
+const LibCurl& libcurl() { return loaded<LibCurl>(); }
 
 }  // namespace tagfield

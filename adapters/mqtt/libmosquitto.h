@@ -35,10 +35,6 @@ struct LibMosquitto : LoadedLibrary {
   decltype(&mosquitto_username_pw_set) username_pw_set = function("mosquitto_username_pw_set");
 };
 
-/// Loaded the first time that it is called. From any thread. Throws Error where it is not there.
-inline const LibMosquitto& libmosquitto() {
-  static const LibMosquitto library;
-  return library;
-}
+inline const LibMosquitto& libmosquitto() { return loaded<LibMosquitto>(); }
 
 }  // namespace tagfield

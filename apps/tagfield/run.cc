@@ -206,18 +206,15 @@ void print_result(const Summary& summary, const std::string& tracks, const std::
 }
 
 /// What of another run in the same folder does not belong to this one.
-const std::vector<std::filesystem::path>& stale_files() {
-  static const std::vector<std::filesystem::path> all = {
-      "tag_heights.csv", "reference_tags.csv", "corrected_poses.csv",    "top_view.json", "map.pgm",
-      "map.yaml",        "mapping_path.csv",   "truth/mapping_path.csv", "report.html",   "figures",
-      "scene.json",      "INCOMPLETE"};
-  static const std::vector<std::filesystem::path> with_tracks = [] {
-    std::vector<std::filesystem::path> names = all;
-    const auto& tracks = track_file_names();
-    names.insert(names.end(), tracks.begin(), tracks.end());
-    return names;
-  }();
-  return with_tracks;
+std::vector<std::filesystem::path> stale_files() {
+  std::vector<std::filesystem::path> all = track_file_names();
+  for (const char* name :
+       {"tag_heights.csv", "reference_tags.csv", "corrected_poses.csv", "top_view.json", "map.pgm",
+        "map.yaml", "mapping_path.csv", "truth/mapping_path.csv", "report.html", "figures",
+        "scene.json", "INCOMPLETE"}) {
+    all.emplace_back(name);
+  }
+  return all;
 }
 
 /// Reads, poses and the truth are all there is.

@@ -44,4 +44,12 @@ class LoadedLibrary {
   void* handle_;
 };
 
+/// The one of a type that is derived from LoadedLibrary, loaded the first time that it is called.
+/// From any thread. Throws Error where it is not there.
+template <typename Library>
+const Library& loaded() {
+  static const Library library;
+  return library;
+}
+
 }  // namespace tagfield

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is known of antennas from a calibration, and how it is put to use.
+/// The door of this room: reads of tags at known places in, what that tells of the antennas out;
+/// and how it is put to use.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The paper's signal model: phase by eq. (4), RSSI by eq. (5). See docs/paper_model.md.
+/// The paper's signal model of one link: phase by eq. (4) with its optional distributions, RSSI by
+/// eq. (5). See docs/paper_model.md.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// What a localization method is given: reads joined with believed antenna places, and all that is
-/// known besides. Nothing of where the tags really are.
+/// known besides, such as where tags can be. Nothing of where they really are.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,11 +6,9 @@
 #include <numbers>
 #include <set>
 
-#include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/holograms/wave_sums.h"
-#include "tagfield/localization/problem.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/color_bands.h"
 #include "tagfield/report/internal/figure_data.h"
@@ -20,8 +18,7 @@
 namespace tagfield {
 namespace {
 
-constexpr double kLongestGap_s = 0.5;  ///< Between poses, as localization does by default.
-constexpr int kHologramCells = 64;     ///< To a side.
+constexpr int kHologramCells = 64;  ///< To a side.
 constexpr double kHologramCell_m = 0.02;
 constexpr double kHologramTop = 46.0;  ///< Of the drawing, below the colours' bar.
 
@@ -55,15 +52,7 @@ struct HoppingReads {
 };
 
 HoppingReads hopping_reads(const Shown& shown) {
-  std::vector<TagRead> reads;
-  for (const TagRead* read : shown.track->reads) reads.push_back(*read);
-  std::vector<AntennaPose> poses;
-  for (const StampedPose& pose : shown.track->believed) {
-    poses.push_back({pose.stamp, shown.track->antenna, pose.X_WB});
-  }
-  Diagnostics unheard;  // Localization met the same reads, and its warnings are in the summary.
-  SamplesByTag samples =
-      join_reads_with_tracks(reads, tracks_of(poses, unheard), kLongestGap_s, unheard);
+  SamplesByTag samples = believed_samples(*shown.track, shown.track->reads);
   HoppingReads joined;
   joined.half_turns = has_half_turns(samples);
   if (joined.half_turns) double_phases(samples);
@@ -117,18 +106,6 @@ std::vector<double> hologram_at(const std::vector<PhaseSample>& samples,
     }
     return Tile(sum / static_cast<float>(samples.size()));
   });
-}
-
-/// Ten steps from 0 to the greatest value.
-ColorBands agreement_bands(const std::vector<double>& values) {
-  ColorBands bands;
-  bands.title = "agreement";
-  const double most = std::ceil(10.0 * *std::max_element(values.begin(), values.end()));
-  for (int i = 1; i < 10; ++i) bands.edges.push_back(0.01 * std::max(most, 1.0) * i);
-  bands.colors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
-                  "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
-  for (const double edge : bands.edges) bands.labels.push_back(fmt::format("{:g}", edge));
-  return bands;
 }
 
 MapView hologram_map(const std::string& name, const Eigen::Vector3d& middle_W) {
@@ -202,7 +179,7 @@ Figure hologram_figure(const Shown& shown, const HoppingReads& reads, const TagO
   Figure figure{"hologram", "", "Hologram of " + shortened(shown.tag, 24), "", {}, ""};
   const MapView map = hologram_map(figure.name, middle);
   const std::vector<double> values = hologram_at(reads.samples, middle);
-  const ColorBands bands = agreement_bands(values);
+  const ColorBands bands = agreement_bands(*std::max_element(values.begin(), values.end()));
   figure.svg.height = map.axes.y.from + 48.0;
   draw_band_bar(figure.svg, 2.0, bands);
   draw_axes(figure.svg, map.axes, "x [m]", "y [m]");
@@ -259,8 +236,7 @@ Figure carriers_figure(const Shown& shown) {
   }
   figure.caption = fmt::format(
       "{}, so in place of Fig. 12: every phase by its carrier. The phase of a tag at rest before "
-      "an "
-      "antenna at rest lies on a line that falls or rises with its distance, but for noise, "
+      "an antenna at rest lies on a line that falls or rises with its distance, but for noise, "
       "reflections and the reader’s offsets.",
       carriers_words(shown));
   if (step > 1) figure.caption += fmt::format(" One read in {} is drawn.", step);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/figure_data.h"
@@ -34,11 +35,10 @@ std::map<std::string, ReadSpan> spans_of(const std::vector<TagRead>& reads) {
 /// In the order of the first thing passed, then those that passed others alone.
 std::vector<std::string> tags_in_order(const std::vector<PassingOrder>& orders) {
   std::vector<std::string> tags;
+  std::set<std::string> known;
   for (const PassingOrder& order : orders) {
     for (const Passing& passing : order.passings) {
-      if (std::find(tags.begin(), tags.end(), passing.tag) == tags.end()) {
-        tags.push_back(passing.tag);
-      }
+      if (known.insert(passing.tag).second) tags.push_back(passing.tag);
     }
   }
   return tags;
@@ -164,8 +164,7 @@ Figure passings_figure(const std::vector<TagRead>& reads, const std::vector<Pass
   }
   figure.caption = fmt::format(
       "A row a tag, in the order in which they passed {}: from its first read to its last, and "
-      "when "
-      "its track passed each antenna at rest, where it was nearest, or crossed the line.",
+      "when its track passed each antenna at rest, where it was nearest, or crossed the line.",
       spoken_gate(orders.front()));
   if (shown < tags.size()) {
     figure.caption += fmt::format(" The first {} of {} tags.", shown, grouped(tags.size()));

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/error.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/unwrap.h"
-#include "tagfield/localization/problem.h"
 #include "tagfield/report/axes.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/figure_data.h"
@@ -15,7 +13,6 @@
 namespace tagfield {
 namespace {
 
-constexpr double kMaxPoseGap = 0.5;  ///< [s] As localization does by default.
 constexpr double kPhaseTop = 58.0;
 constexpr std::size_t kMostRules = 40;
 constexpr std::size_t kFewReads =
@@ -38,15 +35,7 @@ std::optional<double> true_distance(const RunFiles& run, const AntennaTrack& tra
 }
 
 std::vector<PhaseSegment> segments_of(const AntennaTrack& track, const std::string& tag) {
-  std::vector<TagRead> reads;
-  for (const TagRead* read : reads_of(track, tag)) reads.push_back(*read);
-  std::vector<AntennaPose> poses;
-  for (const StampedPose& pose : track.believed) {
-    poses.push_back({pose.stamp, track.antenna, pose.X_WB});
-  }
-  Diagnostics told_before;  // Localization met the same reads and its warnings are in the summary.
-  const SamplesByTag samples =
-      join_reads_with_tracks(reads, tracks_of(poses, told_before), kMaxPoseGap, told_before);
+  const SamplesByTag samples = believed_samples(track, reads_of(track, tag));
   const auto of_tag = samples.find(tag);
   if (of_tag == samples.end() || of_tag->second.empty()) return {};
   return unwrap(of_tag->second.begin()->second, HyperbolaOptions{}.max_step);

@@ -196,6 +196,20 @@ std::vector<const TagRead*> reads_of(const AntennaTrack& track, const std::strin
   return reads;
 }
 
+SamplesByTag believed_samples(const AntennaTrack& track, const std::vector<const TagRead*>& reads) {
+  constexpr double kMaxPoseGap_s = 0.5;  // As localization's default.
+  std::vector<TagRead> copies;
+  copies.reserve(reads.size());
+  for (const TagRead* read : reads) copies.push_back(*read);
+  std::vector<AntennaPose> poses;
+  poses.reserve(track.believed.size());
+  for (const StampedPose& pose : track.believed) {
+    poses.push_back({pose.stamp, track.antenna, pose.X_WB});
+  }
+  Diagnostics told_before;
+  return join_reads_with_tracks(copies, tracks_of(poses, told_before), kMaxPoseGap_s, told_before);
+}
+
 std::vector<const TagOutcome*> first_outcomes(const Summary& summary) {
   std::vector<const TagOutcome*> outcomes;
   for (const TagOutcome& outcome : summary.tags) {

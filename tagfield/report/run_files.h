@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tagfield/localization/problem.h"
 #include "tagfield/map/occupancy_grid.h"
 #include "tagfield/map/top_view.h"
 #include "tagfield/poses/trajectory.h"
@@ -82,6 +83,10 @@ std::string busiest_tag(const AntennaTrack& track);
 
 /// Reads of one tag in a track, in rising order of time.
 std::vector<const TagRead*> reads_of(const AntennaTrack& track, const std::string& tag);
+
+/// Reads of a track joined with where its antenna was believed to be, by tag, as localization does
+/// by default, whose warnings of them are in the summary.
+SamplesByTag believed_samples(const AntennaTrack& track, const std::vector<const TagRead*>& reads);
 
 /// Outcomes of the first seed, in natural order of their tags.
 std::vector<const TagOutcome*> first_outcomes(const Summary& summary);

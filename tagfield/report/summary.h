@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Estimates judged against the truth: the numbers of a run, and their JSON.
+/// Estimates judged against the truth, and who was read: the numbers of a run, and their JSON.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A robot as a scenario describes it.
+/// A robot as a scenario describes it, and how it comes to believe where it is.
 #pragma once
 
 #include <Eigen/Core>

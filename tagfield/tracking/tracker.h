@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// The door of this room: reads joined with antenna places in, a track for each tag out. Knows
-/// nothing of where the tags really are.
+/// The door of this room: reads joined with antenna places in, a track for each tag out, and in
+/// which order tracks pass a line. Knows nothing of where the tags really are.
 #pragma once
 
 #include <Eigen/Core>

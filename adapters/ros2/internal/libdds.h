@@ -38,10 +38,6 @@ struct LibDds : LoadedLibrary {
   decltype(&dds_write) write = function("dds_write");
 };
 
-/// Loaded the first time that it is called. From any thread. Throws Error where it is not there.
-inline const LibDds& libdds() {
-  static const LibDds library;
-  return library;
-}
+inline const LibDds& libdds() { return loaded<LibDds>(); }
 
 }  // namespace tagfield::ros2

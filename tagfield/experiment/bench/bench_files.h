@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A comparison as files; docs/bench.md lists every column. What is unknown is null or empty.
+/// A comparison as files, and as text for people; docs/bench.md lists every column. What is unknown
+/// is null or empty.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a comparison of methods is made of, as plain structs. docs/bench.md tells how to write one
-/// as YAML.
+/// What a comparison of methods is made of: plain structs, and read from YAML, which docs/bench.md
+/// tells how to write.
 #pragma once
 
 #include <cstdint>

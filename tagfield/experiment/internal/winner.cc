@@ -42,11 +42,8 @@ bool are_alike(const BenchEntry& one, const BenchEntry& other) {
 }
 
 double mean_error(const BenchEntry& entry) {
-  const std::vector<double> errors = errors_of(entry);
-  double sum = 0.0;
-  for (const double error : errors) sum += error;
-  return errors.empty() ? std::numeric_limits<double>::infinity()
-                        : sum / static_cast<double>(errors.size());
+  const std::optional<ErrorStatistics> errors = statistics_of(entry).error_m;
+  return errors ? errors->mean : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

@@ -25,10 +25,6 @@ struct LibCbc : LoadedLibrary {
   decltype(&Cbc_solve) solve = function("Cbc_solve");
 };
 
-/// Loaded the first time that it is called. From any thread. Throws Error where it is not there.
-inline const LibCbc& libcbc() {
-  static const LibCbc library;
-  return library;
-}
+inline const LibCbc& libcbc() { return loaded<LibCbc>(); }
 
 }  // namespace tagfield

@@ -66,6 +66,17 @@ ColorBands probability_bands() {
   return bands;
 }
 
+ColorBands agreement_bands(double most) {
+  ColorBands bands;
+  bands.title = "agreement";
+  const double tenths = std::max(std::ceil(10.0 * most), 1.0);
+  for (int i = 1; i < 10; ++i) bands.edges.push_back(0.01 * tenths * i);
+  bands.colors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
+                  "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
+  for (const double edge : bands.edges) bands.labels.push_back(fmt::format("{:g}", edge));
+  return bands;
+}
+
 void draw_band_bar(Svg& svg, double y, const ColorBands& bands) {
   constexpr double kTitleWidth = 118.0;
   const double width =

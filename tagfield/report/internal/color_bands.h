@@ -29,6 +29,9 @@ ColorBands margin_bands();
 /// Dark to light from 1 % on.
 ColorBands probability_bands();
 
+/// Dark to light in ten steps from 0 to `most`, in whole tenths.
+ColorBands agreement_bands(double most);
+
 /// A horizontal bar of the bands with its title before it, the top at `y`. Needs 44 of height.
 void draw_band_bar(Svg& svg, double y, const ColorBands& bands);
 
