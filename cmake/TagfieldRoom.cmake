@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # tagfield_room(NAME SOURCES a.cc … PUBLIC_HEADERS a.h … LINKS room … PRIVATE library …
-#               HEADERS <header> … TESTS a_test.cc … TEST_PARTS n)
+#               TESTS a_test.cc … TEST_PARTS n [COMPILE_FAST])
 #
 # One room of the house: a static library tagfield_NAME, known to others as tagfield::NAME, that
 # links only the rooms and libraries it is given, with its tests in test/. Headers lie beside the
 # sources and are included by their path from the top of the source tree; PUBLIC_HEADERS are for users'
-# programs too (docs/api.md). HEADERS are those of libraries that many of its sources include and other
-# rooms don't.
+# programs too (docs/api.md). COMPILE_FAST: nothing in it takes long (tagfield_compile_fast).
 function(tagfield_room name)
-  cmake_parse_arguments(ROOM "" "TEST_PARTS"
-    "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE;HEADERS;TESTS" ${ARGN})
+  cmake_parse_arguments(ROOM "COMPILE_FAST" "TEST_PARTS"
+    "SOURCES;PUBLIC_HEADERS;LINKS;PRIVATE;TESTS" ${ARGN})
   foreach(link IN LISTS ROOM_LINKS)
     if(link MATCHES "^tagfield::" AND NOT TARGET ${link})
       message(FATAL_ERROR "tagfield/${name} links ${link}, which is in no component that it needs")
@@ -27,8 +26,10 @@ function(tagfield_room name)
   # For the plugins the core is compiled once more; there each room at one go.
   if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
     tagfield_compile_together(${target})
+  elseif(ROOM_COMPILE_FAST)
+    tagfield_compile_fast(${target})
   else()
-    tagfield_read_headers_once(${target} ${ROOM_HEADERS})
+    tagfield_read_headers_once(${target})
   endif()
   tagfield_public_headers(${name} ${ROOM_PUBLIC_HEADERS})
   if(TAGFIELD_TESTS AND ROOM_TESTS)
