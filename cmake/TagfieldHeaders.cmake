@@ -38,8 +38,9 @@ endfunction()
 set(tagfield_fast_options $<$<CONFIG:Release>:-O1>)
 tagfield_headers_once(tagfield_fast_headers ${tagfield_fast_options})
 function(tagfield_compile_fast target)
-  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE ${tagfield_fast_options})
+  # As the headers were read, of programs, too, for which CMake would say -fPIE.
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_compile_options(${target} PRIVATE -fPIC ${tagfield_fast_options})
   target_precompile_headers(${target} REUSE_FROM tagfield_fast_headers)
 endfunction()
 
