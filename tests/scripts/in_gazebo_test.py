@@ -35,6 +35,26 @@ def has_gazebo(room, _):
     assert "version 11." in room.run("gzserver", "--version").stdout
 
 
+def gives_half_of_the_processors_to_gzserver(room, folder):
+    world = folder / "empty.world"
+    world.write_text("<sdf version='1.6'><world name='w'/></sdf>", encoding="utf-8")
+    env = {**os.environ, "GAZEBO_MASTER_URI": "http://127.0.0.1:11399"}
+    with subprocess.Popen([room.program, "gzserver", str(world)], env=env, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as server:
+        try:
+            until = time.monotonic() + 60
+            while b"gzserver" not in pathlib.Path(f"/proc/{server.pid}/cmdline").read_bytes().split(b"\0")[0]:
+                assert server.poll() is None and time.monotonic() < until
+                time.sleep(0.1)
+            given = os.sched_getaffinity(server.pid)
+        finally:
+            server.terminate()
+            server.wait(60)
+    had = sorted(os.sched_getaffinity(0))
+    assert given == set(had[:(len(had) + 1) // 2]), (given, had)
+    assert room.run("nproc").stdout.strip() == str(len(had))  # of other commands
+
+
 def ends_with_the_commands_code(room, _):
     assert room.run("bash", "-c", "exit 7").returncode == 7
     assert room.run("no-such-program").returncode == 127
@@ -95,9 +115,10 @@ def says_what_is_missing(room, folder):
     assert "scripts/gazebo-root" in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
-TESTS = (has_gazebo, ends_with_the_commands_code, keeps_folder_files_and_arguments,
-         keeps_the_environment, has_shared_memory_and_processes, gives_signals_to_the_command,
-         leaves_no_mount, says_what_is_missing)
+TESTS = (has_gazebo, gives_half_of_the_processors_to_gzserver, ends_with_the_commands_code,
+         keeps_folder_files_and_arguments, keeps_the_environment,
+         has_shared_memory_and_processes, gives_signals_to_the_command, leaves_no_mount,
+         says_what_is_missing)
 
 
 def main():
