@@ -69,7 +69,7 @@ std::string cross_words(const ZoneInventory& zone) {
 std::string zones_table(const InventorySummary& inventory) {
   if (inventory.zones.empty()) return "";
   std::string html =
-      "<h2>By zone</h2>\n" + inventory_head({"Zone", "Tags", "Read", "", "By its reader",
+      "<h2>By zone</h2>\n" + inventory_head({"Zone", "Tags", "Read", "Share", "By its reader",
                                              "Read by others", "Cross reads by"},
                                             "Zones");
   for (const ZoneInventory& zone : inventory.zones) {
@@ -85,8 +85,8 @@ std::string zones_table(const InventorySummary& inventory) {
 
 std::string levels_table(const InventorySummary& inventory) {
   if (inventory.levels.size() < 2) return "";
-  std::string html =
-      "<h2>By height</h2>\n" + inventory_head({"Level", "Tags", "Read", "", "Missed"}, "Levels");
+  std::string html = "<h2>By height</h2>\n" +
+                     inventory_head({"Level", "Tags", "Read", "Share", "Missed"}, "Levels");
   for (auto level = inventory.levels.rbegin(); level != inventory.levels.rend(); ++level) {
     const bool is_one = level->high_m - level->low_m < 0.005;
     const std::string name =
@@ -111,7 +111,7 @@ std::string share_row(const InventoryShare& share, const InventorySummary& inven
 }
 
 std::string shares_table(const InventorySummary& inventory, bool is_antenna) {
-  std::vector<std::string> columns = {"Reader",     "Tags read", "",
+  std::vector<std::string> columns = {"Reader",     "Tags read", "Share",
                                       "Only by it", "Reads",     "Reads a second"};
   if (is_antenna) columns.insert(columns.begin(), "Antenna");
   std::string html = is_antenna ? "<h2>By antenna</h2>\n" : "<h2>By reader</h2>\n";
@@ -124,8 +124,9 @@ std::string shares_table(const InventorySummary& inventory, bool is_antenna) {
 
 std::string without_table(const InventorySummary& inventory) {
   if (inventory.without.empty()) return "";
-  std::string html = "<h2>Without one antenna</h2>\n" +
-                     inventory_head({"Without", "Tags read", "", "Lost"}, "Without one antenna");
+  std::string html =
+      "<h2>Without one antenna</h2>\n" +
+      inventory_head({"Without", "Tags read", "Share", "Lost"}, "Without one antenna");
   const auto all = static_cast<double>(inventory.tags);
   for (const InventoryWithout& without : inventory.without) {
     html += inventory_row(without.antenna,

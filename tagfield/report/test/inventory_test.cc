@@ -50,6 +50,7 @@ TEST(Inventory, IsOnThePage) {
   EXPECT_NE(tables.find("near &lt;door&gt;"), std::string::npos);
   EXPECT_NE(tables.find("yard: 1 tag (3 reads)"), std::string::npos);
   EXPECT_NE(tables.find("1.50 m"), std::string::npos);
+  EXPECT_EQ(tables.find("<th scope=\"col\"></th>"), std::string::npos);
 }
 
 TEST(Inventory, ComesBackFromItsJson) {
