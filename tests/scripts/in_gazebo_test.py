@@ -10,6 +10,7 @@ Skipped (77) where there is no Gazebo 11.
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -38,7 +39,9 @@ def has_gazebo(room, _):
 def gives_half_of_the_processors_to_gzserver(room, folder):
     world = folder / "empty.world"
     world.write_text("<sdf version='1.6'><world name='w'/></sdf>", encoding="utf-8")
-    env = {**os.environ, "GAZEBO_MASTER_URI": "http://127.0.0.1:11399"}
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        env = {**os.environ, "GAZEBO_MASTER_URI": f"http://127.0.0.1:{free.getsockname()[1]}"}
     with subprocess.Popen([room.program, "gzserver", str(world)], env=env, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL) as server:
         try:
