@@ -16,6 +16,7 @@ void add_commands(CLI::App& app, Action& chosen) {
   add_plan_command(app, chosen);
   add_bench_command(app, chosen);
   add_score_command(app, chosen);
+  add_compare_command(app, chosen);
   add_sweep_command(app, chosen);
   add_events_command(app, chosen);
   add_stream_command(app, chosen);

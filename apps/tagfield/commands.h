@@ -26,6 +26,7 @@ void add_track_command(CLI::App& app, Action& chosen);
 void add_calibrate_command(CLI::App& app, Action& chosen);
 void add_bench_command(CLI::App& app, Action& chosen);
 void add_score_command(CLI::App& app, Action& chosen);
+void add_compare_command(CLI::App& app, Action& chosen);
 void add_sweep_command(CLI::App& app, Action& chosen);
 void add_events_command(CLI::App& app, Action& chosen);
 void add_stream_command(CLI::App& app, Action& chosen);

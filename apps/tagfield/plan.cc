@@ -68,7 +68,8 @@ std::string limits_text(const PlanSpec& plan) {
   if (limits.cross) {
     text += fmt::format(", at most {:g} % of a zone read by others", 100.0 * *limits.cross);
   }
-  if (plan.margin_db > 0.0) text += fmt::format("; {:g} dB to spare on every link", plan.margin_db);
+  if (plan.margin_db > 0.0)
+    text += fmt::format("; {:g} dB to spare where tags are to be read", plan.margin_db);
   return text;
 }
 
@@ -146,6 +147,10 @@ void print_plan(const AntennaPlan& plan, const std::string& out) {
   if (plan.check) {
     fmt::print("checked: {} of {} full simulations within the stated range\n", plan.check->inside,
                plan.check->read.size());
+    if (!plan.check->cross.empty()) {
+      fmt::print("cross reads: {} of {} within the stated range\n", plan.check->cross_inside,
+                 plan.check->cross.size());
+    }
   }
   fmt::print("layout: {0}/layout.yaml\npage: {0}/plan.html\n", out);
 }

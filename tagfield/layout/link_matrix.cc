@@ -144,7 +144,7 @@ class Evaluation {
     if (request.folder.empty()) return;
     std::filesystem::create_directories(request.folder);
     common_ = text_of(to_plan.loaded) + text_of(to_plan.plan, matrix.rows) +
-              fmt::format("{} {:.17g}", request.seed, to_plan.plan.margin_db);
+              fmt::format("{}", request.seed);
     common_ = content_hash(common_);
   }
 
@@ -191,9 +191,7 @@ class Evaluation {
       const LinkRow& of_row = matrix_.rows[row];
       const TagEnd tag{*to_plan_.plan.tags[of_row.group].model, of_row.X_WT,
                        key_of(to_plan_.plan, of_row)};
-      std::vector<double> margins = fading_margins_db(view, tag, carriers, 0, paths);
-      for (double& margin : margins) margin -= to_plan_.plan.margin_db;
-      const LinkStates link(margins);
+      const LinkStates link(fading_margins_db(view, tag, carriers, 0, paths));
       std::copy(link.steps().begin(), link.steps().end(),
                 steps.begin() + static_cast<std::ptrdiff_t>(row * states));
     }

@@ -64,8 +64,8 @@ struct LinkMatrixCounts {
   std::size_t damaged = 0;  ///< Found there, but not whole; computed again.
 };
 
-/// Evaluates all links, with margins less the plan's `margin_db`. A column that the folder holds is
-/// taken from there, each other one is written when it is done: what was interrupted goes on.
+/// Evaluates all links, as they are, without the plan's `margin_db`. A column that the folder holds
+/// is taken from there, each other one is written when it is done: what was interrupted goes on.
 /// Throws Error where it was stopped, where a mount is inside a solid, or where the matrix would
 /// take over 4 GB.
 LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest& request,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -81,7 +82,15 @@ class Builder {
         option.site = matrix_.columns[column].mount;
         option.zone = mount.zone.empty() ? kNoZone : zone_number(mount.zone, problem);
         option.cost = mount.cost;
-        option.misses = misses(column, most - power);
+        const auto all = [](std::size_t /*zone*/) { return true; };
+        const auto foreign = [&](std::size_t zone) {
+          return zone != kNoZone && option.zone != kNoZone && zone != option.zone;
+        };
+        option.misses = misses(column, most - power + plan_.margin_db, problem.selection, all);
+        // Being cautious here is to take links for as good as they are.
+        if (plan_.limits.cross) {
+          option.crossings = misses(column, most - power, problem.selection, foreign);
+        }
         problem.selection.options.push_back(std::move(option));
       }
     }
@@ -114,11 +123,15 @@ class Builder {
     }
   }
 
-  [[nodiscard]] std::vector<Miss> misses(std::size_t column, double less_db) const {
+  /// Of elements in zones for which `counts` holds.
+  [[nodiscard]] std::vector<Miss> misses(std::size_t column, double less_db,
+                                         const SelectionProblem& selection,
+                                         const std::function<bool(std::size_t)>& counts) const {
     const PlanMount& mount = plan_.mounts[matrix_.columns[column].mount];
     const double looks = looks_a_second(plan_, *physical(mount.antenna));
     std::vector<Miss> all;
     for (std::size_t number = 0; number < elements_.size(); ++number) {
+      if (!counts(selection.elements[number * kFadingPlaces].zone)) continue;
       std::array<double, kFadingPlaces> miss{};
       miss.fill(1.0);
       const Element& element = elements_[number];
@@ -293,7 +306,8 @@ BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanPro
         for (std::size_t carrier = 0; carrier < std::max<std::size_t>(states.carriers(), 1);
              ++carrier) {
           const double margin =
-              states.is_empty() ? -32.0 : states.margin_db(fade, carrier) - option.less_db;
+              states.is_empty() ? -32.0
+                                : states.margin_db(fade, carrier) - option.less_db - plan.margin_db;
           all.push_back(std::max(margin, -32.0));
           by_turn[of_row.orientation].push_back(all.back());
         }

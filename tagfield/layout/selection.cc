@@ -113,13 +113,8 @@ std::vector<double> cross_of(const SelectionProblem& problem, const OptionSet& c
   if (problem.zones == 0) return cross;
   std::vector<double> miss(problem.elements.size(), 1.0);
   for (const std::size_t number : choice) {
-    const SelectionOption& option = problem.options[number];
-    if (option.zone == kNoZone) continue;
-    for (const Miss& one : option.misses) {
-      const std::size_t zone = problem.elements[one.element].zone;
-      if (zone != kNoZone && zone != option.zone) {
-        miss[one.element] *= static_cast<double>(one.probability);
-      }
+    for (const Miss& one : problem.options[number].crossings) {
+      miss[one.element] *= static_cast<double>(one.probability);
     }
   }
   for (std::size_t i = 0; i < miss.size(); ++i) {

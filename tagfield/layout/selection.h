@@ -24,6 +24,9 @@ struct SelectionOption {
   std::size_t zone = 0;  ///< That its reader is for; kNoZone for none.
   double cost = 0.0;
   std::vector<Miss> misses;  ///< By rising element, each once.
+  /// The same for elements of other zones, as far as it is a cross read: what counts against the
+  /// option need not be as weak as what counts for it.
+  std::vector<Miss> crossings;
 };
 
 inline constexpr std::size_t kNoZone = std::numeric_limits<std::size_t>::max();

@@ -10,6 +10,7 @@
 #include "tagfield/base/error.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
+#include "tagfield/base/student.h"
 #include "tagfield/base/time.h"
 #include "tagfield/base/units.h"
 #include "tagfield/field/port_turns.h"
@@ -323,17 +324,6 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
   };
   run_inventories(number, places, on_read);
   read_updates(number, places, on_read);
-}
-
-/// 97.5 % quantile of Student's t, by Cornish and Fisher's expansion; good to 1 % from 3 degrees of
-/// freedom on.
-double student_975(double degrees) {
-  constexpr double z = 1.959964;
-  const double g1 = (z * z * z + z) / 4.0;
-  const double g2 = (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / 96.0;
-  const double g3 =
-      (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * z * z * z - 15.0 * z) / 384.0;
-  return z + g1 / degrees + g2 / (degrees * degrees) + g3 / (degrees * degrees * degrees);
 }
 
 }  // namespace

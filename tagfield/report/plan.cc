@@ -36,6 +36,7 @@ PlanJson plan_json(const PlannedLayout& layout) {
       {"cost", layout.cost},           {"score", layout.score},
       {"bound", layout.bound},         {"gap", std::max(0.0, layout.bound - layout.score)},
       {"exact", layout.is_exact},      {"read", plan_json(layout.read)}};
+  if (layout.zones.size() > 1) json["cross"] = plan_json(layout.cross);
   for (const PlannedAntenna& antenna : layout.antennas) {
     json["antennas"].push_back(plan_json(antenna));
   }
@@ -144,6 +145,10 @@ std::string plan_to_json(const AntennaPlan& plan) {
   if (plan.check) {
     json["check"] = {
         {"seeds", plan.check->seeds}, {"read", plan.check->read}, {"inside", plan.check->inside}};
+    if (!plan.check->cross.empty()) {
+      json["check"]["cross"] = plan.check->cross;
+      json["check"]["cross_inside"] = plan.check->cross_inside;
+    }
   }
   json["warnings"] = plan.warnings;
   return json.dump(2, ' ', false, PlanJson::error_handler_t::replace) + "\n";

@@ -42,6 +42,9 @@ struct PlannedLayout {
   double bound = 1.0;     ///< No layout of as many antennas within the limits has more.
   bool is_exact = false;  ///< The bound is of an integer program.
   ExpectedCount read;     ///< Tags that the inventory reads in the time, slots and hops included.
+  /// Tags that a reader of another zone reads, with links as they are, `plan.margin_db` not taken
+  /// off.
+  ExpectedCount cross;
   std::vector<PlannedZone> zones;
   std::vector<double> places;  ///< For AntennaPlan::places, the probability to be read.
 };
@@ -74,7 +77,10 @@ struct PlanCheck {
   std::vector<std::uint64_t> seeds;
   std::vector<double> read;  ///< Tags, by seed.
   std::size_t inside = 0;    ///< Of the runs, those within the stated range.
-  double wall_s = 0.0;
+  /// Tags that readers of other zones read, by seed, and how many of that lie within the stated
+  /// range; empty where there are no two zones.
+  std::vector<double> cross;
+  std::size_t cross_inside = 0;
 };
 
 struct AntennaPlan {

@@ -417,22 +417,33 @@ std::string sensitivity_table(const AntennaPlan& plan) {
   return html + kTableEnd;
 }
 
+double mean_of(const std::vector<double>& values) {
+  double mean = 0.0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  return mean;
+}
+
 std::string check_text(const AntennaPlan& plan) {
   if (!plan.check || plan.check->read.empty()) return "";
-  double mean = 0.0;
-  for (const double read : plan.check->read) {
-    mean += read / static_cast<double>(plan.check->read.size());
-  }
+  const double mean = mean_of(plan.check->read);
   const PlannedLayout& layout = plan.layouts[plan.chosen];
-  return fmt::format(
+  std::string text = fmt::format(
       "<div class=\"note\"><p><strong>Checked.</strong> {} with other tags and seeds read {:.1f} "
-      "tags "
-      "in the mean; {:.1f} were forecast, and {} of {} lie within the range of {:.0f} to {:.0f} "
-      "that "
-      "was stated.</p></div>\n",
+      "tags in the mean; {:.1f} were forecast, and {} of {} lie within the stated range of {:.0f} "
+      "to "
+      "{:.0f}.",
       counted(plan.check->read.size(), "full simulation"), mean, layout.read.mean,
       plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
       std::floor(layout.read.high));
+  if (!plan.check->cross.empty()) {
+    text += fmt::format(
+        " Cross reads, without the margin: {:.1f} tags in the mean; {:.1f} were forecast, and {} "
+        "of "
+        "{} lie within {:.0f} to {:.0f}.",
+        mean_of(plan.check->cross), layout.cross.mean, plan.check->cross_inside,
+        plan.check->cross.size(), std::ceil(layout.cross.low), std::floor(layout.cross.high));
+  }
+  return text + "</p></div>\n";
 }
 
 std::string plan_warnings(const AntennaPlan& plan) {

@@ -96,16 +96,6 @@ void take_compared_poses(const std::string& file, Trajectories& believed) {
   }
 }
 
-std::vector<Silhouette> read_top_view(const std::string& path) {
-  try {
-    return top_view_from_json(read_text_file(path));
-  } catch (const Error& error) {
-    const std::string what = error.what();
-    if (what.rfind(path, 0) == 0) throw;
-    fail({path, 0}, what);
-  }
-}
-
 /// The way of the one robot in such a file; empty without the file.
 Trajectory read_way(const std::string& file) {
   if (!fs::exists(file)) return {};
@@ -122,6 +112,16 @@ void take_map(const std::string& folder, RunFiles& run) {
 }
 
 }  // namespace
+
+std::vector<Silhouette> read_top_view(const std::string& path) {
+  try {
+    return top_view_from_json(read_text_file(path));
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    if (what.rfind(path, 0) == 0) throw;
+    fail({path, 0}, what);
+  }
+}
 
 RunFiles read_run_files(const std::string& folder) {
   RunFiles run;

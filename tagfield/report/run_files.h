@@ -62,6 +62,9 @@ struct RunFiles {
   RunFiles& operator=(RunFiles&&) = default;
 };
 
+/// Reads a run's top_view.json. Throws Error naming the file.
+std::vector<Silhouette> read_top_view(const std::string& path);
+
 /// Reads summary.json, reads.csv and antenna_poses.csv, and truth/ and top_view.json where they
 /// are. Where a run with the true poses was compared with the believed ones, those come from
 /// compared_poses.csv. The map and the way of mapping come from map.yaml and mapping_path.csv where

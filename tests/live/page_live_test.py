@@ -564,7 +564,8 @@ def bodies_walk_and_come_and_go(context):
                 server.post("/api/step", {"seconds": time_s - server.get("/api/status")["time"]})
             one.wait(f"Math.abs(world.time - {time_s}) < 1e-6 && world.paused", f"{time_s} s")
             bodies = "view.drawing.solids.passing.map(({mesh}) => [mesh.visible, mesh.position.x, mesh.position.y])"
-            one.wait(f"Math.hypot({bodies}[0][1] - {place[0]}, {bodies}[0][2] - {place[1]}) < 1e-4",
+            one.wait(f"{bodies}.length === 2 && "
+                     f"Math.hypot({bodies}[0][1] - {place[0]}, {bodies}[0][2] - {place[1]}) < 1e-4",
                      f"the worker is at {place} at {time_s} s")
             worker, pallet = one.ask(bodies)
             check(worker[0], "the worker is not drawn")

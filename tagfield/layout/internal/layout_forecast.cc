@@ -128,16 +128,25 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
 
 ExpectedCount LayoutForecast::read(const OptionSet& choice, double less_db) const {
   std::vector<double> counts;
-  for (const Sample& sample : samples(choice, less_db)) counts.push_back(count_of(sample.read));
+  for (const Sample& sample : samples(choice, plan_.margin_db + less_db)) {
+    counts.push_back(count_of(sample.read));
+  }
   return expected(counts, static_cast<double>(tags_.front().size()));
 }
 
 void LayoutForecast::fill(const OptionSet& choice, PlannedLayout& layout) const {
-  const std::vector<Sample> all = samples(choice, 0.0);
+  const std::vector<Sample> all = samples(choice, plan_.margin_db);
+  // What others read is not made less by a margin that links may not need.
+  const bool is_same = plan_.margin_db == 0.0 || problem_.zones.size() < 2;
+  const std::vector<Sample> as_they_are = is_same ? all : samples(choice, 0.0);
   std::vector<double> counts;
-  counts.reserve(all.size());
-  for (const Sample& sample : all) counts.push_back(count_of(sample.read));
+  std::vector<double> crossings;
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    counts.push_back(count_of(all[number].read));
+    crossings.push_back(count_of(as_they_are[number].crossed));
+  }
   layout.read = expected(counts, static_cast<double>(tags_.front().size()));
+  layout.cross = expected(crossings, static_cast<double>(tags_.front().size()));
   for (const std::string& zone : problem_.zones) {
     PlannedZone row;
     row.zone = zone;
@@ -152,7 +161,7 @@ void LayoutForecast::fill(const OptionSet& choice, PlannedLayout& layout) const 
       for (std::size_t tag = 0; tag < tags_[number].size(); ++tag) {
         if (plan_.tags[tags_[number][tag].group].zone != zone) continue;
         read.back() += all[number].read[tag] != 0 ? 1.0 : 0.0;
-        crossed.back() += all[number].crossed[tag] != 0 ? 1.0 : 0.0;
+        crossed.back() += as_they_are[number].crossed[tag] != 0 ? 1.0 : 0.0;
       }
     }
     row.read = expected(read, static_cast<double>(row.tags));

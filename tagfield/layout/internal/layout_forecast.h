@@ -18,7 +18,7 @@ class LayoutForecast {
 
   /// Tags read, and zone for zone.
   void fill(const OptionSet& choice, PlannedLayout& layout) const;
-  /// Tags read where all links have `less_db` less.
+  /// Tags read where all links have `less_db` less than planned with.
   [[nodiscard]] ExpectedCount read(const OptionSet& choice, double less_db) const;
 
  private:
@@ -26,6 +26,7 @@ class LayoutForecast {
     std::vector<char> read;
     std::vector<char> crossed;
   };
+  /// With all links as much weaker than they are.
   [[nodiscard]] std::vector<Sample> samples(const OptionSet& choice, double less_db) const;
   [[nodiscard]] std::vector<ForecastPort> ports_of(const OptionSet& choice) const;
 

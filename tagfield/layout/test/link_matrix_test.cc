@@ -79,8 +79,16 @@ TEST(LinkMatrix, OfAnotherScenarioIsNotTakenFromDisk) {
   LinkMatrixCounts counts;
   const std::string links = (folder.path() / "links").string();
   evaluated(store(), counts, links);
-  evaluated(store("  margin_db: 3\n"), counts, links);
+  std::string other = small_store();
+  other.replace(other.find("powers_dbm: [20]"), 16, "powers_dbm: [23]");
+  Diagnostics unheard;
+  const ScenarioToPlan stronger =
+      load_scenario_to_plan(folder_of_test().with("store.yaml", other), {}, unheard);
+  evaluated(stronger, counts, links);
   EXPECT_EQ(counts.kept, 0U);
+  // The margin is taken off where it is asked for, not in what is kept.
+  evaluated(store("  margin_db: 3\n"), counts, links);
+  EXPECT_EQ(counts.kept, 9U);
 }
 
 TEST(LinkStore, RefusesFilesOfOthers) {

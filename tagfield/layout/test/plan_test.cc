@@ -114,6 +114,41 @@ TEST(AntennaPlan, IsWithinItsRangeOfFullSimulations) {
   EXPECT_GE(check.inside, 16U);
 }
 
+/// An antenna that reads a near shelf of its own zone and, 3 m away with some 2 dB left, another's.
+std::string two_zones(const std::string& limits) {
+  return "name: zones\nmodel: link_budget\nduration_s: 2\n"
+         "plan:\n"
+         "  dwell_s: 2\n"
+         "  margin_db: 6\n"
+         "  tags:\n"
+         "    - {name: near, zone: a, box: [1, -0.2, 1, 1.2, 0.2, 1], spacing_m: 0.2, count: 6,\n"
+         "       orientations: [[0, 0, 0]]}\n"
+         "    - {name: far, zone: b, box: [2.8, -0.2, 1, 3, 0.2, 1], spacing_m: 0.2, count: 6,\n"
+         "       orientations: [[0, 0, 0]]}\n"
+         "  mounts:\n"
+         "    - {name: post, zone: a, points: [[0, 0, 1]], rpy_deg: [[0, 0, 0]], powers_dbm: "
+         "[20],\n"
+         "       profiles: [speedway_r420, panel_6dbi]}\n"
+         "  limits: {antennas: 1, readers: 1, ports: 4" +
+         limits + "}\n";
+}
+
+TEST(AntennaPlan, CountsCrossReadsWithoutTheMarginToSpare) {
+  const Planned all = planned(two_zones(""));
+  const PlannedLayout& layout = all.plan.layouts.back();
+  ASSERT_EQ(layout.zones.size(), 2U);
+  // With 6 dB less only its own are read; as links are, the others are read, too.
+  EXPECT_DOUBLE_EQ(layout.read.mean, 6.0);
+  EXPECT_DOUBLE_EQ(layout.cross.mean, 6.0);
+  EXPECT_DOUBLE_EQ(layout.zones[1].cross.mean, 6.0);
+  const PlanCheck check = check_plan(all.to_plan, layout, 1, 3, {});
+  EXPECT_EQ(check.read, std::vector<double>(3, 6.0));
+  EXPECT_EQ(check.cross, std::vector<double>(3, 6.0));
+  EXPECT_EQ(check.cross_inside, 3U);
+  EXPECT_NE(complaint_of(two_zones(", cross_reads: 0.05")).find("plan.limits.cross_reads lets no"),
+            std::string::npos);
+}
+
 TEST(AntennaPlan, IsWrittenAsAScenarioThatRuns) {
   const Planned all = planned(small_store());
   TemporaryFolder folder;

@@ -36,6 +36,11 @@ inline SelectionProblem random_problem(std::uint64_t number, std::size_t options
       // Now and then an element is never missed.
       const double miss = uniform(stream) < 0.1 ? 0.0 : uniform(stream);
       option.misses.push_back({static_cast<std::uint32_t>(element), static_cast<float>(miss)});
+      // With links that are better than what is counted on.
+      if (!is_own) {
+        option.crossings.push_back(option.misses.back());
+        option.crossings.back().probability *= 0.9F;
+      }
     }
     problem.options.push_back(std::move(option));
   }

@@ -24,9 +24,9 @@ SelectionProblem three_options() {
   SelectionProblem problem;
   problem.elements = {{0.5}, {0.5}};
   problem.options.resize(3);
-  problem.options[0] = {0, kNoZone, 1.0, {{0, 0.5F}}};
-  problem.options[1] = {1, kNoZone, 1.0, {{0, 0.5F}}};
-  problem.options[2] = {2, kNoZone, 1.0, {{1, 0.75F}}};
+  problem.options[0] = {0, kNoZone, 1.0, {{0, 0.5F}}, {}};
+  problem.options[1] = {1, kNoZone, 1.0, {{0, 0.5F}}, {}};
+  problem.options[2] = {2, kNoZone, 1.0, {{1, 0.75F}}, {}};
   problem.limits.antennas = 3;
   return problem;
 }
@@ -69,6 +69,8 @@ TEST(Selection, CountsWhatOtherZonesRead) {
   problem.elements[0].zone = 0;
   problem.elements[1].zone = 1;
   for (SelectionOption& option : problem.options) option.zone = 1;
+  problem.options[0].crossings = {{0, 0.5F}};
+  problem.options[1].crossings = {{0, 0.5F}};
   const std::vector<double> cross = cross_of(problem, {0, 1, 2});
   EXPECT_DOUBLE_EQ(cross[0], 0.75);
   EXPECT_DOUBLE_EQ(cross[1], 0.0);

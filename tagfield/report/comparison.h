@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Two runs beside each other: what each read and located, tag by tag.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tagfield/report/summary.h"
+
+namespace tagfield {
+
+/// What one of the runs made of a tag, over all its seeds.
+struct ComparedOutcome {
+  std::size_t reads = 0;
+  std::string verdict;            ///< In two or three words; "not there" of a tag of the other run.
+  std::optional<double> error_m;  ///< Mean over the seeds in which there is one.
+  std::optional<Eigen::Vector3d> place_m;  ///< The estimate of the first seed.
+};
+
+struct ComparedTag {
+  std::string tag;
+  std::array<ComparedOutcome, 2> runs;
+  std::optional<Eigen::Vector3d> truth_m;  ///< Of the first run that knows it.
+};
+
+/// One of the runs as a whole, over all its seeds.
+struct ComparedRun {
+  std::string name;  ///< As it was asked for.
+  std::string scenario;
+  std::string method;
+  std::string pose;  ///< Summary::pose.
+  std::vector<std::uint64_t> seeds;
+  std::size_t outcomes = 0;  ///< Of tags, over all seeds.
+  std::size_t located = 0;
+  std::size_t read = 0;   ///< Outcomes of tags that were read at all.
+  std::size_t reads = 0;  ///< Of all tags and seeds.
+  double path_length_m = 0.0;
+  std::optional<ErrorStatistics> error_m;
+};
+
+/// Errors of the second run less those of the first, over the tags that have one in both.
+struct ErrorDifference {
+  std::size_t tags = 0;
+  std::size_t smaller = 0;  ///< Tags with the smaller error in the second run.
+  std::size_t larger = 0;
+  double mean_m = 0.0;
+  /// In which the mean lies with 95 % confidence, by Student's t, as if tags were independent of
+  /// each other; none of a single tag.
+  std::optional<std::array<double, 2>> interval_m;
+};
+
+struct RunComparison {
+  std::array<ComparedRun, 2> runs;
+  std::vector<ComparedTag> tags;  ///< Of both, in natural order.
+  std::optional<ErrorDifference> error;
+  std::vector<std::string> warnings;
+};
+
+/// A tag's place that only one of the runs knows judges the other one too, with a warning. Throws
+/// Error where the runs have no tag in common.
+RunComparison compared(Summary first, const std::string& first_name, Summary second,
+                       const std::string& second_name);
+
+/// `{runs: [{name, scenario, method, pose, seeds, tags, located, read, reads, path_length_m,
+/// error_m}], error_difference_m: {tags, smaller, larger, mean, low, high} or null, tags: [{tag,
+/// truth_m, runs: [{reads, verdict, error_m, estimate_m}]}], warnings}`.
+std::string comparison_to_json(const RunComparison& comparison);
+
+/// `tag,first_reads,second_reads,first_verdict,second_verdict,first_error_m,second_error_m,
+/// difference_m`, a row a tag.
+std::string comparison_to_csv(const RunComparison& comparison);
+
+}  // namespace tagfield
