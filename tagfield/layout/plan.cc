@@ -128,7 +128,8 @@ class Builder {
                                          const SelectionProblem& selection,
                                          const std::function<bool(std::size_t)>& counts) const {
     const PlanMount& mount = plan_.mounts[matrix_.columns[column].mount];
-    const double looks = looks_a_second(plan_, *physical(mount.antenna));
+    const RadioModel& model = *physical(mount.antenna);
+    const double looks = looks_a_second(plan_, model);
     std::vector<Miss> all;
     for (std::size_t number = 0; number < elements_.size(); ++number) {
       if (!counts(selection.elements[number * kFadingPlaces].zone)) continue;
@@ -144,7 +145,7 @@ class Builder {
         const double time_s = stops[stop].end_s - stops[stop].begin_s;
         for (std::size_t place = 0; place < kFadingPlaces; ++place) {
           miss[place] *=
-              miss_of(states.share_heard(place, less_db), looks * time_s, states.carriers());
+              miss_of(states.share_heard(place, less_db), looks * time_s, hopped_channels(model));
         }
       }
       for (std::size_t place = 0; place < kFadingPlaces; ++place) {

@@ -141,8 +141,7 @@ class Sampler {
               std::vector<std::vector<float>>& by_port) const;
 
  private:
-  [[nodiscard]] std::size_t carrier_at(std::size_t number, std::size_t port, double time_s,
-                                       std::size_t carriers) const;
+  [[nodiscard]] std::size_t carrier_at(std::size_t number, std::size_t port, double time_s) const;
   [[nodiscard]] std::vector<TagOnAir> heard_in(std::size_t number, const Turn& turn,
                                                const std::vector<std::size_t>& places,
                                                HoldingLinks& holding) const;
@@ -157,6 +156,7 @@ class Sampler {
   std::vector<Time> changes_;             ///< When turns begin or end, rising.
   std::vector<std::vector<Link>> links_;  ///< By port.
   std::vector<std::size_t> group_of_;
+  std::vector<std::size_t> turn_of_;  ///< By port: its reader's number.
 };
 
 Sampler::Sampler(const ForecastRequest& request)
@@ -185,23 +185,25 @@ Sampler::Sampler(const ForecastRequest& request)
     group_of_.push_back(static_cast<std::size_t>(known - groups.begin()));
     if (known == groups.end()) groups.push_back(port.group);
   }
+  std::vector<AntennaParameters> hopping;
+  for (const ForecastPort& port : request.ports) {
+    if (physical(port.antenna) != nullptr) hopping.push_back(port.antenna);
+  }
+  for (const ForecastPort& port : request.ports) {
+    turn_of_.push_back(
+        physical(port.antenna) != nullptr ? reader_number(hopping, port.antenna.reader) : 0);
+  }
 }
 
-/// The reader's carriers in a random order, over and over; drawn for each sample.
-std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double time_s,
-                                std::size_t carriers) const {
+/// The sampled carrier that stands for the channel that the reader is on: it hops over all channels
+/// of its plan in a random order, drawn for each sample, as readers do (channel_at()).
+std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double time_s) const {
   const RadioModel& model = *physical(request_.ports[port].antenna);
-  if (carriers < 2) return 0;
-  const auto hop = static_cast<std::uint64_t>(std::max(0.0, time_s) / model.plan.dwell_s + 1e-9);
-  RandomStream stream(request_.seed, Purpose::kForecast, number,
-                      stream_key(request_.ports[port].antenna.reader), 1 + hop / carriers);
-  std::vector<std::size_t> order(carriers);
-  for (std::size_t i = 0; i < carriers; ++i) order[i] = i;
-  for (std::size_t i = carriers - 1; i > 0; --i) {
-    std::swap(order[i],
-              order[static_cast<std::size_t>(uniform(stream) * static_cast<double>(i + 1))]);
-  }
-  return order[hop % carriers];
+  if (hopped_channels(model) < 2) return 0;
+  RandomStream stream(request_.seed, Purpose::kForecast, number, 0, 1);
+  const std::size_t channel = channel_at(model.plan, time_from_seconds(std::max(0.0, time_s)),
+                                         stream_key(model.plan.name), stream(), turn_of_[port]);
+  return sampled_carrier_of(model, channel);
 }
 
 /// Antennas without an inventory: each update reads all that is heard on its carrier.
@@ -214,11 +216,10 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
         static_cast<std::size_t>(std::floor(request_.duration_s * antenna.rate_hz + 1e-9)) + 1;
     RandomStream stream(request_.seed, Purpose::kForecast, number, stream_key(antenna.name), 0);
     const bool is_paper = physical(antenna) == nullptr;
-    const std::size_t carriers = is_paper ? 1 : links_[port].front().link->states->carriers();
     HoldingLinks holding(links_[port]);
     for (std::size_t update = 0; update < updates; ++update) {
       const double time_s = static_cast<double>(update) / antenna.rate_hz;
-      const std::size_t carrier = is_paper ? 0 : carrier_at(number, port, time_s, carriers);
+      const std::size_t carrier = is_paper ? 0 : carrier_at(number, port, time_s);
       // The paper's range is drawn once an update for all tags.
       const double draw = uniform(stream);
       for (const Link& link : holding.at(time_s)) {
@@ -235,8 +236,7 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
 std::vector<TagOnAir> Sampler::heard_in(std::size_t number, const Turn& turn,
                                         const std::vector<std::size_t>& places,
                                         HoldingLinks& holding) const {
-  const std::size_t carriers = links_[turn.port].front().link->states->carriers();
-  const std::size_t carrier = carrier_at(number, turn.port, turn.carrier_s, carriers);
+  const std::size_t carrier = carrier_at(number, turn.port, turn.carrier_s);
   std::vector<TagOnAir> heard;
   for (const Link& link : holding.at(0.5 * (turn.begin_s + turn.end_s))) {
     if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;

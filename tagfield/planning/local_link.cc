@@ -17,6 +17,10 @@ using Complex = std::complex<double>;
 constexpr std::size_t kMostCarriers = 8;
 constexpr std::size_t kPlaces = kFadingPlaces;
 
+std::size_t step_of_carriers(std::size_t channels) {
+  return (channels + kMostCarriers - 1) / kMostCarriers;
+}
+
 /// What a one-way gain is made of at the tag's middle.
 struct Ray {
   Complex h;
@@ -133,10 +137,22 @@ bool is_worse(const LocalLink& a, const LocalLink& b) {
 std::vector<double> sampled_carriers(const RadioModel& model) {
   const std::vector<double>& all = model.plan.carriers_hz;
   if (!model.effects.hopping) return {all.front()};
-  const std::size_t step = (all.size() + kMostCarriers - 1) / kMostCarriers;
+  const std::size_t step = step_of_carriers(all.size());
   std::vector<double> some;
   for (std::size_t i = step / 2; i < all.size(); i += step) some.push_back(all[i]);
   return some;
+}
+
+std::size_t hopped_channels(const RadioModel& model) {
+  return model.effects.hopping ? model.plan.carriers_hz.size() : 1;
+}
+
+std::size_t sampled_carrier_of(const RadioModel& model, std::size_t channel) {
+  const std::size_t channels = hopped_channels(model);
+  const std::size_t step = step_of_carriers(channels);
+  // As many as sampled_carriers() has, of which the last stands for what is left over.
+  const std::size_t count = (channels - step / 2 + step - 1) / step;
+  return std::min(channel / step, count - 1);
 }
 
 LocalLink local_link(const RadioView& view, const TagEnd& tag,

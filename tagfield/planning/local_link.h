@@ -22,6 +22,10 @@ struct LocalLink {
 /// Carriers of a plan to look at: all, or about eight spread over it; the first where it does not
 /// hop.
 std::vector<double> sampled_carriers(const RadioModel& model);
+/// Channels that the reader hops over; 1 where it does not hop.
+std::size_t hopped_channels(const RadioModel& model);
+/// Which of sampled_carriers() stands for a channel of the plan.
+std::size_t sampled_carrier_of(const RadioModel& model, std::size_t channel);
 
 /// The link over the `carriers_hz` and nine places of the tag: its own and ± λ/4 along x and y. The
 /// paths are traced once, to the middle, and turned in phase for the others as plane waves, which

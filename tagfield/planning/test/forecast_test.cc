@@ -73,14 +73,15 @@ TEST(Forecast, ReadsWhatIsHeardAndNothingElse) {
   EXPECT_DOUBLE_EQ(made.tags_read.mean, 19.0);
 }
 
-TEST(Forecast, OfOneCarrierOfEightIsItsChanceToBeOn) {
+TEST(Forecast, OfASampledCarrierIsTheChanceOfItsChannelsToBeOn) {
   const LinkStates one = heard_on(1);
-  // Two channels of the eight, none of them twice.
+  // Two channels of fifty, none of them twice; the first of the sampled carriers stands for seven.
   ForecastRequest request = one_port(one, 1, 2.0 * known_plan("fcc").dwell_s);
-  request.samples = 4000;
+  request.samples = 20000;
   const Forecast made = forecast(request);
-  // 4 standard deviations of a mean of 4000 with p = 0.25.
-  EXPECT_NEAR(made.probability[0], 0.25, 4.0 * std::sqrt(0.25 * 0.75 / 4000.0));
+  const double p = 1.0 - (43.0 * 42.0) / (50.0 * 49.0);
+  // 4 standard deviations of a mean.
+  EXPECT_NEAR(made.probability[0], p, 4.0 * std::sqrt(p * (1.0 - p) / 20000.0));
 }
 
 TEST(Forecast, SharesSlotsAmongMany) {
@@ -135,6 +136,27 @@ TEST(RangeOf, IsStudentsPredictionRange) {
   EXPECT_NEAR(range.mean, 4.5, 1e-12);
   EXPECT_NEAR(range.high, 4.5 + 2.262 * 3.02765 * std::sqrt(1.1) + 0.5, 0.03);
   EXPECT_EQ(range.low, 0.0);
+}
+
+TEST(SampledCarriers, StandForAllChannels) {
+  RadioModel model = isotropic_model();
+  for (const char* const name : {"fcc", "etsi_low", "etsi_high", "china"}) {
+    model.plan = known_plan(name);
+    const std::vector<double> sampled = sampled_carriers(model);
+    EXPECT_EQ(hopped_channels(model), model.plan.carriers_hz.size());
+    for (std::size_t channel = 0; channel < model.plan.carriers_hz.size(); ++channel) {
+      const std::size_t of_channel = sampled_carrier_of(model, channel);
+      ASSERT_LT(of_channel, sampled.size()) << name;
+      // None is nearer.
+      const double off_hz = std::abs(model.plan.carriers_hz[channel] - sampled[of_channel]);
+      for (const double other : sampled) {
+        EXPECT_LE(off_hz, std::abs(model.plan.carriers_hz[channel] - other) + 1.0) << name;
+      }
+    }
+  }
+  model.effects.hopping = false;
+  EXPECT_EQ(hopped_channels(model), 1U);
+  EXPECT_EQ(sampled_carrier_of(model, 0), 0U);
 }
 
 }  // namespace
