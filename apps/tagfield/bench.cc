@@ -41,6 +41,8 @@ struct BenchArguments {
   bool no_timing = false;
   bool resume = false;
   bool list_methods = false;
+  bool as_json = false;
+  WorldOptions world{};
 };
 
 int list_methods() {
@@ -90,6 +92,7 @@ std::vector<Method> methods_for(const Suite& suite, const BenchArguments& argume
 Suite suite_of(const BenchArguments& arguments) {
   if (arguments.suite.empty()) throw Error("bench: SUITE is missing (see tagfield bench --help)");
   Suite suite = load_suite(arguments.suite);
+  allow(arguments.world, suite);
   add_commands(arguments, suite);
   suite = only(suite, arguments.methods, arguments.conditions);
   if (suite.sweep) {
@@ -161,6 +164,10 @@ int bench(const BenchArguments& arguments) {
   print_warnings(diagnostics);
   write(result, arguments, timing, folder);
   if (result.complete) store->drop();
+  if (arguments.as_json) {
+    fmt::print("{}", bench_to_json(result, timing));
+    return result.complete ? kExitOk : kExitInterrupted;
+  }
   fmt::print("{}", bench_to_text(result, timing));
   if (!result.complete) fmt::print("INCOMPLETE: the bench was interrupted; --resume goes on\n");
   fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
@@ -191,6 +198,8 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command.add_flag("--allow-commands", arguments.allow_commands,
                    "Run the commands that the suite itself names as methods");
   command.add_option("--out", arguments.out, "Folder for the results (default runs/bench_NAME)");
+  add_world_options(command, arguments.world);
+  add_json_option(command, arguments.as_json, "bench.json");
   command.add_option("--threads", arguments.threads, "Threads; only times depend on it")
       ->check(CLI::Range(1, 1024));
   command.add_flag("--no-page", arguments.no_page, "Write the data only, no bench.html");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -24,6 +25,7 @@ struct CalibrateArguments {
   std::vector<std::string> tags;   ///< and likewise tags at known places.
   std::string out;
   CalibrationOptions options;
+  bool as_json = false;
   int threads = default_threads();
 };
 
@@ -57,6 +59,34 @@ std::string table_of(const Calibration& calibration) {
     }
   }
   return text;
+}
+
+nlohmann::ordered_json json_of(const CalibratedValue& value) {
+  return {{"value", value.value}, {"sigma", value.sigma}, {"observable", value.observable}};
+}
+
+std::string to_json(const Calibration& calibration) {
+  nlohmann::ordered_json json = {{"name", calibration.name},
+                                 {"half_turns", calibration.half_turns},
+                                 {"antennas", nlohmann::ordered_json::object()}};
+  for (const auto& [name, antenna] : calibration.antennas) {
+    nlohmann::ordered_json& one = json["antennas"][name];
+    one = {{"reads", antenna.reads},
+           {"phase_sign", antenna.phase_sign},
+           {"place_m", nlohmann::ordered_json::array()},
+           {"time_offset_s", json_of(antenna.time_offset_s)},
+           {"noise_rad", antenna.noise_rad},
+           {"tag_scatter_rad", antenna.tag_scatter_rad},
+           {"offsets", nlohmann::ordered_json::array()}};
+    for (const CalibratedValue& place : antenna.place_m) one["place_m"].push_back(json_of(place));
+    for (const ChannelOffset& offset : antenna.offsets) {
+      one["offsets"].push_back({{"frequency_hz", offset.frequency_hz},
+                                {"value_rad", offset.value_rad},
+                                {"sigma_rad", offset.sigma_rad},
+                                {"reads", offset.reads}});
+    }
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 /// That of an experiment, or the one of all; "" where none was told.
@@ -120,7 +150,11 @@ int calibrate_command(const CalibrateArguments& arguments) {
       "calibration by " + std::filesystem::path(arguments.reads.front()).filename().string() +
       (arguments.reads.size() > 1 ? fmt::format(" and {} more", arguments.reads.size() - 1) : "");
   write_text_file(arguments.out, to_yaml(calibration));
-  fmt::print("{}profile: {}\n", table_of(calibration), arguments.out);
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(calibration));
+  } else {
+    fmt::print("{}profile: {}\n", table_of(calibration), arguments.out);
+  }
   return kExitOk;
 }
 
@@ -163,6 +197,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
       ->add_option("--time-sigma", arguments->options.time_offset_sigma_s,
                    "How late or early stamps may be, one sigma [s] (default 0.05)")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--json", arguments->as_json, "Print the profile as JSON instead of text");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(

@@ -121,7 +121,7 @@ Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics
 
 Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
   const ScenarioToPlan to_plan =
-      load_scenario_to_plan(arguments.file, overrides_of(arguments), diagnostics);
+      load_scenario_to_plan(arguments.file, overrides_of(arguments), diagnostics, arguments.world);
   Json json = {{"kind", "plan"}, {"scenario", to_plan.loaded.scenario.name}};
   std::size_t places = 0;
   for (const PlanTags& tags : to_plan.plan.tags) places += tags.places.size();

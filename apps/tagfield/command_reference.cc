@@ -52,7 +52,9 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 }
 
 std::vector<const CLI::Option*> named_options(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+  return command.get_options([](const CLI::Option* option) {
+    return option->nonpositional() && !option->get_group().empty();  // Others are not told of.
+  });
 }
 
 std::vector<const CLI::Option*> arguments_of(const CLI::App& command) {

@@ -126,7 +126,11 @@ int coverage(const CoverageArguments& arguments) {
   result.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
   write(result, outlines_of(loaded), out, folder);
-  print(result, out);
+  if (arguments.as_json) {
+    fmt::print("{}", coverage_to_json(result));
+  } else {
+    print(result, out);
+  }
   return kExitOk;
 }
 
@@ -142,9 +146,15 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
   command.add_option("--tag-profile", arguments.tag_profile,
                      "Kind of tag in the maps, a file of profiles/tags (default: the first tag's)");
   command
-      .add_option("--tag", arguments.tag_settings,
-                  "A setting of that tag: sensitivity_dbm=-20, pattern=isotropic. Can be given "
-                  "several times")
+      .add_option("--tag", arguments.tags,
+                  "The maps are of this tag of the scenario: its kind and settings")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--tag-set", arguments.tag_settings,
+          "A setting of the maps' tag: sensitivity_dbm=-20, pattern=isotropic. Can be given "
+          "several times")
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--orientation", arguments.orientation,
@@ -168,6 +178,7 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
       ->check(CLI::Range(0.0, 1e9));
   command.add_option("--out", arguments.out, "Folder for the results (default runs/NAME_coverage)");
   command.add_flag("--force", arguments.force, "Replace results of another scenario in the folder");
+  add_json_option(command, arguments.as_json, "coverage.json");
   command.add_option("--threads", arguments.threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
 }

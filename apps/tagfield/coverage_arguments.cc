@@ -72,12 +72,12 @@ RawParameter setting_of(const std::string& argument) {
   const auto [key, value] = [&] {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
-      fail({"--tag " + argument, 0}, "expected key=value");
+      fail({"--tag-set " + argument, 0}, "expected key=value");
     }
     return std::pair(argument.substr(0, equals), argument.substr(equals + 1));
   }();
   if (!is_tag_setting(key)) {
-    fail({"--tag " + argument, 0},
+    fail({"--tag-set " + argument, 0},
          fmt::format("no setting of a tag{}", suggestion(key, known_settings())));
   }
   return {key, value, {"--tag " + argument, 0}};
@@ -89,12 +89,36 @@ void warn_of_kinds(const Scenario& scenario, Diagnostics& diagnostics) {
   if (kinds.size() < 2) return;
   diagnostics.warn(
       fmt::format("the tags are of {} kinds: the maps are of the first one's, '{}' "
-                  "(--tag-profile and --tag choose)",
+                  "(--tag NAME and --tag-profile choose)",
                   kinds.size(), scenario.tags.front().id));
+}
+
+/// The one whose name --tag gives; null where there is none. What is no name but a setting goes to
+/// `settings`: that is what --tag was first.
+const TagSpec* tag_of(const CoverageArguments& arguments, const Scenario& scenario,
+                      std::vector<std::string>& settings, Diagnostics& diagnostics) {
+  const TagSpec* tag = nullptr;
+  for (const std::string& word : arguments.tags) {
+    const bool is_known = std::any_of(scenario.tags.begin(), scenario.tags.end(),
+                                      [&](const TagSpec& one) { return one.id == word; });
+    if (!is_known && word.find('=') != std::string::npos) {
+      settings.push_back(word);
+      diagnostics.warn(fmt::format("--tag {0} is --tag-set {0} now", word));
+      continue;
+    }
+    if (tag != nullptr) throw Error("coverage: --tag: the maps are of one tag, expected one name");
+    tag = &tag_named("coverage", scenario, word);
+  }
+  if (tag != nullptr && !arguments.tag_profile.empty()) {
+    throw Error("coverage: --tag and --tag-profile both say of which kind the tag is");
+  }
+  return tag;
 }
 
 void set_tag(const CoverageArguments& arguments, const Scenario& scenario, Diagnostics& diagnostics,
              WordedRequest& worded) {
+  std::vector<std::string> settings = arguments.tag_settings;
+  const TagSpec* const tag = tag_of(arguments, scenario, settings, diagnostics);
   std::vector<RawParameter> parameters;
   std::string name = "tag";
   if (!arguments.tag_profile.empty()) {
@@ -104,17 +128,20 @@ void set_tag(const CoverageArguments& arguments, const Scenario& scenario, Diagn
     }
     parameters = profile.parameters;
     name = profile.name;
+  } else if (tag != nullptr && tag->model && !settings.empty()) {
+    parameters = tag->model->settings;
+    name = tag->model->name;
   }
-  for (const std::string& setting : arguments.tag_settings) {
+  for (const std::string& setting : settings) {
     parameters.push_back(setting_of(setting));
     name += " " + setting;
   }
   if (parameters.empty()) {
-    warn_of_kinds(scenario, diagnostics);
-    const auto& of_first = scenario.tags.front().model;
-    worded.request.tag = of_first ? of_first : default_tag_model();
+    if (tag == nullptr) warn_of_kinds(scenario, diagnostics);
+    const auto& of_one = (tag != nullptr ? *tag : scenario.tags.front()).model;
+    worded.request.tag = of_one ? of_one : default_tag_model();
   } else {
-    worded.request.tag = tag_model_from(name, parameters, {"--tag", 0}, diagnostics);
+    worded.request.tag = tag_model_from(name, parameters, {"--tag-set", 0}, diagnostics);
   }
   worded.tag_kind = fmt::format("{}, chip {:g} dBm", worded.request.tag->name,
                                 worded.request.tag->sensitivity_dbm);

@@ -16,6 +16,7 @@ namespace tagfield {
 struct CoverageArguments {
   ScenarioArguments of_scenario;
   std::vector<std::string> antennas;
+  std::vector<std::string> tags;  ///< A tag's name; by the former meaning, settings.
   std::string tag_profile;
   std::vector<std::string> tag_settings;
   std::string orientation = "0,0,0";
@@ -25,6 +26,7 @@ struct CoverageArguments {
   std::optional<double> time_s;
   std::string out;
   bool force = false;
+  bool as_json = false;
   int threads = default_threads();
 };
 

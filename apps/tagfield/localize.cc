@@ -16,6 +16,7 @@
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"
 #include "apps/tagfield/recording.h"
+#include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/experiment/experiment.h"
@@ -41,7 +42,7 @@ namespace fs = std::filesystem;
 std::optional<ScenarioWithWorld> scenario_of(const LocalizeArguments& arguments,
                                              Diagnostics& diagnostics) {
   if (arguments.scenario.empty()) return std::nullopt;
-  return load_scenario_with_world(arguments.scenario, {}, diagnostics);
+  return load_scenario_with_world(arguments.scenario, {}, diagnostics, arguments.world);
 }
 
 const Scenario* scenario_in(const std::optional<ScenarioWithWorld>& loaded) {
@@ -247,6 +248,10 @@ void try_folder(const std::string& out) {
 int localize(const LocalizeArguments& arguments) {
   refuse_unknown_method(arguments.method);
   Diagnostics diagnostics;
+  if (!arguments.old_height_side.empty()) {
+    diagnostics.warn("--height " + arguments.old_height_side + " is --vertical-side " +
+                     arguments.old_height_side + " now");
+  }
   const auto loaded = scenario_of(arguments, diagnostics);
   RecordingToLocalize recording = recording_of(arguments, diagnostics);
   LocalizationOptions options =
@@ -280,8 +285,12 @@ int localize(const LocalizeArguments& arguments) {
   stage_report(staging, http::run_view(staging), folder);
   folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
                  "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
-  fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),
-             out);
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(summary));
+  } else {
+    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),
+               out);
+  }
   return kExitOk;
 }
 
@@ -313,6 +322,10 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command->add_option("--scenario", arguments->scenario,
                       "Scenario (YAML): its name, order and known heights of the tags, settings of "
                       "localization, and its world for the page");
+  add_world_options(*command, arguments->world);
+  for (const char* const name : {"--skip-missing", "--allow-outside"}) {
+    command->get_option(name)->needs("--scenario");
+  }
   command->add_option("--method", arguments->method,
                       "How, by one of the names below (default: the scenario's, or else auto)");
   add_known_options(*command, *arguments);
@@ -328,6 +341,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "Folder for the results (default runs/localized, of a bag runs/NAME)");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  add_json_option(*command, arguments->as_json, "summary.json");
   command->footer(
       "Methods, and the keys of --set that they take:\n" + told_of_methods() +
       "\nPhase must grow with distance (eq. 3 of the paper); turn the sign of readers that do the\n"

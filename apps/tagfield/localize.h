@@ -9,6 +9,7 @@
 
 #include "apps/tagfield/command_line.h"
 #include "tagfield/localization/locate.h"
+#include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 
@@ -23,6 +24,7 @@ struct LocalizeArguments {
   std::optional<double> frequency_hz;
   std::string heights_file;          ///< CSV, or "".
   std::string height_side;           ///< "above", "below", or "".
+  std::string old_height_side;       ///< The same by the option's former name.
   std::string side;                  ///< Of the way, on which tags are, or "".
   std::vector<double> box;           ///< X0 Y0 X1 Y1 in which tags are, or empty.
   std::string references_file;       ///< CSV, or "".
@@ -36,6 +38,8 @@ struct LocalizeArguments {
   std::optional<double> tag_height_m;
   std::vector<std::string> settings;  ///< "KEY=VALUE", of the method.
   int threads = default_threads();
+  bool as_json = false;
+  WorldOptions world{};  ///< Of the scenario.
 };
 
 /// What `--poses` may say of a bag.

@@ -23,8 +23,10 @@ TagHeights heights_of(const LocalizeArguments& arguments) {
   if (!arguments.heights_file.empty()) {
     heights.of_tag = read_tag_heights_csv(arguments.heights_file);
   }
-  if (arguments.height_side == "above") heights.estimated = HeightSide::kAbove;
-  if (arguments.height_side == "below") heights.estimated = HeightSide::kBelow;
+  const std::string& side =
+      arguments.height_side.empty() ? arguments.old_height_side : arguments.height_side;
+  if (side == "above") heights.estimated = HeightSide::kAbove;
+  if (side == "below") heights.estimated = HeightSide::kBelow;
   return heights;
 }
 
@@ -85,12 +87,19 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
           ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; takes precedence over --tag-height");
-  command
-      .add_option("--height", arguments.height_side,
-                  "above or below: heights that are not known are estimated, on that side of the "
-                  "antennas")
+  CLI::Option* vertical =
+      command
+          .add_option("--vertical-side", arguments.height_side,
+                      "above or below: heights that are not known are estimated, on that side of "
+                      "the antennas")
+          ->check(CLI::IsMember({"above", "below"}))
+          ->excludes(of_all);
+  // What it was called first; elsewhere --height is a number.
+  command.add_option("--height", arguments.old_height_side)
       ->check(CLI::IsMember({"above", "below"}))
-      ->excludes(of_all);
+      ->excludes(of_all)
+      ->excludes(vertical)
+      ->group("");
   command
       .add_option(
           "--side", arguments.side,
@@ -140,7 +149,8 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
 
 void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
                 KnownBeforehand& known) {
-  if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty()) {
+  if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty() ||
+      !arguments.old_height_side.empty()) {
     known.heights = heights_of(arguments);
   }
   if (!arguments.side.empty() || !arguments.box.empty()) known.area = area_of(arguments);

@@ -30,6 +30,8 @@ struct PlanArguments {
   double exact_s = 0.0;
   bool no_links = false;
   bool force = false;
+  bool as_json = false;
+  WorldOptions world{};
   std::string out;
   int threads = default_threads();
 };
@@ -181,7 +183,8 @@ int plan(const PlanArguments& arguments) {
   Diagnostics diagnostics;
   const std::vector<Override> overrides = overrides_of(arguments);
   if (arguments.exact_s > 0.0 && !has_exact_solver()) best_exactly({}, {}, arguments.exact_s);
-  const ScenarioToPlan to_plan = load_scenario_to_plan(arguments.scenario, overrides, diagnostics);
+  const ScenarioToPlan to_plan =
+      load_scenario_to_plan(arguments.scenario, overrides, diagnostics, arguments.world);
   const Scenario& scenario = to_plan.loaded.scenario;
   const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
   const std::string out =
@@ -206,7 +209,11 @@ int plan(const PlanArguments& arguments) {
   const std::string layout =
       layout_to_yaml(arguments.scenario, overrides, to_plan, made.layouts[made.chosen], seed, out);
   write(made, layout, outlines_of(to_plan.loaded), folder);
-  print_plan(made, out);
+  if (arguments.as_json) {
+    fmt::print("{}", plan_to_json(made));
+  } else {
+    print_plan(made, out);
+  }
   return interrupted() ? kExitInterrupted : kExitOk;
 }
 
@@ -247,6 +254,8 @@ void add_plan_command(CLI::App& app, Action& chosen) {
   command->add_flag("--force", arguments->force,
                     "Replace results of another scenario in the folder");
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME_plan)");
+  add_world_options(*command, arguments->world);
+  add_json_option(*command, arguments->as_json, "plan.json");
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(

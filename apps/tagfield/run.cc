@@ -52,6 +52,7 @@ struct RunArguments {
   bool breakdown = false;
   bool record_only = false;
   bool resume = false;
+  bool as_json = false;
   OutletArguments outlets;
   WorldOptions world;
 };
@@ -293,7 +294,11 @@ int run(const RunArguments& arguments) {
   }
   folder.commit(stale_files());
   if (store && summary.complete) store->drop();
-  print_result(summary, tracks, out, !arguments.no_page);
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(summary));
+  } else {
+    print_result(summary, tracks, out, !arguments.no_page);
+  }
   return summary.complete ? kExitOk : kExitInterrupted;
 }
 
@@ -316,11 +321,13 @@ void add_run_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no report.html");
+  add_json_option(*command, arguments->as_json, "summary.json");
   command
       ->add_flag("--record-only", arguments->record_only,
                  "Write reads, poses and the truth as they come, and locate nothing: memory does "
                  "not grow with the run")
-      ->excludes("--seeds");
+      ->excludes("--seeds")
+      ->excludes("--json");
   command
       ->add_flag("--breakdown", arguments->breakdown,
                  "Run again with each effect of the physical models alone and with all but it, "

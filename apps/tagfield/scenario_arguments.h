@@ -25,6 +25,9 @@ struct ScenarioArguments {
 /// Adds --skip-missing and --allow-outside.
 void add_world_options(CLI::App& command, WorldOptions& options);
 
+/// Adds --json: what a command prints then is what it writes as `file`.
+void add_json_option(CLI::App& command, bool& as_json, const std::string& file);
+
 /// Adds SCENARIO, --set, --without, --seed and the world's options.
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 

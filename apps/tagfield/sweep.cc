@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/sweep_work.h"
 #include "tagfield/experiment/sweep/merge.h"
 
@@ -24,6 +25,8 @@ struct SweepArguments {
   int threads = default_threads();
   bool resume = false;
   bool no_page = false;
+  bool as_json = false;
+  WorldOptions world{};
 };
 
 /// Does the runs and says how it went.
@@ -52,6 +55,7 @@ RunsDone run_shard(const OpenSweep& sweep, const Shard& shard, const SweepArgume
   const std::size_t count = left.size();
   const RunsDone done = run_with_bar(sweep, fmt::format("shard {}/{}", shard.index, shard.count),
                                      std::move(left), log, arguments.threads);
+  if (arguments.as_json) return done;
   fmt::print("shard {}/{}: {} runs done now, {} before, {} failed\n", shard.index, shard.count,
              done.ok + done.failed, own.size() - count, done.failed);
   return done;
@@ -64,20 +68,26 @@ int exit_code_of(const RunsDone& done) {
 
 int sweep_shard(const SweepArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out);
+  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
   const RunsDone done = run_shard(sweep, shard, arguments);
+  if (arguments.as_json) {
+    print_status(sweep.folder, true);
+    return exit_code_of(done);
+  }
   fmt::print("when all shards are done:  tagfield sweep --merge {}\n", sweep.folder);
   return exit_code_of(done);
 }
 
 /// All of it, rung by rung.
 int sweep_all(const SweepArguments& arguments) {
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out);
+  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
   for (;;) {
     run_shard(sweep, {1, 1}, arguments);
-    const Merged merged = merge_sweep(sweep.folder, !arguments.no_page);
+    const Merged merged = merge_sweep(sweep.folder, !arguments.no_page, arguments.as_json);
+    const bool is_last = interrupted() || !merged.closed_a_rung || merged.complete;
+    if (is_last) fmt::print("{}", merged.json);
     if (interrupted()) return kExitInterrupted;
-    if (!merged.closed_a_rung || merged.complete) return merged.exit_code;
+    if (is_last) return merged.exit_code;
   }
 }
 
@@ -105,7 +115,7 @@ std::vector<RunKey> runs_again(const OpenSweep& sweep, const std::vector<std::st
 }
 
 int sweep_again(const SweepArguments& arguments) {
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out);
+  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
   std::vector<RunKey> runs = runs_again(sweep, arguments.again);
   if (runs.empty()) {
     fmt::print("no run has failed\n");
@@ -113,8 +123,11 @@ int sweep_again(const SweepArguments& arguments) {
   }
   ResultLog log(new_log_of_runs_again(sweep.folder), sweep.head, arguments.save_every_s);
   const RunsDone done = run_with_bar(sweep, "again", std::move(runs), log, arguments.threads);
-  fmt::print("{} runs done, {} failed\n", done.ok + done.failed, done.failed);
-  const Merged merged = merge_sweep(sweep.folder, !arguments.no_page);
+  if (!arguments.as_json) {
+    fmt::print("{} runs done, {} failed\n", done.ok + done.failed, done.failed);
+  }
+  const Merged merged = merge_sweep(sweep.folder, !arguments.no_page, arguments.as_json);
+  fmt::print("{}", merged.json);
   return interrupted() ? kExitInterrupted : merged.exit_code;
 }
 
@@ -125,8 +138,12 @@ int sweep(const SweepArguments& arguments) {
     throw Error(
         "sweep: expected SUITE, or --merge DIR, or --status DIR (see tagfield sweep --help)");
   }
-  if (!arguments.merge.empty()) return merge_sweep(arguments.merge, !arguments.no_page).exit_code;
-  if (!arguments.status.empty()) return print_status(arguments.status);
+  if (!arguments.merge.empty()) {
+    const Merged merged = merge_sweep(arguments.merge, !arguments.no_page, arguments.as_json);
+    fmt::print("{}", merged.json);
+    return merged.exit_code;
+  }
+  if (!arguments.status.empty()) return print_status(arguments.status, arguments.as_json);
   catch_interrupts();
   if (!arguments.again.empty()) return sweep_again(arguments);
   return arguments.shard.empty() ? sweep_all(arguments) : sweep_shard(arguments);
@@ -157,6 +174,8 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   command.add_flag("--resume", arguments.resume,
                    "Go on where the sweep was cut off, as it does anyway");
   command.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
+  add_world_options(command, arguments.world);
+  add_json_option(command, arguments.as_json, "results.json, or how far it is (--status, --shard)");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "adapters/sqlite/database_file.h"
 #include "apps/tagfield/command_line.h"
@@ -171,9 +172,10 @@ void collect_points(const FoundSweep& found, const RunIndex& index, GrowingTable
 
 }  // namespace
 
-OpenSweep open_sweep(const std::string& suite, const std::string& out) {
+OpenSweep open_sweep(const std::string& suite, const std::string& out, const WorldOptions& world) {
   OpenSweep sweep;
-  const Suite loaded = load_suite(suite);
+  Suite loaded = load_suite(suite);
+  allow(world, loaded);
   sweep.plan = planned(loaded);
   sweep.suite = suite;
   sweep.folder = out.empty() ? "runs/sweep_" + folder_name(loaded.name) : out;
@@ -191,7 +193,7 @@ OpenSweep open_sweep(const std::string& suite, const std::string& out) {
   return sweep;
 }
 
-Merged merge_sweep(const std::string& folder, bool with_page) {
+Merged merge_sweep(const std::string& folder, bool with_page, bool as_json) {
   const FoundSweep found = found_sweep(folder);
   Diagnostics damaged;
   const RunIndex index = index_runs(all_logs(folder), found.source.head, damaged);
@@ -217,6 +219,11 @@ Merged merge_sweep(const std::string& folder, bool with_page) {
   if (merged.closed_a_rung) write_closed_rungs(folder, found.source.head, results.closed);
 
   merged.complete = results.complete();
+  merged.exit_code = merged.complete && results.failed.empty() ? kExitOk : kExitIncomplete;
+  if (as_json) {
+    merged.json = sweep_to_json(results);
+    return merged;
+  }
   fmt::print("{}", sweep_to_text(results));
   print_failures(results, found, folder);
   fmt::print("{}", left_text(results, found, folder, merged.closed_a_rung));
@@ -228,11 +235,10 @@ Merged merge_sweep(const std::string& folder, bool with_page) {
   fmt::print("cost: {:.3g} core hours\n", index.cpu_s / 3600.0);
   fmt::print("{}: {}\n", with_page ? "page" : "folder",
              with_page ? folder + "/sweep.html" : folder);
-  merged.exit_code = merged.complete && results.failed.empty() ? kExitOk : kExitIncomplete;
   return merged;
 }
 
-int print_status(const std::string& folder) {
+int print_status(const std::string& folder, bool as_json) {
   const FoundSweep found = found_sweep(folder);
   Diagnostics damaged;
   const std::vector<std::string> logs = all_logs(folder);
@@ -244,10 +250,22 @@ int print_status(const std::string& folder) {
   const std::size_t done = runs.size() - missing;
   const auto failed = std::count_if(index.runs.begin(), index.runs.end(),
                                     [](const FoundRun& run) { return run.failed; });
+  const std::size_t rungs = rung_seeds(found.plan).size();
+  if (as_json) {
+    const nlohmann::ordered_json json = {{"suite", found.plan.suite.name},
+                                         {"runs", runs.size()},
+                                         {"done", done},
+                                         {"failed", failed},
+                                         {"logs", logs.size()},
+                                         {"rung", closed.survivors.size() + 1},
+                                         {"rungs", rungs},
+                                         {"core_hours", index.cpu_s / 3600.0}};
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return kExitOk;
+  }
   fmt::print("{}: {} of {} runs ({:.1f} %), {} failed, in {} logs\n", found.plan.suite.name, done,
              runs.size(), 100.0 * static_cast<double>(done) / static_cast<double>(runs.size()),
              failed, logs.size());
-  const std::size_t rungs = rung_seeds(found.plan).size();
   if (rungs > 1) fmt::print("rung {} of {}\n", closed.survivors.size() + 1, rungs);
   const double each_s = index.runs.empty() ? 0.0 : index.cpu_s / static_cast<double>(done);
   fmt::print("cost: {:.3g} core hours so far", index.cpu_s / 3600.0);

@@ -8,6 +8,7 @@
 #include "tagfield/experiment/sweep/run_sweep.h"
 #include "tagfield/experiment/sweep/sweep_folder.h"
 #include "tagfield/experiment/sweep/sweep_plan.h"
+#include "tagfield/sdf/load_world.h"
 
 namespace tagfield {
 
@@ -24,20 +25,23 @@ struct OpenSweep {
 
 /// Reads a suite and makes its folder, or finds that the folder is for it. `out`: "" for
 /// runs/sweep_NAME. Warnings go to standard error. Throws Error.
-OpenSweep open_sweep(const std::string& suite, const std::string& out);
+OpenSweep open_sweep(const std::string& suite, const std::string& out,
+                     const WorldOptions& world = {});
 
 /// What merge_sweep() came to.
 struct Merged {
   bool complete = false;
   bool closed_a_rung = false;  ///< So that there are more runs to do now.
   int exit_code = 0;
+  std::string json;  ///< What results.json holds, where that was asked for.
 };
 
 /// Puts together what a folder's logs hold, writes the results beside them, and says what came out
-/// and what is missing. Throws Error.
-Merged merge_sweep(const std::string& folder, bool with_page);
+/// and what is missing, or gives back JSON instead. Throws Error.
+Merged merge_sweep(const std::string& folder, bool with_page, bool as_json = false);
 
-/// Prints how far all shards are. Throws Error.
-int print_status(const std::string& folder);
+/// Prints how far all shards are, as text or as JSON: `{suite, runs, done, failed, logs, rung,
+/// rungs, core_hours}`. Throws Error.
+int print_status(const std::string& folder, bool as_json = false);
 
 }  // namespace tagfield

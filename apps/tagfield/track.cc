@@ -47,6 +47,8 @@ struct TrackArguments {
   std::string out;
   int threads = default_threads();
   bool no_page = false;
+  bool as_json = false;
+  WorldOptions world{};
 };
 
 bool is_scenario(const std::string& path) {
@@ -82,7 +84,8 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
 
 ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
                        Diagnostics& diagnostics) {
-  return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}}, diagnostics);
+  return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}, arguments.world},
+              diagnostics);
 }
 
 void refuse_options_of_reads(const TrackArguments& arguments) {
@@ -151,6 +154,10 @@ Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
     known = known_beforehand(loaded.scenario);
   } else if (!arguments.settings.empty()) {
     throw Error("track: --set goes with a scenario only");
+  }
+  if (arguments.scenario.empty() &&
+      (arguments.world.skip_missing || arguments.world.allow_outside)) {
+    throw Error("track: --skip-missing and --allow-outside go with a scenario only");
   }
   apply(arguments, spec);
   if (arguments.tag_height_m || !arguments.heights_file.empty()) known.heights = {};
@@ -239,9 +246,13 @@ int track_command(const TrackArguments& arguments) {
   }
   stage_tracks(result.summary, result.first, !arguments.no_page, folder);
   folder.commit(track_file_names());
-  fmt::print("{}{}: {}\n", table_of(result.summary), arguments.no_page ? "folder" : "page",
-             arguments.no_page ? out : out + "/tracks.html");
-  if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(result.summary));
+  } else {
+    fmt::print("{}{}: {}\n", table_of(result.summary), arguments.no_page ? "folder" : "page",
+               arguments.no_page ? out : out + "/tracks.html");
+    if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  }
   return result.complete ? kExitOk : kExitInterrupted;
 }
 
@@ -293,6 +304,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
   add_format_option(*command, arguments->format);
   command->add_option("--scenario", arguments->scenario,
                       "With reads, a scenario whose 'tracking' and heights are to be used");
+  add_world_options(*command, arguments->world);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario")
       ->take_all()
       ->allow_extra_args(false);
@@ -308,6 +320,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no tracks.html");
+  add_json_option(*command, arguments->as_json, "tracks.json");
   command->footer(
       "Writes tracks.csv (a row for each stamp), verdicts.csv, order.csv (who passed the line, "
       "and\n"

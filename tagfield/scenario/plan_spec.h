@@ -75,9 +75,11 @@ struct ScenarioToPlan {
 };
 
 /// Reads a scenario with a section `plan`; it needs no antennas and no tags of its own. Tags of its
-/// own that rest are a group "tags" of the plan's. Throws Error "FILE:LINE: …".
+/// own that rest are a group "tags" of the plan's. `world_options` add to what the scenario says.
+/// Throws Error "FILE:LINE: …".
 ScenarioToPlan load_scenario_to_plan(const std::string& path,
                                      const std::vector<Override>& overrides,
-                                     Diagnostics& diagnostics);
+                                     Diagnostics& diagnostics,
+                                     const WorldOptions& world_options = {});
 
 }  // namespace tagfield

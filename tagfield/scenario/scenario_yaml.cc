@@ -435,7 +435,7 @@ ScenarioWithWorld scenario_from_text(const std::string& text, const std::string&
 
 ScenarioToPlan load_scenario_to_plan(const std::string& path,
                                      const std::vector<Override>& overrides,
-                                     Diagnostics& diagnostics) {
+                                     Diagnostics& diagnostics, const WorldOptions& world_options) {
   ReadScenario read = read_scenario(read_yaml(path), path, overrides, nullptr, built_in_methods(),
                                     diagnostics, true);
   ScenarioToPlan to_plan;
@@ -443,7 +443,7 @@ ScenarioToPlan load_scenario_to_plan(const std::string& path,
   scenario = std::move(read.scenario);
   to_plan.plan = std::move(*read.plan);
   if (!scenario.world.path.empty()) {
-    to_plan.loaded.scene = scene_of(scenario.world, {}, diagnostics);
+    to_plan.loaded.scene = scene_of(scenario.world, world_options, diagnostics);
     add_placements(to_plan.loaded.scene, scenario, diagnostics);
   }
   scenario.radio_world = std::make_shared<const RadioWorld>(

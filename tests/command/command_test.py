@@ -28,7 +28,7 @@ def help_says_what_there_is(context):
         "run": ["SCENARIO", "--seed ", "--seeds", "--out", "--set", "--threads", "--no-page",
                 "pose.sigma_m=0.01", "reads.csv", "report.html"],
         "localize": ["READS", "--poses", "--method", "hyperbola", "joint", "auto", "--tag-height ",
-                     "--tag-heights", "--height", "--reference", "--offset", "--pose-sigma",
+                     "--tag-heights", "--vertical-side", "--reference", "--offset", "--pose-sigma",
                      "--out", "stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm",
                      "stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw"],
         "report": ["DIR", "report.html"],

@@ -374,8 +374,8 @@ def orientations_count(context):
     for orientation in ("0,0,0", "0,1.5707963,0", "any", "worst"):
         out = context.folder / "out"
         context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
-                         "--step", "0.2", "--height", "1", "--orientation", orientation, "--tag",
-                         "pattern=dipole", "--tag", "gain_dbi=2.15", "--out", out)
+                         "--step", "0.2", "--height", "1", "--orientation", orientation, "--tag-set",
+                         "pattern=dipole", "--tag-set", "gain_dbi=2.15", "--out", out)
         field = read_csv(out / "coverage_1.00m.csv")[0]["power_dbm"]
         powers[orientation] = float(field) if field else -400.0
     check_near(powers["0,0,0"], 20.0 + friis_db(2.0) + 2.15 - 3.01, 0.01,
@@ -383,6 +383,26 @@ def orientations_count(context):
     check(powers["0,1.5707963,0"] < -100.0, "a dipole sends nothing along its wire")
     check(powers["worst"] <= powers["0,1.5707963,0"], "the worst one")
     check_between(powers["any"], powers["0,0,0"] - 10.0, powers["0,0,0"], "the mean")
+
+
+@case
+def coverage_is_of_the_tag_that_is_named(context):
+    # Two kinds; the maps of the second are 6 dB stronger at the chip.
+    path = context.write("kinds.yaml", OPEN.replace(
+        "[10, 3, 1], pattern: isotropic, gain_dbi: 0", "[10, 3, 1], pattern: isotropic, gain_dbi: 6"))
+    powers = {}
+    for name, words in (("first", ()), ("near", ("--tag", "near")), ("lost", ("--tag", "lost")),
+                        ("set", ("--tag", "near", "--tag-set", "gain_dbi=6")),
+                        ("old", ("--tag", "gain_dbi=6"))):
+        told = context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
+                                "--step", "0.2", "--height", "1", *words, "--json", "--out",
+                                context.folder / "out")
+        check_equal(json.loads(told.out), read_json(context.folder / "out/coverage.json"), "--json")
+        check_equal("--tag-set gain_dbi=6 now" in told.err, name == "old", f"warning of {name}")
+        powers[name] = float(read_csv(context.folder / "out/coverage_1.00m.csv")[0]["power_dbm"])
+    check_near(powers["near"], powers["first"], 1e-6, "the first is taken")
+    for name in ("lost", "set", "old"):
+        check_near(powers[name], powers["near"] + 6.0, 1e-3, name)
 
 
 # --- Bad input ------------------------------------------------------------------------------------
@@ -413,9 +433,12 @@ def bad_arguments(context):
             ([*coverage, "--region", "0,0,1e9,2"], "'1e9' is no number up to 1e6"),
             ([*coverage, "--orientation", "up"], "ROLL,PITCH,YAW"),
             ([*coverage, "--orientation", "0,0"], "2 numbers"),
-            ([*coverage, "--tag", "sensitivity_dbm"], "key=value"),
-            ([*coverage, "--tag", "sensitivty_dbm=-20"], "did you mean 'sensitivity_dbm'"),
-            ([*coverage, "--tag", "sensitivity_dbm=low"], "expected a finite number"),
+            ([*coverage, "--tag-set", "sensitivity_dbm"], "key=value"),
+            ([*coverage, "--tag-set", "sensitivty_dbm=-20"], "did you mean 'sensitivity_dbm'"),
+            ([*coverage, "--tag-set", "sensitivity_dbm=low"], "expected a finite number"),
+            ([*coverage, "--tag", "neer"], "did you mean 'near'"),
+            ([*coverage, "--tag", "near", "--tag", "late"], "expected one name"),
+            ([*coverage, "--tag", "near", "--tag-profile", "monza_r6"], "both say of which kind"),
             ([*coverage, "--tag-profile", "absent.yaml"], "absent.yaml"),
             ([*coverage, "--tag-profile", profile], "expected kind: tag"),
             ([*coverage, "--time", "11"], "the run ends at 10 s"),

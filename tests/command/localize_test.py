@@ -183,7 +183,7 @@ def a_portal_of_fixed_antennas(context):
 def heights_are_estimated_on_a_side(context):
     tags = {tag: (x, y, HEIGHT + 0.6) for tag, (x, y, _) in TAGS.items()}
     for side, z in (("above", HEIGHT + 0.6), ("below", HEIGHT - 0.6)):
-        _, estimates, _ = localize(context, read_rows(tags), pose_rows(), "--height", side,
+        _, estimates, _ = localize(context, read_rows(tags), pose_rows(), "--vertical-side", side,
                                    "--method", "ml", "--pose-sigma", "0")
         for tag, row in estimates.items():
             check_near(float(row["z_m"]), z, 0.05, f"height of {tag}, {side}")
@@ -257,8 +257,8 @@ def the_error_of_poses_is_estimated(context):
 def bad_words_for_what_is_known(context):
     localize(context, read_rows({"one": TAGS["one"]}), pose_rows())
     context.write("twice.csv", "tag,x_m,y_m,z_m\none,1,2,3\none,1,2,3\n")
-    for words, says in ((["--height", "beside"], "--height"),
-                        (["--height", "above", "--tag-height", "1"], "--height"),
+    for words, says in ((["--vertical-side", "beside"], "--vertical-side"),
+                        (["--vertical-side", "above", "--tag-height", "1"], "--vertical-side"),
                         (["--offset", "half"], "expected RAD or ANTENNA=RAD"),
                         (["--offset", "a=nan"], "expected RAD or ANTENNA=RAD"),
                         (["--offset", "b=1"], "no reads of antenna 'b' (did you mean 'a'?)"),

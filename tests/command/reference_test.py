@@ -66,8 +66,8 @@ def bash_completes_values(context):
     check_equal(tab(context, "run", ""), {"hall.yaml", "hall two.yml", "results"}, "run Tab")
     check_equal(tab(context, "run", "--seed", "3", "ha"), {"hall.yaml", "hall two.yml"}, "after a value")
     check_equal(tab(context, "localize", "--poses", ""), {"reads.csv", "results"}, "--poses Tab")
-    check_equal(tab(context, "localize", "--height", ""), {"above", "below"}, "--height Tab")
-    check_equal(tab(context, "localize", "--height", "a"), {"above"}, "--height a Tab")
+    check_equal(tab(context, "localize", "--vertical-side", ""), {"above", "below"}, "--vertical-side Tab")
+    check_equal(tab(context, "localize", "--vertical-side", "a"), {"above"}, "--vertical-side a Tab")
     check_equal(tab(context, "run", "--seed", ""), set(), "a number has no completion")
     check("notes.txt" in tab(context, "run", "--out", ""), "--out Tab lacks notes.txt")
 
@@ -86,7 +86,7 @@ def zsh_and_fish_take_their_scripts(context):
         else:
             skipped.append(shell)
     if shutil.which("fish"):
-        found = run(["fish", "--no-config", "-c", f"source {script(context, 'fish')}; complete -C 'tagfield localize --height '"],
+        found = run(["fish", "--no-config", "-c", f"source {script(context, 'fish')}; complete -C 'tagfield localize --vertical-side '"],
                     cwd=context.folder)
         check_equal({line.split("\t")[0] for line in found.out.splitlines()}, {"above", "below"}, "what fish offers")
     if skipped:

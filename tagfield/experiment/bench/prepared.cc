@@ -82,7 +82,8 @@ MethodSettings settings_in(const std::vector<Override>& overrides) {
 ScenarioWithWorld scenario_in(const Condition& condition, const std::vector<Override>& overrides,
                               const std::vector<Method>& methods, Diagnostics& diagnostics) {
   if (condition.make_scenario) return condition.make_scenario(overrides, diagnostics, methods);
-  return load_scenario_with_world(condition.scenario, overrides, diagnostics, {}, methods);
+  return load_scenario_with_world(condition.scenario, overrides, diagnostics, condition.world,
+                                  methods);
 }
 
 /// What localization is told there. The world has no part in that.

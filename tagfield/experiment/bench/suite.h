@@ -87,6 +87,7 @@ struct Condition {
   ToldPoseError believed;
   std::optional<double> phase_noise_rad;  ///< For the bound, where the signal model tells none.
   std::vector<std::string> methods;       ///< Only these, by name; empty for all.
+  WorldOptions world{};                   ///< Beside what the scenario says.
   Location location;                      ///< Where it was written, for messages.
 };
 
@@ -108,6 +109,9 @@ Suite load_suite(const std::string& path);
 /// The same of a text, which was read from the file `path` here or elsewhere: whether scenarios are
 /// there is not asked.
 Suite suite_from_text(const std::string& text, const std::string& path);
+
+/// Of the worlds of all conditions, beside what their scenarios say.
+void allow(const WorldOptions& options, Suite& suite);
 
 /// Only the methods and conditions of these names, in the suite's order; all where a list is empty.
 /// Conditions that none of the methods is left for go too. Throws Error on a name that there is

@@ -351,6 +351,10 @@ Suite suite_from_text(const std::string& text, const std::string& path) {
   }
 }
 
+void allow(const WorldOptions& options, Suite& suite) {
+  for (Condition& condition : suite.conditions) condition.world = options;
+}
+
 Suite only(const Suite& suite, const std::vector<std::string>& methods,
            const std::vector<std::string>& conditions) {
   Suite kept = suite;

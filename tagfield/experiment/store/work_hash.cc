@@ -131,13 +131,14 @@ void add_scenario(const std::string& path, ContentHash& hash) {
   add_named_files(read_yaml(path), fs::path(path).parent_path(), 0, hash);
 }
 
-void add_world(const std::string& path, std::vector<Override> overrides, ContentHash& hash) {
+void add_world(const std::string& path, std::vector<Override> overrides, const WorldOptions& world,
+               ContentHash& hash) {
   // How tags are located says nothing of the world, and can be a method's that is not known here.
   std::erase_if(overrides, [](const Override& setting) {
     return setting.first.rfind("localization", 0) == 0;
   });
   Diagnostics unheard;
-  add_to_hash(load_scenario_with_world(path, overrides, unheard).scene, hash);
+  add_to_hash(load_scenario_with_world(path, overrides, unheard, world).scene, hash);
 }
 
 void add_recording(const SuiteRecording& recording, ContentHash& hash) {
@@ -162,7 +163,7 @@ std::string work_hash(const std::string& suite_text, const Suite& suite,
       add_recording(*condition.recording, hash);
     } else if (scenarios.insert(condition.scenario).second) {
       add_scenario(condition.scenario, hash);
-      add_world(condition.scenario, condition.settings, hash);
+      add_world(condition.scenario, condition.settings, condition.world, hash);
     }
     for (const Override& setting : condition.settings) {
       if (files.insert(setting.second).second) add_overrides({setting}, hash);
