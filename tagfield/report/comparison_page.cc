@@ -192,7 +192,7 @@ std::string comparison_page(const RunComparison& comparison, const std::vector<F
   }
   return page_head(
              comparison.runs[0].name + " and " + comparison.runs[1].name + " – Tagfield comparison",
-             {table_script().hash, figure_script().hash}) +
+             {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + compared_header(comparison) + "<main>\n" + compared_numbers(comparison) +
          warnings_note(comparison) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          whole_table(comparison) + tags_table(comparison) +
@@ -200,7 +200,8 @@ std::string comparison_page(const RunComparison& comparison, const std::vector<F
          "page, figures/ holds the figures. Differences are the second run less the first; the "
          "confidence takes tags as independent of each other, which errors of the antenna's pose "
          "make them less.</p>\n</footer>\n" +
-         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

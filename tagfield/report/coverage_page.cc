@@ -180,13 +180,14 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
     next += quantities_of(coverage).size();
   }
   return page_head(coverage.scenario + " – Tagfield coverage",
-                   {table_script().hash, figure_script().hash}) +
+                   {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) +
          warnings(coverage) + maps + "<h2>The scenario’s tags</h2>\n" +
          figures_html(figures, next, figures.size()) + table(coverage) +
          "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
          "maps in figures/ as SVG files.</p>\n</footer>\n" +
-         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -44,7 +44,8 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
   const Summary& summary = run.summary;
   const bool is_inventory = is_inventory_alone(summary);
   return page_head(summary.scenario + " – Tagfield report",
-                   {view ? view->script_hash : "", table_script().hash, figure_script().hash}) +
+                   {view ? view->script_hash : "", table_script().hash, figure_script().hash,
+                    link_script().hash}) +
          "<body>\n" + page_header(summary, run.tracked) + "<main>\n" +
          (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
          run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
@@ -56,7 +57,7 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
          (run.tracked ? passings_table(run.tracked->orders) : "") +
          (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +
          page_footer() + script_html(table_script()) + script_html(figure_script()) +
-         "</body>\n</html>\n";
+         script_html(link_script()) + "</body>\n</html>\n";
 }
 
 /// Nothing is made where there is no run.

@@ -20,6 +20,11 @@ const PageScript& table_script();
 /// an entry of the legend hides the series, and shows it again.
 const PageScript& figure_script();
 
+/// Figures with axes are zoomed by buttons, a double click or Ctrl and the wheel, and dragged then,
+/// their marks staying as large as they are; a click on a tag's mark shows its row in the table of
+/// tags, one on the row's name its marks.
+const PageScript& link_script();
+
 /// The slider and the comparison of a plan's page.
 const PageScript& plan_script();
 

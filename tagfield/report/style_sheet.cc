@@ -111,6 +111,16 @@ details .table{margin-top:.6rem}
 background:var(--ink);color:var(--paper);font-size:.85rem;line-height:1.35;white-space:pre-line;
 pointer-events:none}
 .key[role]{cursor:pointer}
+.zoom{float:right;display:flex;gap:3px;margin:0 0 .2rem .8rem;opacity:.5}
+figure:hover .zoom,.zoom:focus-within{opacity:1}
+.zoom button{font:inherit;font-size:.95rem;line-height:1;width:1.7rem;height:1.7rem;padding:0;cursor:pointer;
+color:var(--ink);background:var(--paper);border:1px solid var(--wall-edge);border-radius:6px}
+.zoom button:disabled{color:var(--muted);cursor:default}
+svg.zoomed{cursor:grab;touch-action:none}
+svg.zoomed line,svg.zoomed polyline,svg.zoomed path,svg.zoomed rect{vector-effect:non-scaling-stroke}
+.linked{cursor:pointer;text-decoration:underline dotted;text-underline-offset:3px}
+svg .chosen{stroke:var(--ink);stroke-width:3}
+tr.chosen>*{background:var(--panel)!important;box-shadow:inset 0 2px var(--ink),inset 0 -2px var(--ink)}
 .key[aria-pressed=false] text{text-decoration:line-through}
 .key[aria-pressed=false]>:not(text){opacity:.3}
 th[aria-sort=ascending]::after{content:" ↑"}
@@ -138,7 +148,7 @@ th,td{padding:.12rem .5rem}
 tr{break-inside:avoid}
 .table{overflow:visible;background:none}
 footer{padding:.6rem 0 0}
-.screen,.filter,.hint,.data,.tip,.controls{display:none}
+.screen,.filter,.hint,.data,.tip,.controls,.zoom{display:none}
 .heat td,.numbers,.note{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 

@@ -222,7 +222,7 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
     (figure.missing.empty() ? drawn : missing) += figure_html(figure);
   }
   return page_head(shown.summary->name + " – Tagfield tracks",
-                   {table_script().hash, figure_script().hash}) +
+                   {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + tracks_header(shown) + "<main>\n" + tracks_numbers(shown) +
          "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          passings_table(*shown.orders) + "<h2>Tags</h2>\n" + tracks_table(shown) +
@@ -230,7 +230,8 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
          "</main>\n<footer>\n<p>Made by Tagfield; tracks.csv, verdicts.csv, order.csv and "
          "tracks.json lie beside this page; tracks.svg and figures/ are the "
          "figures.</p>\n</footer>\n" +
-         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -111,6 +111,41 @@ def figures_say_values_and_hide_series(context):
 
 
 @case
+def tags_rows_and_marks_are_linked_and_figures_zoomed(context):
+    context.run_well("run", context.shipped("paper_warehouse"), "--out", "run")
+    with browser(NO_WEBGL) as one:
+        open_page(one, context.folder / "run/report.html")
+        ask = one.driver.execute_script
+        # A row's name shows the tag's marks in all figures, a second time not any more.
+        cell = one.driver.find_elements("css selector", "[aria-label=Tags] tbody th.linked")
+        check_equal(len(cell), 10, "rows that lead to figures")
+        cell[4].send_keys("\n")
+        chosen = "return [...document.querySelectorAll('#%s svg .chosen')].length"
+        check_equal(ask(chosen % "fig09_map"), 2, "true place and estimate of the tag on the map")
+        check_equal(ask(chosen % "fig10_errors"), 1, "its bar")
+        check_equal(ask("return document.querySelector('tr.chosen th').textContent"), cell[4].text, "its row")
+        cell[4].send_keys("\n")
+        check_equal(ask("return document.querySelectorAll('.chosen').length"), 0, "chosen after a second time")
+        # A mark shows its row.
+        ask("const e = document.querySelectorAll('#fig10_errors svg rect.bar')[3], b = e.getBoundingClientRect();"
+            "e.ownerSVGElement.dispatchEvent(new MouseEvent('click', {clientX: b.left + 5, clientY: b.top + 5}))")
+        check_equal(ask("return document.querySelector('tr.chosen th').textContent"), "tag4", "row of the fourth bar")
+        # Zoomed, a mark is as large as before, and two are further apart.
+        look = ("const e = [...document.querySelectorAll('#fig09_map svg path.truth')].filter(e => !e.closest('.key'))"
+                ".map(e => e.getBoundingClientRect()); return [e[0].width, Math.hypot(e[0].x - e[1].x, e[0].y - e[1].y)]")
+        size, apart = ask(look)
+        buttons = one.driver.find_elements("css selector", "#fig09_map .zoom button")
+        check_equal([button.is_enabled() for button in buttons], [True, False, False], "buttons at first")
+        ask("arguments[0].click()", buttons[0])
+        new_size, new_apart = ask(look)
+        check_near(new_size, size, 0.1 * size, "size of a mark")
+        check_near(new_apart, 2.0 * apart, 0.01 * apart, "distance of two marks")
+        ask("arguments[0].click()", buttons[2])
+        check_near(ask(look)[1], apart, 0.01 * apart, "distance with all shown again")
+        check_equal(one.complaints(), [], "the console")
+
+
+@case
 def data_is_saved_without_the_network(context):
     context.run_well("track", context.shipped("conveyor"), "--out", "track")
     order = {(row["passed"], row["tag"]): row for row in read_csv(context.folder / "track/order.csv")}

@@ -219,7 +219,8 @@ std::string figures_html(const std::vector<Figure>& figures, bool of_errors) {
 }  // namespace
 
 std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, Timing timing) {
-  return page_head(bench.name + " – Tagfield bench", {table_script().hash, figure_script().hash}) +
+  return page_head(bench.name + " – Tagfield bench",
+                   {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + header(bench) + "<main>\n" + heat_table(bench) + numbers(bench, timing) +
          warnings(bench) + "<h2>Figures</h2>\n" + figures_html(figures, false) +
          "<h2>All numbers</h2>\n" + tables(bench, timing) + legend(columns_of(bench, timing)) +
@@ -228,7 +229,8 @@ std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, T
          "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv lie beside "
          "this "
          "page, the figures in figures/ as SVG files.</p>\n</footer>\n" +
-         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

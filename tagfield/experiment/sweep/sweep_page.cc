@@ -190,14 +190,15 @@ std::string sweep_figures_html(const std::vector<Figure>& figures) {
 
 std::string sweep_page(const SweepResults& results, const std::vector<Figure>& figures) {
   return page_head(results.plan.suite.name + " – Tagfield sweep",
-                   {table_script().hash, figure_script().hash}) +
+                   {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + sweep_header(results) + "<main>\n" + sweep_numbers(results) +
          sweep_warnings(results) + sweep_failures(results) + sweep_figures_html(figures) +
          "<h2>Points</h2>\n" + sweep_table(results) +
          "</main>\n<footer>\n<p>Made by Tagfield; results.sqlite (tables points, results, runs, "
          "tags, failures), results.json, points.csv and runs.csv lie beside this page, the figures "
          "in figures/ as SVG files.</p>\n</footer>\n" +
-         script_html(table_script()) + script_html(figure_script()) + "</body>\n</html>\n";
+         script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
+         "</body>\n</html>\n";
 }
 
 }  // namespace tagfield

@@ -32,8 +32,8 @@ std::size_t scripts_in(const std::string& page) {
 TEST(WriteReport, LetsNoScriptRunButTheViewsAndItsOwn) {
   const RunFolder folder(FolderPlan{});
   write_report(folder.path());
-  const std::string own =
-      std::string("'") + table_script().hash + "' '" + figure_script().hash + "'";
+  const std::string own = std::string("'") + table_script().hash + "' '" + figure_script().hash +
+                          "' '" + link_script().hash + "'";
   EXPECT_TRUE(holds(folder.text("report.html"), "; script-src " + own + "; "));
   write_report(folder.path(), RunView{"<div id=\"view\"></div>\n", "sha256-abc="});
   const std::string page = folder.text("report.html");
@@ -61,7 +61,7 @@ TEST(WriteReport, GivesTheSameBytes) { EXPECT_EQ(page_of({}), page_of({})); }
 TEST(WriteReport, AsksForNothing) {
   const std::string page = page_of({});
   EXPECT_TRUE(holds(page, "default-src 'none'"));
-  EXPECT_EQ(scripts_in(page), 2U);  // Of tables and of figures.
+  EXPECT_EQ(scripts_in(page), 3U);  // Of tables, of figures, and of what links them.
   for (const std::string alien : {"<link", "<img", "src=", "http://", "https://"}) {
     EXPECT_FALSE(holds(page, alien)) << alien;
   }
@@ -126,7 +126,7 @@ TEST(WriteReport, MakesHostileNamesHarmless) {
   FolderPlan plan;
   plan.tags = {"<script>alert(1)</script>", "\"><img src=x onerror=alert(1)>", "'"};
   const std::string page = page_of(plan);
-  EXPECT_EQ(scripts_in(page), 2U);
+  EXPECT_EQ(scripts_in(page), 3U);
   EXPECT_FALSE(holds(page, "<img"));
   EXPECT_EQ(unbalanced_tag(page), "");
 }
