@@ -149,6 +149,7 @@ int calibrate_command(const CalibrateArguments& arguments) {
   calibration.name =
       "calibration by " + std::filesystem::path(arguments.reads.front()).filename().string() +
       (arguments.reads.size() > 1 ? fmt::format(" and {} more", arguments.reads.size() - 1) : "");
+  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
   write_text_file(arguments.out, to_yaml(calibration));
   if (arguments.as_json) {
     fmt::print("{}", to_json(calibration));

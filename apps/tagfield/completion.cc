@@ -307,6 +307,7 @@ void add_completion_command(CLI::App& app, Action& chosen) {
       if (file->empty()) {
         fmt::print("{}", script);
       } else {
+        catch_interrupts();
         write_text_file(*file, script);
       }
       return kExitOk;

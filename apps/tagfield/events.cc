@@ -128,6 +128,7 @@ class EpcisFile {
   void write(Time created) const {
     std::string text;
     for (const std::string& event : events_) text += event + '\n';
+    catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
     write_text_file(path_, has_lines_ ? text : epcis_document(events_, created));
   }
 

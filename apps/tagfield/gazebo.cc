@@ -77,6 +77,7 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   }
   print_warnings(diagnostics);
   const fs::path out = out_of(arguments);
+  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
   folders.push_back(shared_folder("models").string());
@@ -95,6 +96,7 @@ int convert_world(const GazeboArguments& arguments) {
                                         arguments.gz_options, diagnostics);
   print_warnings(diagnostics);
   const fs::path out = out_of(arguments);
+  catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
   write_text_file(out.string(), text);
   fmt::print("world: {}\n", out.string());
   return kExitOk;

@@ -22,6 +22,7 @@ struct ScenarioSource {
   std::string path, text, name;
   std::vector<Override> overrides;
   std::shared_ptr<const World> world;
+  WorldOptions world_options;  ///< Of a file's.
 };
 
 MakeScenario maker_of(const ScenarioSource& source) {
@@ -30,7 +31,8 @@ MakeScenario maker_of(const ScenarioSource& source) {
     std::vector<Override> overrides = source.overrides;
     overrides.insert(overrides.end(), more.begin(), more.end());
     if (!source.path.empty()) {
-      return load_scenario_with_world(source.path, overrides, diagnostics, {}, methods);
+      return load_scenario_with_world(source.path, overrides, diagnostics, source.world_options,
+                                      methods);
     }
     return scenario_from_text(source.text, source.name, overrides,
                               source.world ? &source.world->scene : nullptr, diagnostics, methods);
@@ -127,12 +129,16 @@ py::dict bench(const std::string& name, const std::vector<MethodEntry>& methods,
 void bind_bench(py::module_& module) {
   py::class_<ScenarioSource>(module, "ScenarioSource")
       .def(py::init([](std::string path, std::string text, std::string name,
-                       std::vector<Override> overrides, std::shared_ptr<World> world) {
-             return ScenarioSource{std::move(path), std::move(text), std::move(name),
-                                   std::move(overrides), std::move(world)};
+                       std::vector<Override> overrides, std::shared_ptr<World> world,
+                       bool skip_missing, bool allow_outside) {
+             WorldOptions options;
+             options.skip_missing = skip_missing;
+             options.allow_outside = allow_outside;
+             return ScenarioSource{std::move(path),      std::move(text),  std::move(name),
+                                   std::move(overrides), std::move(world), std::move(options)};
            }),
            py::arg("path"), py::arg("text"), py::arg("name"), py::arg("overrides"),
-           py::arg("world").none(true));
+           py::arg("world").none(true), py::arg("skip_missing"), py::arg("allow_outside"));
   module.def("bench_suite", &bench_suite, py::arg("path"), py::arg("own"), py::arg("seeds"),
              py::arg("threads"), py::arg("progress").none(true));
   module.def("bench", &bench, py::arg("name"), py::arg("methods"), py::arg("conditions"),

@@ -127,9 +127,13 @@ py::list run_seeds(const LoadedPtr& loaded, const std::vector<std::uint64_t>& se
   return runs;
 }
 
-LoadedPtr load(const std::string& path, const std::vector<Override>& overrides) {
+LoadedPtr load(const std::string& path, const std::vector<Override>& overrides, bool skip_missing,
+               bool allow_outside) {
   auto loaded = std::make_shared<LoadedScenario>();
-  loaded->parts = load_scenario_with_world(path, overrides, loaded->diagnostics);
+  WorldOptions options;
+  options.skip_missing = skip_missing;
+  options.allow_outside = allow_outside;
+  loaded->parts = load_scenario_with_world(path, overrides, loaded->diagnostics, options);
   return loaded;
 }
 
@@ -301,8 +305,8 @@ void bind_scenarios(py::module_& module) {
       .def_property_readonly("warnings",
                              [](const LoadedScenario& self) { return self.diagnostics.warnings(); })
       .def("outlines", &outlines_of, py::arg("low_m"), py::arg("high_m"));
-  module.def("load", &load, py::arg("path"), py::arg("overrides"),
-             py::call_guard<py::gil_scoped_release>());
+  module.def("load", &load, py::arg("path"), py::arg("overrides"), py::arg("skip_missing"),
+             py::arg("allow_outside"), py::call_guard<py::gil_scoped_release>());
   module.def("load_text", &load_text, py::arg("text"), py::arg("name"), py::arg("overrides"),
              py::arg("world").none(true), py::call_guard<py::gil_scoped_release>());
   module.def("run_seeds", &run_seeds, py::arg("loaded"), py::arg("seeds"), py::arg("threads"),

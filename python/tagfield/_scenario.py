@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
@@ -145,16 +145,19 @@ class _Source:
     name: str = ""
     world: World | None = None
     overrides: tuple[tuple[str, str], ...] = ()
+    skip_missing: bool = False
+    allow_outside: bool = False
 
     def load(self) -> _core.Loaded:
         if self.path:
-            return _core.load(self.path, list(self.overrides))
+            return _core.load(self.path, list(self.overrides), self.skip_missing, self.allow_outside)
         return _core.load_text(self.text, self.name, list(self.overrides),
                                None if self.world is None else self.world._core)
 
     def for_core(self) -> _core.ScenarioSource:
         return _core.ScenarioSource(self.path, self.text, self.name, list(self.overrides),
-                                    None if self.world is None else self.world._core)
+                                    None if self.world is None else self.world._core,
+                                    self.skip_missing, self.allow_outside)
 
 
 class Scenario:
@@ -218,8 +221,7 @@ class Scenario:
         for key, value in keys.items():
             more += _flat(key, value)
         source = self._source
-        return Scenario._from(_Source(source.path, source.text, source.name, source.world,
-                                      (*source.overrides, *more)))
+        return Scenario._from(replace(source, overrides=(*source.overrides, *more)))
 
     @property
     def name(self) -> str:
@@ -350,9 +352,13 @@ class Scenario:
         return self, method
 
 
-def load(path: str | os.PathLike) -> Scenario:
-    """Reads a scenario and its world from a YAML file. Raises Error "FILE:LINE: …"."""
-    return Scenario._from(_Source(path=os.fspath(path)))
+def load(path: str | os.PathLike, *, skip_missing: bool = False, allow_outside: bool = False) -> Scenario:
+    """Reads a scenario and its world from a YAML file. Raises Error "FILE:LINE: …".
+
+    With ``skip_missing`` it goes on, with warnings, without models and meshes of the world that are
+    missing or broken; with ``allow_outside`` the world may name files outside of its folder and the model paths.
+    """
+    return Scenario._from(_Source(path=os.fspath(path), skip_missing=skip_missing, allow_outside=allow_outside))
 
 
 def _plain(value: Any) -> Any:

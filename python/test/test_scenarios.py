@@ -86,6 +86,26 @@ def test_world_in_python_is_in_the_way():
         world.sphere("ball", 0, (0, 0, 0))
 
 
+def test_worlds_name_files_outside_only_where_that_is_allowed(tmp_path):
+    elsewhere, hall = tmp_path / "elsewhere", tmp_path / "hall"
+    for folder in (elsewhere, hall):
+        folder.mkdir()
+    (elsewhere / "wall.stl").write_text(
+        "solid w\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+        "endsolid w\n")
+    (hall / "world.sdf").write_text(
+        '<sdf version="1.6"><world name="w"><model name="m"><static>1</static><link name="l">'
+        f'<collision name="c"><geometry><mesh><uri>file://{elsewhere}/wall.stl</uri></mesh></geometry></collision>'
+        "</link></model></world></sdf>")
+    scenario = hall / "hall.yaml"
+    scenario.write_text("world: {path: world.sdf}\nduration_s: 1\nantennas: [{name: a, pose: [0, 0, 1]}]\n"
+                        "tags: [{id: t, position: [1, 0, 1]}]\n")
+    with pytest.raises(tagfield.Error, match="--allow-outside"):
+        tagfield.load(scenario)
+    assert len(tagfield.load(scenario, allow_outside=True).with_(seed=2).run().reads) > 0
+    assert len(tagfield.load(scenario, skip_missing=True).run().reads) > 0
+
+
 def test_mesh_is_a_wall():
     world = tagfield.World()
     world.mesh("metal_sheet", [[1, -2, 0], [1, 2, 0], [1, 2, 3], [1, -2, 3]], [[0, 1, 2], [0, 2, 3]],
