@@ -97,6 +97,12 @@ std::atomic<bool> memory_ran_out{false};
   std::abort();
 }
 
+/// Before objects are made that live as long as the program, for which memory may lack already.
+[[gnu::constructor(101)]] void be_ready_for_no_memory() {
+  std::set_new_handler(throw_without_memory);
+  std::set_terminate(end_without_exception);
+}
+
 /// What was printed must have arrived: its last part only leaves now.
 int with_output_checked(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -108,8 +114,6 @@ int with_output_checked(int code) {
 
 int main(int argc, char** argv) {
   open_standard_streams();
-  std::set_new_handler(throw_without_memory);
-  std::set_terminate(end_without_exception);
   // Beyond the limit of a file's size (ulimit -f) writing fails, as on a full disk, and is told of.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

@@ -124,5 +124,33 @@ TEST(WedgeTerms, HaveHalfTheWaveOnTheShadowsBoundary) {
   }
 }
 
+TEST(WedgeTerms, GoOnOverEachBoundary) {
+  // Beside a boundary the terms are computed otherwise than on it: their limits from both sides.
+  for (const double n : {1.5, 1.8, 2.0}) {
+    WedgeGeometry wedge;
+    wedge.exterior_rad = n * kPi;
+    wedge.antenna_rad = 0.4;
+    wedge.wave_number = 18.0;
+    wedge.distance_m = 1.5;
+    const auto shadow_at = [&](double off_rad) {
+      wedge.tag_rad = kPi + wedge.antenna_rad + off_rad;
+      return wedge_terms(wedge).shadow[0];
+    };
+    const auto mirror_at = [&](double off_rad) {
+      wedge.tag_rad = kPi - wedge.antenna_rad + off_rad;
+      return wedge_terms(wedge).mirror[0];
+    };
+    for (const double side : {-1.0, 1.0}) {
+      const std::complex<double> shadow = shadow_at(side * 1.1e-6);
+      EXPECT_LT(std::abs(shadow_at(side * 0.9e-6) - shadow), 2e-6 * std::abs(shadow)) << n;
+      const std::complex<double> mirror = mirror_at(side * 1.1e-6);
+      EXPECT_LT(std::abs(mirror_at(side * 0.9e-6) - mirror), 2e-6 * std::abs(mirror)) << n;
+    }
+    // The step from one side to the other is what optics drops there: as large on both.
+    EXPECT_LT(std::abs(shadow_at(0.9e-6) + shadow_at(-0.9e-6)), 1e-4 * std::abs(shadow_at(0.9e-6)))
+        << n;
+  }
+}
+
 }  // namespace
 }  // namespace tagfield

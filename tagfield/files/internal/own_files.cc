@@ -64,9 +64,12 @@ bool is_own_folder(const fs::path& folder) {
 void delete_own_folder(const fs::path& folder) {
   std::vector<fs::path> inside;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename() != kOwnList) inside.push_back(entry.path());
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (entry->path().filename() != kOwnList) inside.push_back(entry->path());
   }
+  // Without its list nobody would know any more whose it is.
+  if (error) return;
   for (const fs::path& path : inside) {
     fs::remove_all(path, error);
     if (error) return;

@@ -18,6 +18,7 @@
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/files/files.h"
+#include "tagfield/files/internal/own_files.h"
 
 namespace tagfield {
 namespace {
@@ -382,6 +383,28 @@ TEST(FinishCommit, LeavesOtherFoldersAlone) {
   finish_commit(folder.path());
   EXPECT_EQ(folder.names(), (Names{".tagfield-commit", ".tagfield-commit/a"}));
   finish_commit(folder.path() / "missing");
+}
+
+TEST(StagedFolder, LeavesItsListWhereNoMoreFilesCanBeOpened) {
+  const TemporaryFolder folder;
+  const fs::path own = folder.path() / "incomplete-1";
+  fs::create_directories(own / "truth");
+  write_text_file((own / ".tagfield").string(), "# Tagfield\n");
+  write_text_file((own / "truth/tags.csv").string(), "x\n");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::dup(STDERR_FILENO);  // The lowest one that is free.
+  ::close(next);
+  rlimit none = before;
+  none.rlim_cur = static_cast<rlim_t>(next);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  files_internal::delete_own_folder(own);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  // Nothing is lost by which the next result knows that it may be cleared away.
+  EXPECT_TRUE(files_internal::is_own_folder(own));
+  EXPECT_TRUE(fs::exists(own / "truth/tags.csv"));
+  files_internal::delete_own_folder(own);
+  EXPECT_FALSE(fs::exists(own));
 }
 
 }  // namespace
