@@ -96,17 +96,9 @@ void add_scenario(const Scenario& scenario, Json& json) {
   for (const TagSpec& tag : scenario.tags) json["tags"].push_back(describe(tag));
 }
 
-std::vector<Override> overrides_of(const CheckArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : arguments.settings) {
-    overrides.push_back(parse_override(setting));
-  }
-  return overrides;
-}
-
 Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics) {
-  const ScenarioWithWorld loaded = load_scenario_with_world(arguments.file, overrides_of(arguments),
-                                                            diagnostics, arguments.world);
+  const ScenarioWithWorld loaded = load_scenario_with_world(
+      arguments.file, overrides_in(arguments.settings), diagnostics, arguments.world);
   // Whatever would stop the run stops the check.
   const Simulation simulation(loaded.scenario, loaded.scenario.seed);
   if (loaded.scenario.pose.source == PoseSource::kSlam) {
@@ -120,8 +112,8 @@ Json describe_scenario(const CheckArguments& arguments, Diagnostics& diagnostics
 }
 
 Json describe_plan(const CheckArguments& arguments, Diagnostics& diagnostics) {
-  const ScenarioToPlan to_plan =
-      load_scenario_to_plan(arguments.file, overrides_of(arguments), diagnostics, arguments.world);
+  const ScenarioToPlan to_plan = load_scenario_to_plan(
+      arguments.file, overrides_in(arguments.settings), diagnostics, arguments.world);
   Json json = {{"kind", "plan"}, {"scenario", to_plan.loaded.scenario.name}};
   std::size_t places = 0;
   for (const PlanTags& tags : to_plan.plan.tags) places += tags.places.size();

@@ -66,7 +66,8 @@ std::string length_or_none(const std::optional<ErrorStatistics>& error,
 }
 
 void print(const RunComparison& comparison) {
-  const auto& [first, second] = comparison.runs;
+  const ComparedRun& first = comparison.runs[0];
+  const ComparedRun& second = comparison.runs[1];
   const auto row = [](const std::string& name, const std::string& a, const std::string& b) {
     fmt::print("{:<22} {:>24} {:>24}\n", name, a, b);
   };

@@ -54,10 +54,7 @@ fs::path out_of(const GazeboArguments& arguments) {
 }
 
 int write_gazebo_world(const GazeboArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : arguments.settings) {
-    overrides.push_back(parse_override(setting));
-  }
+  const std::vector<Override> overrides = overrides_in(arguments.settings);
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);

@@ -36,14 +36,6 @@ struct PlanArguments {
   int threads = default_threads();
 };
 
-std::vector<Override> overrides_of(const PlanArguments& arguments) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : arguments.settings) {
-    overrides.push_back(parse_override(setting));
-  }
-  return overrides;
-}
-
 LinkMatrix links_of(const PlanArguments& arguments, const ScenarioToPlan& to_plan,
                     std::uint64_t seed, const std::string& out, Diagnostics& diagnostics) {
   ProgressBar bar("links");
@@ -181,7 +173,7 @@ AntennaPlan plan_with_progress(const PlanArguments& arguments, const ScenarioToP
 
 int plan(const PlanArguments& arguments) {
   Diagnostics diagnostics;
-  const std::vector<Override> overrides = overrides_of(arguments);
+  const std::vector<Override> overrides = overrides_in(arguments.settings);
   if (arguments.exact_s > 0.0 && !has_exact_solver()) best_exactly({}, {}, arguments.exact_s);
   const ScenarioToPlan to_plan =
       load_scenario_to_plan(arguments.scenario, overrides, diagnostics, arguments.world);

@@ -194,7 +194,11 @@ std::string stage_moving_tags(const Scenario& scenario, const SeedRun& run,
 }
 
 void print_result(const Summary& summary, const std::string& tracks, const std::string& out,
-                  bool page) {
+                  const RunArguments& arguments) {
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(summary));
+    return;
+  }
   fmt::print("{}: {:.1f} m driven, {} reads in {:.1f} s simulated ({:.0f} times real time)\n",
              summary.scenario, summary.path_length_m, summary.reads, summary.simulated_s,
              summary.real_time_factor);
@@ -203,7 +207,8 @@ void print_result(const Summary& summary, const std::string& tracks, const std::
     fmt::print("INCOMPLETE: the run was interrupted{}\n",
                summary.seeds.size() > 1 ? "; --resume goes on" : "");
   }
-  fmt::print("{}: {}\n", page ? "page" : "folder", page ? out + "/report.html" : out);
+  fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
+             arguments.no_page ? out : out + "/report.html");
 }
 
 /// What of another run in the same folder does not belong to this one.
@@ -240,10 +245,7 @@ int run(const RunArguments& arguments) {
     throw Error(
         "run: --out must be a folder; 'tagfield stream' writes reads to the standard output");
   }
-  std::vector<Override> overrides;
-  for (const std::string& setting : arguments.settings) {
-    overrides.push_back(parse_override(setting));
-  }
+  const std::vector<Override> overrides = overrides_in(arguments.settings);
   Diagnostics diagnostics;
   ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
@@ -294,11 +296,7 @@ int run(const RunArguments& arguments) {
   }
   folder.commit(stale_files());
   if (store && summary.complete) store->drop();
-  if (arguments.as_json) {
-    fmt::print("{}", to_json(summary));
-  } else {
-    print_result(summary, tracks, out, !arguments.no_page);
-  }
+  print_result(summary, tracks, out, arguments);
   return summary.complete ? kExitOk : kExitInterrupted;
 }
 

@@ -79,13 +79,16 @@ void add_change_options(CLI::App& command, std::vector<std::string>& settings,
       ->allow_extra_args(false);
 }
 
-ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics) {
+std::vector<Override> overrides_in(const std::vector<std::string>& settings) {
   std::vector<Override> overrides;
-  for (const std::string& setting : arguments.settings) {
-    overrides.push_back(parse_override(setting));
-  }
-  ScenarioWithWorld loaded =
-      load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);
+  overrides.reserve(settings.size());
+  for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
+  return overrides;
+}
+
+ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics) {
+  ScenarioWithWorld loaded = load_scenario_with_world(
+      arguments.scenario, overrides_in(arguments.settings), diagnostics, arguments.world);
   take_antennas_away(arguments.without, loaded.scenario);
   return loaded;
 }

@@ -35,6 +35,9 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
 void add_change_options(CLI::App& command, std::vector<std::string>& settings,
                         std::vector<std::string>& without);
 
+/// What --set was given, each KEY=VALUE. Throws Error on what is not.
+std::vector<Override> overrides_in(const std::vector<std::string>& settings);
+
 /// "" for what fits a seed's 64 bits; CLI11 by itself would bend -1 and 1e30 until they do.
 std::string fault_of_seed(const std::string& word);
 

@@ -135,7 +135,7 @@ void bind_bench(py::module_& module) {
              options.skip_missing = skip_missing;
              options.allow_outside = allow_outside;
              return ScenarioSource{std::move(path),      std::move(text),  std::move(name),
-                                   std::move(overrides), std::move(world), std::move(options)};
+                                   std::move(overrides), std::move(world), options};
            }),
            py::arg("path"), py::arg("text"), py::arg("name"), py::arg("overrides"),
            py::arg("world").none(true), py::arg("skip_missing"), py::arg("allow_outside"));
