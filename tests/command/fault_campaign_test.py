@@ -127,6 +127,7 @@ def prepare(campaign):
     two, axis = shipped(campaign, "two_antennas"), shipped(campaign, "z_axis")
     campaign.run_well(["run", str(two), "--out", "two", "--no-page"])
     campaign.run_well(["run", str(axis), "--out", "axis", "--no-page"])
+    campaign.run_well(["run", str(two), "--seed", "2", "--out", "other", "--no-page"])
     folder = campaign.folder
     for name in ("two", "axis"):
         tags = {row["tag"]: row for row in read_csv(folder / name / "truth/tags.csv")}
@@ -148,6 +149,7 @@ def prepare(campaign):
                 "out/events.json"]
 
     out = ["--out", "out"]
+    aisle = shipped(campaign, "plan/aisle")
     commands = [
         Command("run", ["run", two, *out], ["run", axis, "--force", *out]),
         Command("run --record-only", ["run", two, "--record-only", *out],
@@ -163,7 +165,11 @@ def prepare(campaign):
                 ["coverage", two, "--height", "1.5", "--step", "1", *out]),
         Command("events", events(2), events(3)),
         Command("gazebo", ["gazebo", two, "--out", "out/w.world"],
-                ["gazebo", axis, "--out", "out/w.world"])]
+                ["gazebo", axis, "--out", "out/w.world"]),
+        Command("compare", ["compare", "two", "two", *out], ["compare", "two", "other", *out]),
+        # Links that are kept grow while it runs, and are for the next one; tests of `plan` break them.
+        Command("plan", ["plan", aisle, "--samples", "8", "--no-links", *out],
+                ["plan", aisle, "--samples", "9", "--no-links", *out])]
     return [command for command in commands if not campaign.only or
             any(word in command.name for word in campaign.only)]
 

@@ -191,6 +191,43 @@ TEST(DiffractedGain, FillsStepsThatOpticsHas) {
   }
 }
 
+TEST(DiffractedGain, LosesOnEitherLegWhatItCrosses) {
+  // A screen's edge, and walls of a stated loss before it, behind it, or both.
+  Material wall = known("wood");
+  wall.crossing_db = 6.0;
+  const auto bent = [&](bool before, bool behind) {
+    Scene scene;
+    scene.collisions.push_back({"screen::link::c", half_plane(30.0), {}});
+    const Box sheet{{0.02, 20.0, 20.0}};
+    if (before) scene.collisions.push_back({"wall::link::a", sheet, placed({-2.0, 0.0, 0.0})});
+    if (behind) scene.collisions.push_back({"wall::link::b", sheet, placed({2.0, 0.0, 0.0})});
+    RadioWorldOptions options;
+    options.rules = {{"screen", known("metal"), {}}, {"wall", wall, {}}};
+    Diagnostics diagnostics;
+    const RadioWorld world = radio_world(scene, options, diagnostics);
+    const RigidTransform X_WA = placed({-4.0, -1.0, 0.0});
+    const RigidTransform X_WT = placed({4.0, -1.0, 0.0});
+    const Carrier carrier = carrier_in(world, kEdgeFrequency);
+    std::vector<DiffractedPath> over;
+    TraceOptions trace;
+    trace_diffracted(world.scene, world.edges(), X_WA.translation, X_WT.translation, trace, over);
+    // Over the screen's edge alone, not over those of the walls.
+    Complex sum{};
+    for (const DiffractedPath& path : over) {
+      if (std::abs(path.p_W.x()) > 0.1 || std::abs(path.p_W.y()) > 0.1) continue;
+      sum += diffracted_gain(path, world.edges(), {without_pattern(0.0), X_WA},
+                             {without_pattern(0.0), X_WT}, world, carrier, {}, {true, false});
+    }
+    return std::abs(sum);
+  };
+  const double open = bent(false, false);
+  ASSERT_GT(open, 0.0);
+  const double lost = std::pow(10.0, -6.0 / 20.0);
+  EXPECT_NEAR(bent(true, false) / open, lost, 1e-6);
+  EXPECT_NEAR(bent(false, true) / open, lost, 1e-6);
+  EXPECT_NEAR(bent(true, true) / open, lost * lost, 1e-6);
+}
+
 RC_GTEST_PROP(DiffractedGain, IsTheSameFromBothEnds, ()) {
   const auto number = [](double from, double to) {
     return from + (to - from) * *rc::gen::inRange(0, 1000001) * 1e-6;

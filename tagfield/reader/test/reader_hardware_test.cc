@@ -165,5 +165,35 @@ TEST(RequiredSinr, LetsHalfOfAllRepliesThrough) {
   EXPECT_NEAR(required_sinr_db(144), 8.27, 0.01);
 }
 
+TEST(Measure, AmplitudeAndDopplerScatterAsTheSignalsNoiseSays) {
+  // Of a signal A + n with σ_n/A = σ along it: RSSI scatters by σ · 20/ln 10 dB about the truth.
+  // Doppler is the phase's step between halves of a reply, each with √2 σ, T/2 apart: √2 · √2 σ /
+  // (2π T/2) = 2σ/(πT).
+  ReaderHardware hardware;
+  hardware.phase_floor_rad = 0.0;
+  const double sigma = 0.02;
+  const double reply_dbm =
+      noise_dbm(hardware) + 10.0 * std::log10(1.0 / (2.0 * hardware.averaged_bits * sigma * sigma));
+  ASSERT_NEAR(phase_sigma(hardware, reply_dbm), sigma, 1e-9);
+  constexpr int kReads = 40000;
+  double rssi = 0.0;
+  double rssi_squares = 0.0;
+  double doppler_squares = 0.0;
+  RandomStream noise = stream(9);
+  for (int i = 0; i < kReads; ++i) {
+    const Measured read =
+        measure(hardware, {true, false, false}, {1.0, reply_dbm, 3.0, 0.0}, noise);
+    rssi += (read.rssi_dbm - reply_dbm) / kReads;
+    rssi_squares += std::pow(read.rssi_dbm - reply_dbm, 2) / kReads;
+    doppler_squares += std::pow(read.doppler_hz - 3.0, 2) / kReads;
+  }
+  const double of_rssi = sigma * 20.0 / std::log(10.0);
+  // Five standard deviations: of a mean σ/√n, of a standard deviation σ/√2n.
+  EXPECT_NEAR(rssi, 0.0, 5.0 * of_rssi / std::sqrt(1.0 * kReads) + of_rssi * sigma);
+  EXPECT_NEAR(std::sqrt(rssi_squares) / of_rssi, 1.0, 5.0 / std::sqrt(2.0 * kReads) + sigma);
+  const double of_doppler = 2.0 * sigma / (kPi * hardware.reply_s);
+  EXPECT_NEAR(std::sqrt(doppler_squares) / of_doppler, 1.0, 5.0 / std::sqrt(2.0 * kReads));
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -8,39 +8,40 @@
 namespace tagfield::sdf_internal {
 namespace {
 
-/// Longer chains of frames are taken for circles.
-constexpr int kMostFrames = 10'000;
+/// Where finding a pose takes more steps, frames are taken for circles. Each may be a level on the
+/// stack; and where names lead into models the ways branch, so that all of them are counted.
+constexpr int kMostSteps = 2'000;
 
 bool is_own(const std::string& name) {
   return name.empty() || name == kModelFrame || name == "world";
 }
 
-std::optional<RigidTransform> walk(const Scope& scope, const std::string& name, int frames_left);
+std::optional<RigidTransform> walk(const Scope& scope, const std::string& name, int& steps_left);
 
 /// Of "MODEL::FRAME", trying each "::" for the one behind the model's name.
 std::optional<RigidTransform> walk_into_models(const Scope& scope, const std::string& name,
-                                               int frames_left) {
+                                               int& steps_left) {
   for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::", at + 2)) {
     const std::string model = name.substr(0, at);
     const auto inside = scope.models.find(model);
     if (inside == scope.models.end()) continue;
-    const auto X_SM = walk(scope, model, frames_left);
-    const auto X_MF = walk(*inside->second, name.substr(at + 2), frames_left);
+    const auto X_SM = walk(scope, model, steps_left);
+    const auto X_MF = walk(*inside->second, name.substr(at + 2), steps_left);
     if (X_SM && X_MF) return *X_SM * *X_MF;
   }
   return std::nullopt;
 }
 
-std::optional<RigidTransform> walk(const Scope& scope, const std::string& name, int frames_left) {
+std::optional<RigidTransform> walk(const Scope& scope, const std::string& name, int& steps_left) {
   const auto found = scope.frames.find(name);
   if (found == scope.frames.end()) {
     return is_own(name) ? std::optional<RigidTransform>(RigidTransform{})
-                        : walk_into_models(scope, name, frames_left);
+                        : walk_into_models(scope, name, steps_left);
   }
   const Frame& frame = found->second;
   if (is_own(frame.relative_to)) return frame.X_RF;
-  if (frames_left == 0) return std::nullopt;
-  const auto X_SR = walk(scope, frame.relative_to, frames_left - 1);
+  if (steps_left-- <= 0) return std::nullopt;
+  const auto X_SR = walk(scope, frame.relative_to, steps_left);
   if (!X_SR) return std::nullopt;
   return *X_SR * frame.X_RF;
 }
@@ -63,7 +64,8 @@ Frame frame_of(Context& context, const tinyxml2::XMLElement& element,
 
 std::optional<RigidTransform> pose_in(const Scope& scope, const std::string& name) {
   if (is_own(name)) return RigidTransform{};
-  return walk(scope, name, kMostFrames);
+  int steps_left = kMostSteps;
+  return walk(scope, name, steps_left);
 }
 
 RigidTransform pose_in(const Scope& scope, const Frame& frame, const RigidTransform& X_SI,

@@ -151,6 +151,30 @@ TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
   EXPECT_EQ(warnings().size(), 1U);
 }
 
+TEST_F(LoadWorldPoses, FramesInCirclesOverModelsComeToAnEnd) {
+  // Each step has two ways on, which would double over and over.
+  const Scene scene = load(
+      "<model name='m'><frame name='f' attached_to='n::g'/>"
+      "<model name='n'><pose relative_to='n::g'/><frame name='g' attached_to='__model__'>"
+      "<pose relative_to='g'/></frame></model>"
+      "<link name='l'><pose relative_to='f'/>" +
+      ball("c", "") + "</link></model>");
+  EXPECT_EQ(scene.collisions.size(), 1U);
+  EXPECT_FALSE(warnings().empty());
+}
+
+TEST_F(LoadWorldPoses, LongChainsOfFramesAreFollowed) {
+  std::string frames;
+  for (int i = 1; i < 1000; ++i) {
+    frames += "<frame name='f" + std::to_string(i) + "' attached_to='f" + std::to_string(i - 1) +
+              "'><pose>0.001 0 0 0 0 0</pose></frame>";
+  }
+  const Scene scene =
+      load("<model name='m'><frame name='f0'/>" + frames +
+           "<link name='l'><pose relative_to='f999'/>" + ball("c", "") + "</link></model>");
+  expect_pose(scene.collisions.at(0), {0.999, 0.0, 0.0}, 0.0);
+}
+
 TEST_F(LoadWorldPoses, DegreesAndQuaternions) {
   const Scene scene = load(
       "<model name='m'><pose degrees='true'>1 0 0 0 0 90</pose><link name='l'>"

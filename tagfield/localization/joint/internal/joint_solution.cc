@@ -202,6 +202,7 @@ template <int D>
 Taken eliminated(const TagPart<D>& part) {
   Taken taken{Eigen::LLT<Eigen::MatrixXd>(part.normal), {}, {}};
   const Index rows = part.coupling.rows();
+  if (rows == 0) return {std::move(taken.factors), Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)};
   const Eigen::MatrixXd root = taken.factors.matrixL().solve(part.coupling.transpose());
   taken.normal = Eigen::MatrixXd::Zero(rows, rows);
   taken.normal.template selfadjointView<Eigen::Lower>().rankUpdate(root.transpose(), -1.0);

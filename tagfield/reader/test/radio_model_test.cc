@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/reader/radio_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+constexpr double kCarrier_hz = 865.7e6;
+
+/// Isotropic, without anything but free space.
+RadioModel plain_model() {
+  RadioModel model;
+  model.plan = fixed_plan(kCarrier_hz);
+  model.antenna.gain_dbi = 0.0;
+  model.transmit_power_dbm = 30.0;
+  return model;
+}
+
+TagModel plain_tag(double sensitivity_dbm) {
+  TagModel tag;
+  tag.antenna.gain_dbi = 0.0;
+  tag.sensitivity_dbm = sensitivity_dbm;
+  tag.modulation_db = -5.0;
+  return tag;
+}
+
+double free_space_db(double distance_m) {
+  return 20.0 * std::log10(4.0 * kPi * distance_m / wavelength(kCarrier_hz));
+}
+
+TEST(MostRange, IsWhereTheChipWakesUp) {
+  // 30 dBm − L = −18 dBm; the reply of a reader that hears all would come back from further off.
+  RadioModel model = plain_model();
+  model.hardware.sensitivity_dbm = -140.0;
+  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-18.0))), 48.0, 1e-9);
+  // Gains and losses on the way there.
+  model.antenna.gain_dbi = 6.0;
+  model.cable_loss_db = 1.5;
+  TagModel tag = plain_tag(-18.0);
+  tag.antenna.gain_dbi = 2.0;
+  tag.detuning_db = 3.0;
+  EXPECT_NEAR(free_space_db(most_range_m(model, tag)), 48.0 + 6.0 - 1.5 + 2.0 - 3.0, 1e-9);
+}
+
+TEST(MostRange, IsWhereTheReaderStillHears) {
+  // 30 − 2 L − 5 = −60 dBm, as a chip that needs next to nothing answers further off.
+  RadioModel model = plain_model();
+  model.hardware.sensitivity_dbm = -60.0;
+  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5, 1e-9);
+  // Antennas and cable count twice here.
+  model.antenna.gain_dbi = 6.0;
+  model.cable_loss_db = 1.5;
+  EXPECT_NEAR(free_space_db(most_range_m(model, plain_tag(-90.0))), 42.5 + 6.0 - 1.5, 1e-9);
+}
+
+TEST(MostRange, IsTwiceThatWhereOtherWavesMayAdd) {
+  RadioModel model = plain_model();
+  const double alone_m = most_range_m(model, plain_tag(-18.0));
+  model.reflection_order = 1;
+  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
+  model.effects.reflections = false;
+  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), alone_m, 1e-9);
+  model.diffuse_k_db = 3.0;
+  EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
+}
+
+}  // namespace
+}  // namespace tagfield
