@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "tagfield/files/folder_entries.h"
 #include "tagfield/scenario/yaml_map.h"
 
 namespace tagfield {
@@ -50,10 +51,9 @@ std::pair<std::string, std::string> numbered(const fs::path& path) {
 /// By their names: files of either kind.
 std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string end = entry.path().extension().string();
-    if (end == ".db3" || end == ".mcap") files.push_back(entry.path().string());
+  for (const fs::path& entry : entries_of(folder)) {
+    const std::string end = entry.extension().string();
+    if (end == ".db3" || end == ".mcap") files.push_back(entry.string());
   }
   std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
     return std::pair(numbered(a), a) < std::pair(numbered(b), b);

@@ -10,6 +10,7 @@
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/top_view_file.h"
+#include "tagfield/files/folder_entries.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/planning/moment.h"
 #include "tagfield/report/coverage_figure.h"
@@ -45,10 +46,9 @@ Coverage compute(const Scenario& scenario, const std::vector<DriveSample>& sampl
 /// Tables of an earlier coverage at other heights.
 std::vector<std::filesystem::path> stale_files(const std::string& folder) {
   std::vector<std::filesystem::path> stale = {"figures"};
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("coverage_", 0) == 0 && entry.path().extension() == ".csv") {
+  for (const std::filesystem::path& entry : entries_of(folder)) {
+    const std::string name = entry.filename().string();
+    if (name.rfind("coverage_", 0) == 0 && entry.extension() == ".csv") {
       stale.emplace_back(name);
     }
   }

@@ -11,6 +11,7 @@
 
 #include "tagfield/base/number.h"
 #include "tagfield/base/units.h"
+#include "tagfield/files/folder_entries.h"
 
 namespace tagfield {
 namespace {
@@ -270,8 +271,8 @@ std::vector<std::string> tables_of(const std::string& path) {
   namespace fs = std::filesystem;
   if (!fs::is_directory(path)) return {path};
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
+  for (const fs::path& entry : entries_of(path)) {
+    if (entry.extension() == ".csv") names.push_back(entry.filename().string());
   }
   if (names.empty()) fail({path, 0}, "is a folder without tables, expected *.csv in it");
   std::sort(names.begin(), names.end());

@@ -94,9 +94,12 @@ void add_file(const fs::path& path, ContentHash& hash) {
     hash.add(read_text_file(path.string()));
   } else if (fs::is_directory(path, error)) {
     std::set<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(path, error)) {
-      if (entry.is_regular_file(error)) files.insert(entry.path());
+    fs::recursive_directory_iterator entry(path, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      std::error_code gone;
+      if (entry->is_regular_file(gone)) files.insert(entry->path());
     }
+    if (error) fail({path.string(), 0}, "can't be looked through: " + error.message());
     for (const fs::path& file : files) add_file(file, hash);
   }
 }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tagfield/files/files.h"
+#include "tagfield/files/folder_entries.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
@@ -62,17 +63,15 @@ std::optional<std::size_t> positive_in(std::string_view text) {
 std::string folder_of_shards(std::size_t count) { return fmt::format("of_{}", count); }
 
 void add_logs(const fs::path& folder, std::vector<std::string>& logs) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".log") logs.push_back(entry.path().string());
+  for (const fs::path& entry : entries_of(folder)) {
+    if (entry.extension() == ".log") logs.push_back(entry.string());
   }
 }
 
 std::vector<std::string> logs_without(const std::string& folder, const std::string& left_out) {
   std::vector<std::string> logs;
-  std::error_code error;
-  for (const auto& group : fs::directory_iterator(path_in(folder, "shards"), error)) {
-    if (group.path().filename() != left_out) add_logs(group.path(), logs);
+  for (const fs::path& group : entries_of(path_in(folder, "shards"))) {
+    if (group.filename() != left_out) add_logs(group, logs);
   }
   std::sort(logs.begin(), logs.end());
   return logs;

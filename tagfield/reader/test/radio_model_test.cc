@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <string>
 
 #include "tagfield/base/units.h"
+#include "tagfield/reader/antenna.h"
 
 namespace tagfield {
 namespace {
@@ -67,6 +70,41 @@ TEST(MostRange, IsTwiceThatWhereOtherWavesMayAdd) {
   EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), alone_m, 1e-9);
   model.diffuse_k_db = 3.0;
   EXPECT_NEAR(most_range_m(model, plain_tag(-18.0)), 2.0 * alone_m, 1e-9);
+}
+
+TEST(TransmitSpectrum, HasTheChannelsOfItsMask) {
+  // ISO/IEC 18000-63: in dense mode channels are 2.5/Tari wide, else the regulation's.
+  RadioModel model = plain_model();
+  model.gen2.emplace();
+  model.gen2->link.tari_s = 25e-6;
+  model.plan.channel_hz = 500e3;
+  EXPECT_NEAR(transmit_spectrum_of(model).channel_hz, 100e3, 1e-6);
+  model.gen2->link.tari_s = 12.5e-6;
+  EXPECT_NEAR(transmit_spectrum_of(model).channel_hz, 200e3, 1e-6);
+  model.spectrum_mask = SpectrumMask::kMultiple;
+  EXPECT_DOUBLE_EQ(transmit_spectrum_of(model).channel_hz, 500e3);
+}
+
+TEST(MaySendAtOnce, WhereReadersDontTakeTurns) {
+  const auto antenna = [](const std::string& reader, AirSharing sharing) {
+    RadioModel model = plain_model();
+    model.sharing = sharing;
+    AntennaParameters parameters;
+    parameters.name = reader + "_1";
+    parameters.reader = reader;
+    parameters.model = std::make_shared<const RadioModel>(model);
+    return parameters;
+  };
+  const AntennaParameters a = antenna("a", AirSharing::kChannel);
+  EXPECT_TRUE(may_send_at_once(a, antenna("b", AirSharing::kChannel)));
+  EXPECT_TRUE(may_send_at_once(a, antenna("b", AirSharing::kTime)));
+  EXPECT_FALSE(may_send_at_once(antenna("a", AirSharing::kTime), antenna("b", AirSharing::kTime)));
+  // Ports of one reader take turns, and the paper's antennas know of no air to share.
+  EXPECT_FALSE(may_send_at_once(a, antenna("a", AirSharing::kChannel)));
+  AntennaParameters of_paper;
+  of_paper.reader = "b";
+  EXPECT_FALSE(may_send_at_once(a, of_paper));
+  EXPECT_FALSE(may_send_at_once(of_paper, a));
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/files/folder_entries.h"
+
+#include <algorithm>
+
+#include "tagfield/base/error.h"
+
+namespace tagfield {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return entries;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    entries.push_back(entry->path());
+  }
+  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+}  // namespace tagfield
