@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <polyclipping/clipper.hpp>
@@ -90,9 +91,13 @@ Path thick_outline(const Points& polygon, double margin) {
 
 Paths united(const Paths& paths) {
   ClipperLib::Clipper clipper;
-  clipper.AddPaths(paths, ClipperLib::ptSubject, true);
   Paths result;
-  clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  if (!clipper.AddPaths(paths, ClipperLib::ptSubject, true)) return result;  // None has an area.
+  // It catches whatever is thrown within, which is for lack of memory, and gives back nothing.
+  if (!clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero,
+                       ClipperLib::pftNonZero)) {
+    throw std::bad_alloc();
+  }
   return result;
 }
 

@@ -1255,6 +1255,8 @@ def files_larger_than_allowed(context):
 @case
 def more_than_there_is_memory_for(context):
     """Little memory stands for a table that is larger than that of the machine."""
+    if "TAGFIELD_SANITIZED" in os.environ:
+        raise Skip("a sanitizer needs more memory for itself")
     rows = "".join(f"{0.01 * i:.2f},r,a,one,865700000,1.0,-50\n" for i in range(300_000))
     context.write("reads.csv", READS.splitlines()[0] + "\n" + rows)
     context.write("poses.csv", POSES)
