@@ -9,7 +9,6 @@
 #include <fstream>
 #include <utility>
 
-#include "tagfield/files/folder_entries.h"
 #include "tagfield/scenario/yaml_map.h"
 
 namespace tagfield {
@@ -51,10 +50,14 @@ std::pair<std::string, std::string> numbered(const fs::path& path) {
 /// By their names: files of either kind.
 std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> files;
-  for (const fs::path& entry : entries_of(folder)) {
-    const std::string end = entry.extension().string();
-    if (end == ".db3" || end == ".mcap") files.push_back(entry.string());
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return files;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string end = entry->path().extension().string();
+    if (end == ".db3" || end == ".mcap") files.push_back(entry->path().string());
   }
+  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
   std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
     return std::pair(numbered(a), a) < std::pair(numbered(b), b);
   });

@@ -422,7 +422,7 @@ TEST(ReadBag, NamesBadPosesOfAllKinds) {
 
 TEST(ReadBag, RefusesOtherVersionsOfItsMessages) {
   const std::string complaint = complaint_of([](BagWriter& writer) {
-    writer.raw("/r", "tagfield_msgs/TagReads", "0123456789abcdef0123456789abcdef", {0});
+    writer.raw("/r", "tagfield_msgs/TagReads", "0123456789abcdef0123456789abcdef", {});
   });
   EXPECT_TRUE(contains(complaint, "topic /r is of another version of tagfield_msgs/TagReads"));
 }
