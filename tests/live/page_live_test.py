@@ -292,7 +292,7 @@ def colors_are_those_of_the_reads(context, one, address, shared):
 
 @with_page("--recorded")
 def ellipses_hold_95_percent(context, one, address, shared):
-    one.wait("view.stage.frames > 0", "a frame was drawn")
+    one.wait("!!view.drawing.estimates.lines.geometry.attributes.position", "ellipses are drawn")
     points = one.ask("[...view.drawing.estimates.lines.geometry.attributes.position.array]")
     points = [points[i:i + 3] for i in range(0, len(points), 3)]
     located = [row for row in read_csv(shared.run / "estimates.csv") if row["verdict"] == "located"]

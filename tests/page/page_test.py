@@ -177,8 +177,8 @@ def view_faults(driver, page, theme, seen):
     for address in addresses:
         if address != page.as_uri():
             yield f"requests {address[:200]}"
-    # The run to be watched is data and a script; the last two are of tables and figures.
-    if seen["scripts"] not in (["", ""], ["application/json", "", "", ""]):
+    # The run to be watched is data and a script; the others are of tables, figures, and what links them.
+    if seen["scripts"] not in (["", "", ""], ["application/json", "", "", "", ""]):
         yield f"holds scripts of the types {seen['scripts']}"
     if "application/json" in seen["scripts"] and not seen["drawn"]:
         yield "does not show the run"
