@@ -265,7 +265,11 @@ void require_different_epcs(const Scenario& scenario) {
 class LlrpServer::Impl {
  public:
   explicit Impl(const LlrpOptions& asked) : options_(asked) {}
-  ~Impl() { close(); }
+  ~Impl() {
+    close();
+    // A reader keeps its client's connection, which keeps the reader.
+    for (const auto& endpoint : endpoints_) endpoint->reader.reset();
+  }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 

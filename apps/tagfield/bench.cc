@@ -92,7 +92,7 @@ std::vector<Method> methods_for(const Suite& suite, const BenchArguments& argume
 Suite suite_of(const BenchArguments& arguments) {
   if (arguments.suite.empty()) throw Error("bench: SUITE is missing (see tagfield bench --help)");
   Suite suite = load_suite(arguments.suite);
-  allow(arguments.world, suite);
+  set_world_options(arguments.world, suite);
   add_commands(arguments, suite);
   suite = only(suite, arguments.methods, arguments.conditions);
   if (suite.sweep) {
@@ -207,7 +207,8 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
                    "Leave times out, so that the same suite gives the same bytes");
   command.add_flag("--resume", arguments.resume,
                    "Go on where a bench into the same folder was cut off");
-  command.add_flag("--list-methods", arguments.list_methods, "Say which methods there are");
+  command.add_flag("--list-methods", arguments.list_methods, "Say which methods there are")
+      ->excludes("--json");
 }
 
 }  // namespace

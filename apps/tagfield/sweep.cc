@@ -118,6 +118,7 @@ int sweep_again(const SweepArguments& arguments) {
   const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
   std::vector<RunKey> runs = runs_again(sweep, arguments.again);
   if (runs.empty()) {
+    if (arguments.as_json) return print_status(sweep.folder, true);
     fmt::print("no run has failed\n");
     return kExitOk;
   }
@@ -175,7 +176,9 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
                    "Go on where the sweep was cut off, as it does anyway");
   command.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   add_world_options(command, arguments.world);
-  add_json_option(command, arguments.as_json, "results.json, or how far it is (--status, --shard)");
+  add_json_option(
+      command, arguments.as_json,
+      "results.json, or how far it is (--status, --shard, --again without a failed run)");
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ void collect_points(const FoundSweep& found, const RunIndex& index, GrowingTable
 OpenSweep open_sweep(const std::string& suite, const std::string& out, const WorldOptions& world) {
   OpenSweep sweep;
   Suite loaded = load_suite(suite);
-  allow(world, loaded);
+  set_world_options(world, loaded);
   sweep.plan = planned(loaded);
   sweep.suite = suite;
   sweep.folder = out.empty() ? "runs/sweep_" + folder_name(loaded.name) : out;
@@ -220,6 +220,11 @@ Merged merge_sweep(const std::string& folder, bool with_page, bool as_json) {
 
   merged.complete = results.complete();
   merged.exit_code = merged.complete && results.failed.empty() ? kExitOk : kExitIncomplete;
+  if (!sqlite::is_built_in()) {
+    fmt::print(stderr,
+               "tagfield: warning: built without SQLite (libsqlite3-dev), so there is no "
+               "results.sqlite\n");
+  }
   if (as_json) {
     merged.json = sweep_to_json(results);
     return merged;
@@ -227,11 +232,6 @@ Merged merge_sweep(const std::string& folder, bool with_page, bool as_json) {
   fmt::print("{}", sweep_to_text(results));
   print_failures(results, found, folder);
   fmt::print("{}", left_text(results, found, folder, merged.closed_a_rung));
-  if (!sqlite::is_built_in()) {
-    fmt::print(stderr,
-               "tagfield: warning: built without SQLite (libsqlite3-dev), so there is no "
-               "results.sqlite\n");
-  }
   fmt::print("cost: {:.3g} core hours\n", index.cpu_s / 3600.0);
   fmt::print("{}: {}\n", with_page ? "page" : "folder",
              with_page ? folder + "/sweep.html" : folder);

@@ -131,11 +131,9 @@ void bind_bench(py::module_& module) {
       .def(py::init([](std::string path, std::string text, std::string name,
                        std::vector<Override> overrides, std::shared_ptr<World> world,
                        bool skip_missing, bool allow_outside) {
-             WorldOptions options;
-             options.skip_missing = skip_missing;
-             options.allow_outside = allow_outside;
-             return ScenarioSource{std::move(path),      std::move(text),  std::move(name),
-                                   std::move(overrides), std::move(world), options};
+             return ScenarioSource{std::move(path),  std::move(text),
+                                   std::move(name),  std::move(overrides),
+                                   std::move(world), world_options(skip_missing, allow_outside)};
            }),
            py::arg("path"), py::arg("text"), py::arg("name"), py::arg("overrides"),
            py::arg("world").none(true), py::arg("skip_missing"), py::arg("allow_outside"));

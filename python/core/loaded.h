@@ -31,6 +31,13 @@ struct LoadedScenario {
 };
 using LoadedPtr = std::shared_ptr<LoadedScenario>;
 
+inline WorldOptions world_options(bool skip_missing, bool allow_outside) {
+  WorldOptions options;
+  options.skip_missing = skip_missing;
+  options.allow_outside = allow_outside;
+  return options;
+}
+
 /// A world that Python builds.
 struct World {
   Scene scene;

@@ -130,10 +130,8 @@ py::list run_seeds(const LoadedPtr& loaded, const std::vector<std::uint64_t>& se
 LoadedPtr load(const std::string& path, const std::vector<Override>& overrides, bool skip_missing,
                bool allow_outside) {
   auto loaded = std::make_shared<LoadedScenario>();
-  WorldOptions options;
-  options.skip_missing = skip_missing;
-  options.allow_outside = allow_outside;
-  loaded->parts = load_scenario_with_world(path, overrides, loaded->diagnostics, options);
+  loaded->parts = load_scenario_with_world(path, overrides, loaded->diagnostics,
+                                           world_options(skip_missing, allow_outside));
   return loaded;
 }
 

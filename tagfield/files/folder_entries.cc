@@ -11,7 +11,9 @@ namespace fs = std::filesystem;
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code error;
-  if (!fs::is_directory(folder, error)) return entries;
+  const fs::file_type type = fs::status(folder, error).type();
+  if (type == fs::file_type::not_found) return entries;
+  if (!error && type != fs::file_type::directory) return entries;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     entries.push_back(entry->path());

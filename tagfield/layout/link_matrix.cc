@@ -235,6 +235,18 @@ LinkStates LinkMatrix::states(std::size_t column, std::size_t row) const {
   return is_empty ? LinkStates() : LinkStates(std::move(of_link));
 }
 
+std::vector<LinkElement> elements_of(const LinkMatrix& matrix) {
+  std::vector<LinkElement> elements;
+  for (std::size_t row = 0; row < matrix.rows.size(); ++row) {
+    if (matrix.rows[row].stop == 0) {
+      elements.push_back({row, 1});
+    } else {
+      ++elements.back().stops;
+    }
+  }
+  return elements;
+}
+
 LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest& request,
                           LinkMatrixCounts& counts) {
   require_open_air(to_plan.loaded.scenario.radio_world->scene, to_plan.plan.mounts);

@@ -49,6 +49,14 @@ struct LinkMatrix {
   [[nodiscard]] LinkStates states(std::size_t column, std::size_t row) const;
 };
 
+/// All rows of one place and orientation, one a stop.
+struct LinkElement {
+  std::size_t first_row = 0;
+  std::size_t stops = 1;
+};
+/// In the order of the rows.
+std::vector<LinkElement> elements_of(const LinkMatrix& matrix);
+
 struct LinkMatrixRequest {
   std::uint64_t seed = 1;
   int threads = 1;     ///< The result does not depend on it.

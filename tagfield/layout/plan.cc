@@ -4,175 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <set>
 
-#include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
-#include "tagfield/base/units.h"
+#include "tagfield/layout/internal/hard_link.h"
 #include "tagfield/layout/internal/layout_forecast.h"
 #include "tagfield/planning/local_link.h"
-#include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
 namespace {
 
-/// Where a port's dwell is not told [s], as Gen2Reader has it.
-constexpr double kDwell_s = 0.2;
-constexpr double kSure = 1e-6;  ///< Misses that are less likely are none.
 constexpr std::size_t kMostHard = 20;
 constexpr double kHard = 0.9;  ///< From this probability on a place is not hard.
 constexpr double kLessPower_db = 2.0;
 constexpr double kDetuning_db = 3.0;
-
-/// All rows of one place and orientation, one a stop.
-struct Element {
-  std::size_t first_row = 0;
-  std::size_t stops = 1;
-};
-
-/// In the order of the rows.
-std::vector<Element> elements_of(const LinkMatrix& matrix) {
-  std::vector<Element> elements;
-  for (std::size_t row = 0; row < matrix.rows.size(); ++row) {
-    if (matrix.rows[row].stop == 0) {
-      elements.push_back({row, 1});
-    } else {
-      ++elements.back().stops;
-    }
-  }
-  return elements;
-}
-
-/// Probability that none of `looks` looks on different carriers hears a tag that is heard on
-/// `share` of `carriers`.
-double miss_of(double share, double looks, std::size_t carriers) {
-  if (looks < 1.0) return 1.0 - looks * share;
-  const auto all = static_cast<double>(carriers);
-  double miss = 1.0;
-  for (double look = 0.0; look < std::min(std::floor(looks), all); look += 1.0) {
-    miss *= std::max(0.0, 1.0 - share * all / (all - look));
-  }
-  return miss;
-}
-
-/// How often an antenna has its turn in a second.
-double looks_a_second(const PlanSpec& plan, const RadioModel& model) {
-  const double dwell_s = model.gen2 ? model.gen2->port_dwell_s : kDwell_s;
-  return 1.0 / (dwell_s * static_cast<double>(std::min(plan.limits.ports, plan.limits.antennas)));
-}
-
-class Builder {
- public:
-  Builder(const PlanSpec& plan, const LinkMatrix& matrix)
-      : plan_(plan), matrix_(matrix), elements_(elements_of(matrix)) {}
-
-  PlanProblem build() {
-    PlanProblem problem;
-    add_elements(problem);
-    for (std::size_t column = 0; column < matrix_.columns.size(); ++column) {
-      const PlanMount& mount = plan_.mounts[matrix_.columns[column].mount];
-      const double most = *std::max_element(mount.power_dbm.begin(), mount.power_dbm.end());
-      for (const double power : mount.power_dbm) {
-        problem.options.push_back({column, power, most - power});
-        SelectionOption option;
-        option.site = matrix_.columns[column].mount;
-        option.zone = mount.zone.empty() ? kNoZone : zone_number(mount.zone, problem);
-        option.cost = mount.cost;
-        const auto all = [](std::size_t /*zone*/) { return true; };
-        const auto foreign = [&](std::size_t zone) {
-          return zone != kNoZone && option.zone != kNoZone && zone != option.zone;
-        };
-        option.misses = misses(column, most - power + plan_.margin_db, problem.selection, all);
-        // Being cautious here is to take links for as good as they are.
-        if (plan_.limits.cross) {
-          option.crossings = misses(column, most - power, problem.selection, foreign);
-        }
-        problem.selection.options.push_back(std::move(option));
-      }
-    }
-    problem.selection.zones = problem.zones.size();
-    set_limits(problem.selection);
-    return problem;
-  }
-
- private:
-  static std::size_t zone_number(const std::string& name, PlanProblem& problem) {
-    const auto known = std::find(problem.zones.begin(), problem.zones.end(), name);
-    const auto number = static_cast<std::size_t>(known - problem.zones.begin());
-    if (known == problem.zones.end()) problem.zones.push_back(name);
-    return number;
-  }
-
-  void add_elements(PlanProblem& problem) {
-    double tags = 0.0;
-    for (const PlanTags& group : plan_.tags) tags += static_cast<double>(group.count);
-    for (const Element& element : elements_) {
-      const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
-      const auto ways = static_cast<double>(group.places.size() * group.orientations.size());
-      SelectionElement one;
-      one.weight =
-          static_cast<double>(group.count) / ways / (tags * static_cast<double>(kFadingPlaces));
-      if (!group.zone.empty()) one.zone = zone_number(group.zone, problem);
-      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
-        problem.selection.elements.push_back(one);
-      }
-    }
-  }
-
-  /// Of elements in zones for which `counts` holds.
-  [[nodiscard]] std::vector<Miss> misses(std::size_t column, double less_db,
-                                         const SelectionProblem& selection,
-                                         const std::function<bool(std::size_t)>& counts) const {
-    const PlanMount& mount = plan_.mounts[matrix_.columns[column].mount];
-    const RadioModel& model = *physical(mount.antenna);
-    const double looks = looks_a_second(plan_, model);
-    std::vector<Miss> all;
-    for (std::size_t number = 0; number < elements_.size(); ++number) {
-      if (!counts(selection.elements[number * kFadingPlaces].zone)) continue;
-      std::array<double, kFadingPlaces> miss{};
-      miss.fill(1.0);
-      const Element& element = elements_[number];
-      const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
-      const std::vector<PlanStop>& stops =
-          stops_.try_emplace(&group, stops_of(group, plan_.dwell_s)).first->second;
-      for (std::size_t stop = 0; stop < element.stops; ++stop) {
-        const LinkStates states = matrix_.states(column, element.first_row + stop);
-        if (states.is_empty()) continue;
-        const double time_s = stops[stop].end_s - stops[stop].begin_s;
-        for (std::size_t place = 0; place < kFadingPlaces; ++place) {
-          miss[place] *=
-              miss_of(states.share_heard(place, less_db), looks * time_s, hopped_channels(model));
-        }
-      }
-      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
-        if (miss[place] > 1.0 - kSure) continue;
-        all.push_back({static_cast<std::uint32_t>(number * kFadingPlaces + place),
-                       static_cast<float>(miss[place] < kSure ? 0.0 : miss[place])});
-      }
-    }
-    return all;
-  }
-
-  void set_limits(SelectionProblem& selection) const {
-    const PlanLimits& limits = plan_.limits;
-    selection.limits.antennas = std::min(limits.antennas, plan_.mounts.size());
-    selection.limits.readers = limits.readers;
-    selection.limits.ports = limits.ports;
-    selection.limits.reader_cost = limits.reader_cost;
-    if (limits.cost) selection.limits.cost = *limits.cost;
-    if (limits.cross) selection.limits.cross = *limits.cross;
-    selection.cap = plan_.aim.read_probability;
-  }
-
-  const PlanSpec& plan_;
-  const LinkMatrix& matrix_;
-  std::vector<Element> elements_;
-  mutable std::map<const PlanTags*, std::vector<PlanStop>> stops_;
-};
 
 const char* key_of(Limit limit) {
   switch (limit) {
@@ -259,7 +105,7 @@ std::vector<double> place_probabilities(const PlanSpec& plan, const LinkMatrix& 
     places += plan.tags[group].places.size();
   }
   std::vector<double> probability(places, 0.0);
-  const std::vector<Element> elements = elements_of(matrix);
+  const std::vector<LinkElement> elements = elements_of(matrix);
   for (std::size_t number = 0; number < elements.size(); ++number) {
     const LinkRow& row = matrix.rows[elements[number].first_row];
     const auto ways = static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
@@ -271,81 +117,7 @@ std::vector<double> place_probabilities(const PlanSpec& plan, const LinkMatrix& 
   return probability;
 }
 
-/// Margins of the best link of a place, by antenna, over orientations and fading.
-struct BestLink {
-  std::string antenna;
-  double distance_m = 0.0;
-  double median_db = -400.0;
-  double worst_turn_db = 0.0;  ///< The median in the worst orientation,
-  double best_turn_db = 0.0;   ///< and in the best.
-  bool arrives = false;
-};
-
-double median_margin_of(std::vector<double> values) {
-  if (values.empty()) return kNothing_db;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanProblem& problem,
-                   const OptionSet& choice, std::size_t group, std::size_t place) {
-  BestLink best;
-  for (const std::size_t number : choice) {
-    const PlanOption& option = problem.options[number];
-    const LinkColumn& column = matrix.columns[option.column];
-    std::vector<double> all;
-    std::map<std::size_t, std::vector<double>> by_turn;
-    double nearest_m = 1e9;
-    for (std::size_t row = 0; row < matrix.rows.size(); ++row) {
-      const LinkRow& of_row = matrix.rows[row];
-      if (of_row.group != group || of_row.place != place) continue;
-      const RigidTransform& X_WA = plan.mounts[column.mount].X_WA[column.look];
-      nearest_m = std::min(nearest_m, (of_row.X_WT.translation - X_WA.translation).norm());
-      const LinkStates states = matrix.states(option.column, row);
-      for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
-        for (std::size_t carrier = 0; carrier < std::max<std::size_t>(states.carriers(), 1);
-             ++carrier) {
-          const double margin =
-              states.is_empty() ? -32.0
-                                : states.margin_db(fade, carrier) - option.less_db - plan.margin_db;
-          all.push_back(std::max(margin, -32.0));
-          by_turn[of_row.orientation].push_back(all.back());
-        }
-      }
-    }
-    const double median = median_margin_of(all);
-    if (median <= best.median_db) continue;
-    best = {plan.mounts[column.mount].name, nearest_m, median, 100.0, -100.0, median > -32.0};
-    for (auto& [turn, margins] : by_turn) {
-      const double of_turn = median_margin_of(margins);
-      best.worst_turn_db = std::min(best.worst_turn_db, of_turn);
-      best.best_turn_db = std::max(best.best_turn_db, of_turn);
-    }
-  }
-  return best;
-}
-
-std::string why_hard(const BestLink& link) {
-  if (!link.arrives) {
-    return "nothing of any antenna arrives there: something opaque stands between";
-  }
-  if (link.worst_turn_db < 0.0 && link.best_turn_db >= 0.0) {
-    return fmt::format("turned away: {:+.0f} dB as it lies best, {:+.0f} dB as it lies worst",
-                       link.best_turn_db, link.worst_turn_db);
-  }
-  if (link.median_db < 0.0) {
-    return fmt::format("too weak by {:.1f} dB in the median", -link.median_db);
-  }
-  return fmt::format("fading: {:.1f} dB to spare in the median, which notches take",
-                     link.median_db);
-}
-
 }  // namespace
-
-PlanProblem problem_of(const PlanSpec& plan, const LinkMatrix& matrix) {
-  return Builder(plan, matrix).build();
-}
 
 std::vector<PlannedAntenna> antennas_of(const PlanSpec& plan, const LinkMatrix& matrix,
                                         const PlanProblem& problem, const OptionSet& choice) {

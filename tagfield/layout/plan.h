@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tagfield/layout/link_matrix.h"
-#include "tagfield/layout/selection.h"
+#include "tagfield/layout/plan_problem.h"
 #include "tagfield/report/plan.h"
 #include "tagfield/scenario/plan_spec.h"
 
@@ -25,22 +25,6 @@ struct PlanRequest {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double share)> on_progress;
 };
-
-/// A way to mount one antenna, as SelectionProblem::options numbers it.
-struct PlanOption {
-  std::size_t column = 0;  ///< Of the matrix.
-  double power_dbm = 0.0;
-  double less_db = 0.0;  ///< Than what the matrix was evaluated with.
-};
-
-/// A plan as a problem of selection.
-struct PlanProblem {
-  SelectionProblem selection;
-  std::vector<PlanOption> options;
-  std::vector<std::string> zones;  ///< Names, by SelectionOption::zone.
-};
-
-PlanProblem problem_of(const PlanSpec& plan, const LinkMatrix& matrix);
 
 /// The antennas of a choice, with names and readers: of each zone as many readers as its ports
 /// need.

@@ -34,7 +34,7 @@ class ReadTags final : public ReadListener {
     tags_.insert(read.tag);
     const std::string& own = zones_.of_tag.at(read.tag);
     const std::string& readers = zones_.of_reader.at(read.reader);
-    if (!own.empty() && !readers.empty() && own != readers) crossed_.insert(read.tag);
+    if (is_crossing(readers, own)) crossed_.insert(read.tag);
   }
   [[nodiscard]] TagCounts counts() const {
     return {static_cast<double>(tags_.size()), static_cast<double>(crossed_.size())};

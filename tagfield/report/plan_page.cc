@@ -437,7 +437,8 @@ std::string check_text(const AntennaPlan& plan) {
       std::floor(layout.read.high));
   if (!plan.check->cross.empty()) {
     text += fmt::format(
-        " Cross reads, without the margin: {:.1f} tags in the mean; {:.1f} were forecast, and {} "
+        " Cross reads, with links as they are: {:.1f} tags in the mean; {:.1f} were forecast, and "
+        "{} "
         "of "
         "{} lie within {:.0f} to {:.0f}.",
         mean_of(plan.check->cross), layout.cross.mean, plan.check->cross_inside,

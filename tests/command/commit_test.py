@@ -144,6 +144,17 @@ def ended_as_soon_as_something_lies_in_the_folder(context):
 
 
 @case
+def without_memory_from_the_start(context):
+    """Where objects are made before main(), which nobody could catch an exception of."""
+    library = fault_library(context.folder)
+    for number in (10, 20, 33, 60, 102):
+        code, said = run_with(context, library, ["check", context.shipped("z_axis")],
+                              f"alloc:{number}+:ENOMEM")
+        check_equal((code, said), (2, "tagfield: there is not enough memory for this\n"),
+                    f"from allocation {number} on")
+
+
+@case
 def without_memory_while_a_folder_is_looked_through(context):
     """Where C++ ends the program, as an exception is thrown where none may leave."""
     library = fault_library(context.folder)

@@ -7,6 +7,7 @@
 
 import json
 import math
+import os
 import pathlib
 import random
 import shutil
@@ -430,7 +431,7 @@ def who_falls_behind_loses_its_own_oldest(context):
         slow.request("GET", "/api/reads")
         response = slow.getresponse()
         server.wait_for(lambda now: now["time"] > 600, "ten minutes are simulated", 60)
-        check_between(server.memory_mb(), 0, 300, "memory [MB]")
+        check_between(server.memory_mb(), 0, 1500 if "TAGFIELD_SANITIZED" in os.environ else 300, "memory [MB]")
         server.post("/api/pause")
         lines = []
         try:

@@ -110,8 +110,8 @@ Suite load_suite(const std::string& path);
 /// there is not asked.
 Suite suite_from_text(const std::string& text, const std::string& path);
 
-/// Of the worlds of all conditions, beside what their scenarios say.
-void allow(const WorldOptions& options, Suite& suite);
+/// Of all conditions, beside what their scenarios say.
+void set_world_options(const WorldOptions& options, Suite& suite);
 
 /// Only the methods and conditions of these names, in the suite's order; all where a list is empty.
 /// Conditions that none of the methods is left for go too. Throws Error on a name that there is

@@ -351,7 +351,7 @@ Suite suite_from_text(const std::string& text, const std::string& path) {
   }
 }
 
-void allow(const WorldOptions& options, Suite& suite) {
+void set_world_options(const WorldOptions& options, Suite& suite) {
   for (Condition& condition : suite.conditions) condition.world = options;
 }
 

@@ -2,11 +2,11 @@
 #include "tagfield/files/folder_entries.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/test/temporary_folder.h"
+#include "tagfield/files/test/no_more_files.h"
 
 namespace tagfield {
 namespace {
@@ -24,21 +24,23 @@ TEST(FolderEntries, AreSortedAndNoneWhereThereIsNoFolder) {
 
 TEST(FolderEntries, AreNotNoneWhereTheFolderCannotBeOpened) {
   const TemporaryFolder folder;
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
-  const int next = ::dup(STDERR_FILENO);  // The lowest one that is free.
-  ::close(next);
-  rlimit none = before;
-  none.rlim_cur = static_cast<rlim_t>(next);
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
   std::string complaint;
   try {
+    const NoMoreFiles limit;
     entries_of(folder.path());
   } catch (const Error& error) {
     complaint = error.what();
   }
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
   EXPECT_EQ(complaint, folder.path().string() + ": can't be looked through: Too many open files");
+}
+
+TEST(FolderEntries, AreNotNoneWhereTheWayThereIsBarred) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may look everywhere";
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "a/b");
+  std::filesystem::permissions(folder.path() / "a", std::filesystem::perms::none);
+  EXPECT_THROW(entries_of(folder.path() / "a/b"), Error);
+  std::filesystem::permissions(folder.path() / "a", std::filesystem::perms::owner_all);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/internal/own_files.h"
+#include "tagfield/files/test/no_more_files.h"
 
 namespace tagfield {
 namespace {
@@ -391,15 +392,10 @@ TEST(StagedFolder, LeavesItsListWhereNoMoreFilesCanBeOpened) {
   fs::create_directories(own / "truth");
   write_text_file((own / ".tagfield").string(), "# Tagfield\n");
   write_text_file((own / "truth/tags.csv").string(), "x\n");
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
-  const int next = ::dup(STDERR_FILENO);  // The lowest one that is free.
-  ::close(next);
-  rlimit none = before;
-  none.rlim_cur = static_cast<rlim_t>(next);
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
-  files_internal::delete_own_folder(own);
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  {
+    const NoMoreFiles limit;
+    files_internal::delete_own_folder(own);
+  }
   // Nothing is lost by which the next result knows that it may be cleared away.
   EXPECT_TRUE(files_internal::is_own_folder(own));
   EXPECT_TRUE(fs::exists(own / "truth/tags.csv"));

@@ -118,8 +118,8 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
       const std::string& zone = zone_of_reader[made.groups[group]];
       for (std::size_t tag = 0; tag < sample.crossed.size(); ++tag) {
         const std::string& own = plan_.tags[tags_[number][tag].group].zone;
-        const bool is_foreign = !zone.empty() && !own.empty() && zone != own;
-        if (is_foreign && made.read_by_group.front()[group][tag] != 0) sample.crossed[tag] = 1;
+        if (is_crossing(zone, own) && made.read_by_group.front()[group][tag] != 0)
+          sample.crossed[tag] = 1;
       }
     }
   });

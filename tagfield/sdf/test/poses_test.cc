@@ -152,11 +152,11 @@ TEST_F(LoadWorldPoses, FramesInACircleAreNowhere) {
 }
 
 TEST_F(LoadWorldPoses, FramesInCirclesOverModelsComeToAnEnd) {
-  // Each step has two ways on, which would double over and over.
+  // A circle in each of three models, and each step of an outer one goes all round the inner ones.
   const Scene scene = load(
       "<model name='m'><frame name='f' attached_to='n::g'/>"
-      "<model name='n'><pose relative_to='n::g'/><frame name='g' attached_to='__model__'>"
-      "<pose relative_to='g'/></frame></model>"
+      "<model name='n'><pose relative_to='n::g'/><frame name='g' attached_to='k::h'/>"
+      "<model name='k'><pose relative_to='k::h'/><frame name='h' attached_to='h'/></model></model>"
       "<link name='l'><pose relative_to='f'/>" +
       ball("c", "") + "</link></model>");
   EXPECT_EQ(scene.collisions.size(), 1U);

@@ -125,7 +125,9 @@ Reduced<D> reduce_to_tags(const JointSystem& system, const Linear<D>& linear) {
   }
   reduced.factors = factorize<D>(linear.chain);
   solve_forward(reduced.factors, reduced.couplings);
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(reduced.couplings.transpose(), -1.0);
+  if (unknowns > 0) {
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(reduced.couplings.transpose(), -1.0);
+  }
   reduced.tags.compute(normal.selfadjointView<Eigen::Lower>());
   return reduced;
 }
