@@ -205,6 +205,18 @@ def print_row(name, rows):
           f"{rms:8.2f} {mean:8.2f}", flush=True)
 
 
+def print_table(path, methods):
+    """What `tagfield bench` wrote of each tag, by method and condition, and by method."""
+    with open(path, newline="") as table:
+        rows = list(csv.DictReader(table))
+    print(f"{'':24} {'located':>12} {'wrong':>5} {'median':>8} {'95 %':>8} {'max mm':>8} {'err/exp':>8} {'NEES/dof':>8}")
+    for method in methods:
+        mine = [row for row in rows if row["name"] == method]
+        for condition in dict.fromkeys(row["condition"] for row in mine):
+            print_row(f"{method}, {condition}", [row for row in mine if row["condition"] == condition])
+        print_row(f"{method}, all", mine)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tagfield", default=str(ROOT / "build/release/bin/tagfield"))
@@ -223,14 +235,7 @@ def main():
         suite = write_suite(options, folder)
         subprocess.run([options.tagfield, "bench", str(suite), "--out", str(folder / "bench"), "--no-page",
                         "--threads", str(options.threads)], check=True, stdout=subprocess.DEVNULL)
-        with open(folder / "bench/tags.csv", newline="") as table:
-            rows = list(csv.DictReader(table))
-    print(f"{'':24} {'located':>12} {'wrong':>5} {'median':>8} {'95 %':>8} {'max mm':>8} {'err/exp':>8} {'NEES/dof':>8}")
-    for method in options.methods.split(","):
-        mine = [row for row in rows if row["name"] == method]
-        for condition in dict.fromkeys(row["condition"] for row in mine):
-            print_row(f"{method}, {condition}", [row for row in mine if row["condition"] == condition])
-        print_row(f"{method}, all", mine)
+        print_table(folder / "bench/tags.csv", options.methods.split(","))
 
 
 if __name__ == "__main__":

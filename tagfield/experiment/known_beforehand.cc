@@ -60,6 +60,18 @@ std::optional<PoseErrorModel> pose_error_of(const Scenario& scenario) {
   return PoseErrorModel{pose.sigma_m, pose.yaw_sigma_rad, pose.time_constant_s};
 }
 
+/// Whose waves turn the phases of tags with one wire.
+std::map<std::string, Hand> circular_antennas(const Scenario& scenario) {
+  std::map<std::string, Hand> circular;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    const auto kind = polarization_of(antenna.parameters);
+    if (!kind || *kind == PolarizationKind::kLinear) continue;
+    circular[antenna.parameters.name] =
+        *kind == PolarizationKind::kRightCircular ? Hand::kRight : Hand::kLeft;
+  }
+  return circular;
+}
+
 }  // namespace
 
 KnownBeforehand known_beforehand(const Scenario& scenario) {
@@ -72,6 +84,7 @@ KnownBeforehand known_beforehand(const Scenario& scenario) {
   known.area = scenario.localization.area;
   known.limits = scenario.localization.limits;
   known.trace = traced_replies(scenario);
+  known.circular = circular_antennas(scenario);
   // Between two updates an antenna's poses are as far apart as its rate says.
   for (const AntennaSpec& antenna : scenario.antennas) {
     known.max_pose_gap_s = std::max(known.max_pose_gap_s, 1.5 / antenna.parameters.rate_hz);

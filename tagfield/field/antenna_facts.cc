@@ -29,4 +29,12 @@ std::optional<double> transmit_power_dbm(const AntennaParameters& antenna) {
   return radio->transmit_power_dbm;
 }
 
+std::optional<PolarizationKind> polarization_of(const AntennaParameters& antenna) {
+  const RadioModel* const radio = physical(antenna);
+  if (radio == nullptr || !radio->effects.polarization || radio->X_AR) return std::nullopt;
+  // Of a wire the field is linear, whatever is said besides.
+  if (radio->antenna.shape == PatternShape::kDipole) return PolarizationKind::kLinear;
+  return radio->antenna.polarization;
+}
+
 }  // namespace tagfield

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "tagfield/channel/antenna_pattern.h"
 #include "tagfield/reader/antenna.h"
 
 namespace tagfield {
@@ -28,5 +29,9 @@ std::optional<StatedPhase> stated_phase(const AntennaParameters& antenna);
 
 /// At the reader's port; the paper's model knows no power.
 std::optional<double> transmit_power_dbm(const AntennaParameters& antenna);
+
+/// How waves are polarized to which replies owe their phases; none where that does nothing to them
+/// (the paper's model, without that effect) or several antennas have a part in it.
+std::optional<PolarizationKind> polarization_of(const AntennaParameters& antenna);
 
 }  // namespace tagfield

@@ -24,12 +24,6 @@ struct AimedSeries {
   double independent = 0.0;  ///< So many of them, by their fading.
 };
 
-bool is_told(const BelievedTrack& track) {
-  return std::any_of(track.X_WA.begin(), track.X_WA.end(), [](const auto& stamped) {
-    return !stamped.X_WB.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
-  });
-}
-
 double independent_along(const LocalizationProblem& problem, const std::vector<AimedRead>& reads,
                          double frequency_hz) {
   constexpr std::size_t kEnough = 400;
@@ -48,7 +42,7 @@ std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,
   std::vector<AimedSeries> all;
   for (const auto& [antenna, series] : samples) {
     const auto track = problem.tracks.find(antenna);
-    if (track == problem.tracks.end() || !is_told(track->second)) continue;
+    if (track == problem.tracks.end() || !is_orientation_told(track->second)) continue;
     AimedSeries aimed;
     double frequency_hz = 0.0;
     for (const PhaseSample& sample : series) {

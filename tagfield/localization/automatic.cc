@@ -27,7 +27,7 @@ constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
 /// So many reads that are worth one are no noise: noise alone leaves 1 to 1.5, reflections 5 and
 /// more over decimetres.
 constexpr double kSlow = 3.0;
-constexpr double kReflected = 3.0;  ///< A misfit so many times the noise is not noise.
+constexpr double kReflected = 1.6;  ///< A misfit so many times the noise is not noise.
 /// Misfit of the joint estimate over the noise: 0.7 to 0.9 with all sorts of pose errors, 2.6
 /// to 3.7 in a hall with reflections (docs/estimators.md).
 constexpr double kLeftOver = 1.6;

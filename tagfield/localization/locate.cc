@@ -6,6 +6,7 @@
 #include "tagfield/localization/aim.h"
 #include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/automatic.h"
+#include "tagfield/localization/circular_polarization.h"
 #include "tagfield/localization/confirmation.h"
 #include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/holograms/dah.h"
@@ -68,9 +69,37 @@ bool is_by_phase(const std::string& method) {
                      [&](const char* name) { return method == name; });
 }
 
-LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
-                                  int threads, Diagnostics& diagnostics) {
+namespace {
+
+/// A place by the phases as they are tells how tags' wires turn them; then they are located anew
+/// without those turns.
+LocalizationResult located_but_for_wires(const Method& method, LocalizationProblem& problem,
+                                         int threads, Diagnostics& diagnostics) {
+  if (problem.circular.empty() || !problem.has_phases) {
+    return method.locate(problem, threads, diagnostics);
+  }
+  Diagnostics of_first;
+  LocalizationResult first = method.locate(problem, threads, of_first);
+  // Traced replies have their turns already.
+  const bool is_blind = is_by_phase(first.method) && first.method != "multipath";
+  const PolarizationAllowance allowance =
+      is_blind ? allow_for_polarization(problem, first, threads) : PolarizationAllowance{};
+  if (allowance.added.empty()) {
+    for (const std::string& warning : of_first.warnings()) diagnostics.warn(warning);
+    return first;
+  }
+  problem.samples = allowance.problem.samples;
   LocalizationResult result = method.locate(problem, threads, diagnostics);
+  add_polarization_error(allowance, result);
+  return result;
+}
+
+}  // namespace
+
+LocalizationResult locate_problem(const Method& method, const LocalizationProblem& given,
+                                  int threads, Diagnostics& diagnostics) {
+  LocalizationProblem problem = given;
+  LocalizationResult result = located_but_for_wires(method, problem, threads, diagnostics);
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {

@@ -148,7 +148,14 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
   problem.map_error = map_error_of(known, problem.tracks);
   problem.limits = known.limits;
   problem.trace = known.trace;
+  problem.circular = known.circular;
   return problem;
+}
+
+bool is_orientation_told(const BelievedTrack& track) {
+  return std::any_of(track.X_WA.begin(), track.X_WA.end(), [](const auto& stamped) {
+    return !stamped.X_WB.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
+  });
 }
 
 double plane_height(const LocalizationProblem& problem, const std::string& tag) {

@@ -128,12 +128,18 @@ struct BelievedTrack {
   std::vector<Eigen::Matrix3d> covariance;
 };
 
+/// Whether it says how the antenna lay: of a track that doesn't all rotations are the identity.
+bool is_orientation_told(const BelievedTrack& track);
+
 /// A phase offset that is known, as from a calibration.
 struct KnownOffset {
   std::string antenna;
   std::optional<double> frequency_hz;  ///< Of one channel; none for all of them.
   double offset_rad = 0.0;             ///< φ = offset + 4π r/λ.
 };
+
+/// Of circular polarization, as seen along the wave.
+enum class Hand { kRight, kLeft };
 
 /// An estimate worse than this is not given as located.
 struct EstimateLimits {
@@ -166,6 +172,9 @@ struct LocalizationProblem {
   std::map<std::string, BelievedTrack> tracks;  ///< By antenna.
   TagHeights heights;
   std::map<std::string, Eigen::Vector3d> reference_tags;  ///< Tags at known places [m, world].
+  /// Antennas that send and receive circularly polarized waves by one element, and so turn the
+  /// phase of a tag with one wire (circular_polarization.h).
+  std::map<std::string, Hand> circular;
   std::set<std::string> offset_known;        ///< Antennas whose offset is known, in all channels.
   std::optional<PoseErrorModel> pose_error;  ///< None where nothing is known of it.
   std::optional<MapError> map_error;         ///< Likewise; with an origin.
@@ -192,6 +201,7 @@ struct KnownBeforehand {
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace{};  ///< Through the world, where that is known. Called by several threads.
+  std::map<std::string, Hand> circular{};  ///< Antennas that are known to be circularly polarized.
 };
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
