@@ -3,7 +3,11 @@
 // of Embree itself with the same rays, in the small warehouse and, where the environment's
 // TAGFIELD_AWS_WORLD names it, in the AWS warehouse. BENCHMARK.md has the results and the command.
 #include <benchmark/benchmark.h>
+#if TAGFIELD_EMBREE >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <cmath>
 #include <cstdlib>
@@ -119,9 +123,13 @@ float intersect_one(RTCScene scene, const Ray& ray) {
   hit.ray.tfar = ray.most_m;
   hit.ray.mask = ~0U;
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if TAGFIELD_EMBREE >= 4
+  rtcIntersect1(scene, &hit);
+#else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &hit);
+#endif
   return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
                                                    : hit.ray.tfar;
 }

@@ -108,6 +108,11 @@ function(tagfield_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wold-style-cast -Werror)
+  # From version 13 on GCC warns of every reference that a function gives where one of its arguments is a temporary,
+  # such as a name that is looked for.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+    target_compile_options(${target} PRIVATE -Wno-dangling-reference)
+  endif()
   if(CMAKE_UNITY_BUILD)
     target_compile_options(${target} PRIVATE ${tagfield_unity_options})
   endif()

@@ -6,47 +6,30 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <string>
 #include <thread>
 
-namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+#include "fast_dds.h"
 
 namespace {
 
 using Twist = std::array<double, 6>;  // linear x y z, angular x y z
 
 /// CDR of six numbers: they follow one another.
-class TwistType : public fast::TopicDataType {
+class TwistType : public FastType {
  public:
-  TwistType() {
-    setName("geometry_msgs::msg::dds_::Twist_");
-    m_typeSize = sizeof(Twist) + 4;
-    m_isGetKeyDefined = false;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+  TwistType() : FastType("geometry_msgs::msg::dds_::Twist_", sizeof(Twist) + 4) {}
+  bool write(const void* data, rtps::SerializedPayload_t& payload) override {
     const unsigned char header[] = {0, 1, 0, 0};
-    std::memcpy(payload->data, header, sizeof header);
-    std::memcpy(payload->data + sizeof header, data, sizeof(Twist));
-    payload->length = m_typeSize;
+    std::memcpy(payload.data, header, sizeof header);
+    std::memcpy(payload.data + sizeof header, data, sizeof(Twist));
+    payload.length = sizeof header + sizeof(Twist);
     return true;
   }
-  bool deserialize(rtps::SerializedPayload_t* /*payload*/, void* /*data*/) override {
-    return false;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
-    return [] { return static_cast<std::uint32_t>(sizeof(Twist) + 4); };
-  }
-  void* createData() override { return new Twist; }
-  void deleteData(void* data) override { delete static_cast<Twist*>(data); }
-  bool getKey(void* /*data*/, rtps::InstanceHandle_t* /*handle*/, bool /*force*/) override {
-    return false;
-  }
+  void* create() override { return new Twist; }
+  void destroy(void* data) override { delete static_cast<Twist*>(data); }
 };
 
 }  // namespace

@@ -7,20 +7,12 @@
 // With ":local" it knows no multicast, and looks for others on this machine alone.
 // Prints a JSON line for each participant, writer and message: kind, name, what it tells of itself,
 // and the bytes of messages in hexadecimal. Ends once nothing has come for so long.
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-#include <fastrtps/utils/IPLocator.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <iomanip>
 #include <iostream>
 #include <mutex>
@@ -29,8 +21,7 @@
 #include <thread>
 #include <vector>
 
-namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+#include "fast_dds.h"
 
 namespace {
 
@@ -57,44 +48,26 @@ std::string hexadecimal(const Bytes& bytes) {
 }
 
 /// Any type: the bytes as they came.
-class RawType : public fast::TopicDataType {
+class RawType : public FastType {
  public:
-  explicit RawType(const std::string& name) {
-    setName(name.c_str());
-    m_typeSize = 1'000'000;
-    m_isGetKeyDefined = false;
-  }
-  bool serialize(void* /*data*/, rtps::SerializedPayload_t* /*payload*/) override { return false; }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    static_cast<Bytes*>(data)->assign(payload->data, payload->data + payload->length);
+  explicit RawType(const std::string& name) : FastType(name, 1'000'000) {}
+  bool read(const rtps::SerializedPayload_t& payload, void* data) override {
+    static_cast<Bytes*>(data)->assign(payload.data, payload.data + payload.length);
     return true;
   }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
-    return [] { return 0U; };
-  }
-  void* createData() override { return new Bytes; }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void* /*data*/, rtps::InstanceHandle_t* /*handle*/, bool /*force*/) override {
-    return false;
-  }
+  void* create() override { return new Bytes; }
+  void destroy(void* data) override { delete static_cast<Bytes*>(data); }
 };
 
-class Discovery : public fast::DomainParticipantListener {
+class Discovery : public FastDiscovery {
  public:
-  void on_participant_discovery(fast::DomainParticipant* /*own*/,
-                                rtps::ParticipantDiscoveryInfo&& info) override {
-    if (info.status != rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT) return;
-    const auto& data = info.info.m_userData;
-    print(R"({"kind": "participant", "user_data": ")" + std::string(data.begin(), data.end()) +
-          "\"}");
+  void found_participant(const std::string& user_data) override {
+    print(R"({"kind": "participant", "user_data": ")" + user_data + "\"}");
   }
-  void on_publisher_discovery(fast::DomainParticipant* /*own*/,
-                              rtps::WriterDiscoveryInfo&& info) override {
-    if (info.status != rtps::WriterDiscoveryInfo::DISCOVERED_WRITER) return;
-    const auto& data = info.info.m_qos.m_userData;
-    print(R"({"kind": "writer", "topic": ")" + info.info.topicName().to_string() +
-          R"(", "type": ")" + info.info.typeName().to_string() + R"(", "user_data": ")" +
-          std::string(data.begin(), data.end()) + "\"}");
+  void found_writer(const std::string& topic, const std::string& type,
+                    const std::string& user_data) override {
+    print(R"({"kind": "writer", "topic": ")" + topic + R"(", "type": ")" + type +
+          R"(", "user_data": ")" + user_data + "\"}");
   }
 };
 
@@ -103,8 +76,7 @@ class Messages : public fast::DataReaderListener {
   void on_data_available(fast::DataReader* reader) override {
     Bytes bytes;
     fast::SampleInfo info;
-    while (reader->take_next_sample(&bytes, &info) ==
-           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&bytes, &info) == fast_ok) {
       if (!info.valid_data) continue;
       print(R"({"kind": "message", "topic": ")" + reader->get_topicdescription()->get_name() +
             R"(", "cdr": ")" + hexadecimal(bytes) + "\"}");

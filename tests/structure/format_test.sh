@@ -6,6 +6,9 @@
 set -euo pipefail
 cd "$1"
 command -v clang-format >/dev/null || { echo "skipped: clang-format is not installed"; exit 77; }
+# Each version puts some lines elsewhere, whatever .clang-format says.
+version=$(clang-format --version | sed -E 's/.*version ([0-9]+).*/\1/')
+[[ "$version" == 14 ]] || { echo "skipped: the form is that of clang-format 14, and here is $version"; exit 77; }
 files=$(mktemp)
 trap 'rm -f "$files"' EXIT
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/sdf/internal/mesh_file.h"
 
+#include <assimp/version.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -215,11 +216,13 @@ TEST_F(MeshFileTest, IndicesOfAColladaFileAreWholeNumbers) {
 
 TEST_F(MeshFileTest, AFileThatBreaksTheLibraryIsAnError) {
   std::string text = as_collada(brick(), "1", "Z_UP");
-  text.replace(text.find(" count="), 7,
-               " c0unt=");  // Of a float_array: assimp 5.2.5 follows a null pointer.
+  // Of a float_array: assimp 5.2.5 follows a null pointer, and 5.4.3 says so.
+  text.replace(text.find(" count="), 7, " c0unt=");
   const std::string error = error_of(write("breaks.dae", text));
-  EXPECT_NE(error.find("breaks.dae: the library that reads it broke down"), std::string::npos)
-      << error;
+  const bool breaks = aiGetVersionMajor() == 5 && aiGetVersionMinor() <= 2;
+  const std::string said =
+      breaks ? "the library that reads it broke down" : "can't be read as a mesh";
+  EXPECT_NE(error.find("breaks.dae: " + said), std::string::npos) << error;
 }
 
 TEST_F(MeshFileTest, SubmeshPicksAColladaNode) {
