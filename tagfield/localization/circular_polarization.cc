@@ -13,7 +13,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/localization/fit_candidates.h"
-#include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
@@ -160,8 +160,7 @@ Equations equations_at(const PolarizedReads& reads, const WirePoint& point) {
   const Vector3d p_WT = to_place(reads.height, point.place);
   const Eigen::Matrix<double, 3, 2> across = tangents(point.axis_W);
   for (Eigen::Index i = 0; i < phases.size(); ++i) {
-    const Range range =
-        range_to(reads.height, point.place, phases.x[i], phases.y[i], phases.z[i]);
+    const Range range = range_to(reads.height, point.place, phases.x[i], phases.y[i], phases.z[i]);
     Unknowns row = Unknowns::Zero();
     row.head<3>() = range.gradient;
     double turn_m = 0.0;
@@ -252,14 +251,15 @@ WireFits fits_near(const PolarizedReads& reads, const Vector3d& p_WT) {
   return all;
 }
 
-/// Whether the fit leaves no more than noise: reflections and pose errors bend phases as wires do,
-/// and no wire is to be learnt from those.
+/// Whether the fit leaves no more than noise, little of it: reflections and pose errors bend phases
+/// as wires do, and no wire is to be learnt from those. Differences of neighbours alone don't tell,
+/// as what is reflected far away changes from read to read.
 bool is_clean(const PolarizedReads& reads, const WirePoint& fit) {
   const std::vector<double> differences = neighbour_differences(reads.phases, fit.errors);
   if (differences.empty()) return false;
-  const double left_rad =
-      std::sqrt((fit.errors * reads.phases.wavenumber).square().mean());
-  return left_rad < kMostLeft * noise_of_differences(differences);
+  const Eigen::ArrayXd left_rad = fit.errors * reads.phases.wavenumber;
+  return left_rad.cos().mean() > kBentShare &&
+         std::sqrt(left_rad.square().mean()) < kMostLeft * noise_of_differences(differences);
 }
 
 /// By where the place would be for directions all around, each as likely, against where no turn
@@ -336,8 +336,8 @@ struct TagAllowance {
 TagAllowance allowance_of(const LocalizationProblem& problem, const TagEstimate& estimate) {
   TagAllowance allowance;
   const PolarizedReads reads = reads_of(problem, estimate.tag);
-  const bool any = std::any_of(reads.hand.begin(), reads.hand.end(),
-                               [](double hand) { return hand != 0.0; });
+  const bool any =
+      std::any_of(reads.hand.begin(), reads.hand.end(), [](double hand) { return hand != 0.0; });
   if (!any || static_cast<std::size_t>(reads.phases.size()) < kFewestReads + kFewestSpare) {
     return allowance;
   }

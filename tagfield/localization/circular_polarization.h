@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the phase of a circularly polarized antenna adds on the way to a tag with one wire: it turns
-/// with the direction in which the tag is seen, by where the wire points, which nobody knows.
+/// What the phase of a circularly polarized antenna adds on the way to a tag with one wire: it
+/// turns with the direction in which the tag is seen, by where the wire points, which nobody knows.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,10 +25,10 @@ struct PolarizationAllowance {
   std::map<std::string, Eigen::Matrix2d> added;
 };
 
-/// For each tag of which `result` has a place, the wire's direction is fitted with the place near it
-/// and an offset for each antenna and channel, by least squares from directions all around. Nothing
-/// of tags for which two places fit, of antennas that are not in `problem.circular`, and of those
-/// whose orientation is not told (all poses are the identity).
+/// For each tag of which `result` has a place, the wire's direction is fitted with the place near
+/// it and an offset for each antenna and channel, by least squares from directions all around.
+/// Nothing of tags for which two places fit, of antennas that are not in `problem.circular`, and of
+/// those whose orientation is not told (all poses are the identity).
 PolarizationAllowance allow_for_polarization(const LocalizationProblem& problem,
                                              const LocalizationResult& result, int threads);
 
