@@ -243,6 +243,12 @@ void try_folder(const std::string& out) {
   const StagedFolder tried(out);
 }
 
+bool tell_orientation(const std::vector<AntennaPose>& poses) {
+  return std::any_of(poses.begin(), poses.end(), [](const AntennaPose& pose) {
+    return !pose.X_WA.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
+  });
+}
+
 }  // namespace
 
 int localize(const LocalizeArguments& arguments) {
@@ -259,6 +265,11 @@ int localize(const LocalizeArguments& arguments) {
   if (!arguments.calibration.empty()) {
     apply_calibration(read_calibration(arguments.calibration), recording.reads,
                       recording.poses.poses, options.known);
+  }
+  if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
+    diagnostics.warn(
+        "--circular does nothing: the poses don't say how the antennas lie (they are "
+        "all unturned)");
   }
   if (recording.reads.empty()) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");

@@ -25,6 +25,7 @@ struct LocalizeArguments {
   std::string heights_file;          ///< CSV, or "".
   std::string height_side;           ///< "above", "below", or "".
   std::string old_height_side;       ///< The same by the option's former name.
+  std::string circular;              ///< "right" or "left" polarized antennas, or "".
   std::string side;                  ///< Of the way, on which tags are, or "".
   std::vector<double> box;           ///< X0 Y0 X1 Y1 in which tags are, or empty.
   std::string references_file;       ///< CSV, or "".

@@ -102,6 +102,12 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->group("");
   command
       .add_option(
+          "--circular", arguments.circular,
+          "right or left: the antennas are polarized so, and what that does to the phase by "
+          "how a tag's wire lies is allowed for; wants their orientation in the poses")
+      ->check(CLI::IsMember({"right", "left"}));
+  command
+      .add_option(
           "--side", arguments.side,
           "Side of the antennas' path on which tags are: left or right of the motion, or +x, "
           "-x, +y, -y")
@@ -158,6 +164,9 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
     known.reference_tags = read_tag_places_csv(arguments.references_file);
   }
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
+  if (arguments.circular.empty()) return;
+  const Hand hand = arguments.circular == "right" ? Hand::kRight : Hand::kLeft;
+  for (const TagRead& read : reads) known.circular[read.antenna] = hand;
 }
 
 std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses) {

@@ -18,8 +18,8 @@ namespace tagfield {
 /// Adds the options for heights, reference tags, offsets and the error of the poses.
 void add_known_options(CLI::App& command, LocalizeArguments& arguments);
 
-/// Replaces in `known` what the command line says of heights, reference tags and offsets. Throws
-/// Error on an offset of an antenna that has no reads.
+/// Replaces in `known` what the command line says of heights, reference tags, offsets and
+/// polarization. Throws Error on an offset of an antenna that has no reads.
 void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
                 KnownBeforehand& known);
 

@@ -259,6 +259,7 @@ def bad_words_for_what_is_known(context):
     localize(context, read_rows({"one": TAGS["one"]}), pose_rows())
     context.write("twice.csv", "tag,x_m,y_m,z_m\none,1,2,3\none,1,2,3\n")
     for words, says in ((["--vertical-side", "beside"], "--vertical-side"),
+                        (["--circular", "round"], "--circular"),
                         (["--vertical-side", "above", "--tag-height", "1"], "--vertical-side"),
                         (["--offset", "half"], "expected RAD or ANTENNA=RAD"),
                         (["--offset", "a=nan"], "expected RAD or ANTENNA=RAD"),
@@ -575,6 +576,42 @@ def sides_and_boxes_choose_between_mirror_images(context):
         if verdict == "located":
             sign = 1 if float(rows[0]["y_m"]) > 1.63 else -1
             check_equal(sign, -1 if "--side=-y" in more else 1, f"side with {more}")
+
+
+def turned(rows):
+    """Reads as of a right-circular antenna that looks to its left, along y, and a wire at 45° along the path."""
+    more = []
+    for row in rows:
+        values = row.split(",")
+        x, y, z = path(float(values[0]))
+        way = [a - b for a, b in zip(FARTHER[values[3]], (x, y, z))]
+        u = [a / math.hypot(*way) for a in way]
+        wire = (0.5 ** 0.5, 0, 0.5 ** 0.5)
+        along = sum(a * b for a, b in zip(u, wire))
+        across = [w - along * a for w, a in zip(wire, u)]
+        # Its left is −x, as it looks along y.
+        turn = -2 * math.atan2(-across[0], across[2])
+        values[5] = f"{(float(values[5]) + turn) % (2 * math.pi):.6f}"
+        more.append(",".join(values))
+    return more
+
+
+FARTHER = {"t": (3.0, 1.8, HEIGHT + 0.7)}
+
+
+@case
+def circular_antennas_turn_phases_by_the_wire(context):
+    looking = [row.replace(",0,0,0,1", ",0,0,0.7071067811865476,0.7071067811865476") for row in pose_rows()]
+    height = ("--method", "ml", "--pose-sigma", "0", "--tag-height", str(FARTHER["t"][2]))
+    off = {}
+    for words in ((), ("--circular", "right")):
+        _, estimates, _ = localize(context, turned(read_rows(FARTHER)), looking, *height, *words)
+        off[words] = math.dist((float(estimates["t"]["x_m"]), float(estimates["t"]["y_m"])), FARTHER["t"][:2])
+        expected = float(estimates["t"]["expected_error_m"])
+    check(off["--circular", "right"] < 3 * expected and off["--circular", "right"] < 0.5 * off[()],
+          f"errors {off}, {expected} expected with --circular")
+    result, _, _ = localize(context, read_rows(FARTHER), pose_rows(), *height, "--circular", "left")
+    check("--circular does nothing" in result.stderr, f"no warning of poses without orientation: {result.stderr}")
 
 
 @case
