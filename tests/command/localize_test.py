@@ -611,7 +611,7 @@ def circular_antennas_turn_phases_by_the_wire(context):
     check(off["--circular", "right"] < 3 * expected and off["--circular", "right"] < 0.5 * off[()],
           f"errors {off}, {expected} expected with --circular")
     result, _, _ = localize(context, read_rows(FARTHER), pose_rows(), *height, "--circular", "left")
-    check("--circular does nothing" in result.stderr, f"no warning of poses without orientation: {result.stderr}")
+    check("--circular does nothing" in result.err, f"no warning of poses without orientation: {result.err}")
 
 
 @case

@@ -306,11 +306,13 @@ def what_others_change_is_told_while_paused(context):
 
 @case
 def a_cable_that_is_off_reads_nothing(context):
-    with served(context, context.shipped(PORTAL), "--speed", "20") as server:
+    # Paused until then: what was read before the cable was off is told, too.
+    with served(context, context.shipped(PORTAL), "--speed", "20", "--paused") as server:
         server.post("/api/antennas/port_1/disconnect")
         status, answer = server.ask("GET", "/api/explain?antenna=port_1&tag=tag_01")
         check_equal((status, answer.get("error")), (400, "antenna 'port_1' is disconnected"),
                     "explanation")
+        server.post("/api/resume")
         lines = reads_of(server, 500)
         check_equal({line["antennaName"] for line in lines}, {"port_2", "port_3", "port_4"},
                     "antennas")
