@@ -134,25 +134,11 @@ def antenna_yaml(name, side):
 """
 
 
-def write_scenario(hall, number, order, folder):
-    world = folder / f"hall{number}.sdf"
-    write_world(hall, world)
-    (x0, y0), *way = hall.way
+def drive_yaml(way, tags, order):
+    """A robot along the way, with its antennas; tags, as lines; and how those are located."""
+    (x0, y0), *way = way
     heading = math.atan2(way[0][1] - y0, way[0][0] - x0)
-    materials = "\n".join(f"    {name}: {material}" for name, material, _, _ in hall.boxes)
-    tags = "\n".join(
-        f"  - {{id: tag{i}, position: [{p[0]:.4f}, {p[1]:.4f}, {p[2]:.4f}], rpy: [0, 0, {side * math.pi / 2:.6f}]}}"
-        for i, (p, side) in enumerate(hall.tags))
-    path = folder / f"hall{number}.yaml"
-    path.write_text(f"""name: hall{number}
-model: multipath
-tag_profile: {ROOT}/profiles/tags/monza_r6.yaml
-world:
-  path: {world}
-  materials:
-    floor: concrete
-{materials}
-robots:
+    return f"""robots:
   - name: robot
     start: [{x0:.3f}, {y0:.3f}, {heading:.5f}]
     speed_m_s: 0.3
@@ -166,20 +152,37 @@ tags:
 localization:
   method: auto
   tag_heights: known
-""")
+"""
+
+
+def write_scenario(hall, number, order, folder):
+    world = folder / f"hall{number}.sdf"
+    write_world(hall, world)
+    materials = "\n".join(f"    {name}: {material}" for name, material, _, _ in hall.boxes)
+    tags = "\n".join(
+        f"  - {{id: tag{i}, position: [{p[0]:.4f}, {p[1]:.4f}, {p[2]:.4f}], rpy: [0, 0, {side * math.pi / 2:.6f}]}}"
+        for i, (p, side) in enumerate(hall.tags))
+    path = folder / f"hall{number}.yaml"
+    path.write_text(f"""name: hall{number}
+model: multipath
+tag_profile: {ROOT}/profiles/tags/monza_r6.yaml
+world:
+  path: {world}
+  materials:
+    floor: concrete
+{materials}
+{drive_yaml(hall.way, tags, order)}""")
     return path
 
 
-def write_suite(options, folder):
+def write_suite(name, scenarios, options, folder):
+    """Of scenarios by the names of their conditions."""
     pose = "" if options.pose == "true" else (
         "\n    set: {pose.source: noisy, pose.sigma_m: 0.01, pose.yaw_sigma_deg: 0.5, "
         "pose.time_constant_s: 5}\n    believed: unknown")
-    conditions = []
-    for number in range(options.first, options.first + options.halls):
-        scenario = write_scenario(Hall(number), number, options.order, folder)
-        conditions.append(f"  - name: hall {number}\n    scenario: {scenario}{pose}")
-    suite = folder / "halls.yaml"
-    suite.write_text(f"name: halls\nseeds: {options.seeds}\nmethods: [{options.methods}]\n"
+    conditions = [f"  - name: {condition}\n    scenario: {scenario}{pose}" for condition, scenario in scenarios.items()]
+    suite = folder / f"{name}.yaml"
+    suite.write_text(f"name: {name}\nseeds: {options.seeds}\nmethods: [{options.methods}]\n"
                      "conditions:\n" + "\n".join(conditions) + "\n")
     return suite
 
@@ -232,7 +235,10 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = (options.out or pathlib.Path(temporary)).resolve()
         folder.mkdir(parents=True, exist_ok=True)
-        suite = write_suite(options, folder)
+        numbers = range(options.first, options.first + options.halls)
+        scenarios = {f"hall {number}": write_scenario(Hall(number), number, options.order, folder)
+                     for number in numbers}
+        suite = write_suite("halls", scenarios, options, folder)
         subprocess.run([options.tagfield, "bench", str(suite), "--out", str(folder / "bench"), "--no-page",
                         "--threads", str(options.threads)], check=True, stdout=subprocess.DEVNULL)
         print_table(folder / "bench/tags.csv", options.methods.split(","))

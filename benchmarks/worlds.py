@@ -157,37 +157,19 @@ def draw_tags(floor, route, count, before_m, rng):
 
 
 def write_scenario(name, world, route, tags, options, path):
-    (x0, y0), *way = route
-    heading = math.atan2(way[0][1] - y0, way[0][0] - x0)
     listed = "\n".join(f"  - {{id: tag{i}, position: [{x:.4f}, {y:.4f}, {z:.4f}], rpy: [0, 0, {yaw:.5f}]}}"
                        for i, (x, y, z, yaw) in enumerate(tags))
     path.write_text(f"""name: {name}
 model: multipath
 tag_profile: {halls.ROOT}/profiles/tags/monza_r6.yaml
 {world_yaml(world, options.model_path)}
-robots:
-  - name: robot
-    start: [{x0:.3f}, {y0:.3f}, {heading:.5f}]
-    speed_m_s: 0.3
-    look_ahead_m: 0.5
-    waypoints: [{", ".join(f"[{x:.3f}, {y:.3f}]" for x, y in way)}]
-antennas:
-{halls.antenna_yaml("left", 1)}    reflection_order: {options.order}
-{halls.antenna_yaml("right", -1)}    reflection_order: {options.order}
-tags:
-{listed}
-localization:
-  method: auto
-  tag_heights: known
-""")
+{halls.drive_yaml(route, listed, options.order)}""")
     return path
 
 
-def write_suite(options, folder):
-    pose = "" if options.pose == "true" else (
-        "\n    set: {pose.source: noisy, pose.sigma_m: 0.01, pose.yaw_sigma_deg: 0.5, "
-        "pose.time_constant_s: 5}\n    believed: unknown")
-    conditions = []
+def write_scenarios(options, folder):
+    """By name, of all drives through all worlds."""
+    scenarios = {}
     for world in options.worlds:
         floor = Floor(world, options.model_path)
         for number in range(1, options.drives + 1):
@@ -198,12 +180,8 @@ def write_suite(options, folder):
                 print(f"{world.stem} {number}: no route past surfaces was found")
                 continue
             name = f"{world.stem}_{number}"
-            scenario = write_scenario(name, world, route, tags, options, folder / f"{name}.yaml")
-            conditions.append(f"  - name: {name}\n    scenario: {scenario}{pose}")
-    suite = folder / "worlds.yaml"
-    suite.write_text(f"name: worlds\nseeds: {options.seeds}\nmethods: [{options.methods}]\n"
-                     "conditions:\n" + "\n".join(conditions) + "\n")
-    return suite
+            scenarios[name] = write_scenario(name, world, route, tags, options, folder / f"{name}.yaml")
+    return scenarios
 
 
 def main():
@@ -225,7 +203,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = (options.out or pathlib.Path(temporary)).resolve()
         folder.mkdir(parents=True, exist_ok=True)
-        suite = write_suite(options, folder)
+        suite = halls.write_suite("worlds", write_scenarios(options, folder), options, folder)
         command = [options.tagfield, "bench", str(suite), "--out", str(folder / "bench"), "--no-page",
                    "--threads", str(options.threads), "--allow-outside", "--skip-missing"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
