@@ -244,9 +244,10 @@ void try_folder(const std::string& out) {
 }
 
 bool tell_orientation(const std::vector<AntennaPose>& poses) {
-  return std::any_of(poses.begin(), poses.end(), [](const AntennaPose& pose) {
-    return !pose.X_WA.rotation.isApprox(Eigen::Quaterniond::Identity(), 1e-9);
-  });
+  Diagnostics unheard;
+  const auto tracks = tracks_of(poses, unheard);
+  return std::any_of(tracks.begin(), tracks.end(),
+                     [](const auto& track) { return is_orientation_told(track.second); });
 }
 
 }  // namespace

@@ -27,9 +27,8 @@ constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
 /// So many reads that are worth one are no noise: noise alone leaves 1 to 1.5, reflections 5 and
 /// more over decimetres.
 constexpr double kSlow = 3.0;
-constexpr double kReflected = 1.6;  ///< A misfit so many times the noise is not noise.
-/// Misfit of the joint estimate over the noise: 0.7 to 0.9 with all sorts of pose errors, 2.6
-/// to 3.7 in a hall with reflections (docs/estimators.md).
+/// A misfit so many times the noise is not noise. Of the joint estimate it is 0.7 to 0.9 with all
+/// sorts of pose errors, 2.6 to 3.7 in a hall with reflections (docs/estimators.md).
 constexpr double kLeftOver = 1.6;
 
 /// Of an even number the lesser: one odd tag of two is no sign of reflections. 0 of none.
@@ -292,7 +291,7 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   if (!traits.pose_is_exact) {
     return {"joint", "the pose is not exact: its error is estimated with the tags"};
   }
-  if (traits.misfit > kReflected) {
+  if (traits.misfit > kLeftOver) {
     return {"robust", fmt::format("with an exact pose the misfit is {:.1f} times the noise, as "
                                   "reflections make it",
                                   traits.misfit)};

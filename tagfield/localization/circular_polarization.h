@@ -5,6 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "tagfield/localization/method.h"
 
@@ -16,23 +19,26 @@ namespace tagfield {
 double polarization_turn(Hand hand, const Eigen::Matrix3d& R_WA, const Eigen::Vector3d& way_W,
                          const Eigen::Vector3d& axis_W);
 
-/// What tags' wires do to the phases, as far as those tell it.
+/// What a tag's wire does to its phases, as far as those tell it.
 struct PolarizationAllowance {
-  /// The problem with the turns taken out of the phases of tags whose place was found.
-  LocalizationProblem problem;
-  /// By tag: what the place is worse known for it, and what other directions of the wire that fit
-  /// nearly as well make of it: covariance in x and y [m²].
-  std::map<std::string, Eigen::Matrix2d> added;
+  std::optional<SamplesOfTag> samples{};  ///< Without the turns, where they are known.
+  /// What the place is worse known for it, and what other directions of the wire that fit nearly as
+  /// well make of it: covariance in x and y [m²].
+  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
 };
+
+/// By tag.
+using PolarizationAllowances = std::map<std::string, PolarizationAllowance>;
 
 /// For each tag of which `result` has a place, the wire's direction is fitted with the place near
 /// it and an offset for each antenna and channel, by least squares from directions all around.
 /// Nothing of tags for which two places fit, of antennas that are not in `problem.circular`, and of
 /// those whose orientation is not told (all poses are the identity).
-PolarizationAllowance allow_for_polarization(const LocalizationProblem& problem,
-                                             const LocalizationResult& result, int threads);
+PolarizationAllowances allow_for_polarization(const LocalizationProblem& problem,
+                                              const LocalizationResult& result, int threads);
 
 /// Adds what allow_for_polarization() says to the result's covariances and judges anew.
-void add_polarization_error(const PolarizationAllowance& allowance, LocalizationResult& result);
+void add_polarization_error(const PolarizationAllowances& allowances, const EstimateLimits& limits,
+                            LocalizationResult& result);
 
 }  // namespace tagfield

@@ -71,35 +71,9 @@ bool is_by_phase(const std::string& method) {
 
 namespace {
 
-/// A place by the phases as they are tells how tags' wires turn them; then they are located anew
-/// without those turns.
-LocalizationResult located_but_for_wires(const Method& method, LocalizationProblem& problem,
-                                         int threads, Diagnostics& diagnostics) {
-  if (problem.circular.empty() || !problem.has_phases) {
-    return method.locate(problem, threads, diagnostics);
-  }
-  Diagnostics of_first;
-  LocalizationResult first = method.locate(problem, threads, of_first);
-  // Traced replies have their turns already.
-  const bool is_blind = is_by_phase(first.method) && first.method != "multipath";
-  const PolarizationAllowance allowance =
-      is_blind ? allow_for_polarization(problem, first, threads) : PolarizationAllowance{};
-  if (allowance.added.empty()) {
-    for (const std::string& warning : of_first.warnings()) diagnostics.warn(warning);
-    return first;
-  }
-  problem.samples = allowance.problem.samples;
-  LocalizationResult result = method.locate(problem, threads, diagnostics);
-  add_polarization_error(allowance, result);
-  return result;
-}
-
-}  // namespace
-
-LocalizationResult locate_problem(const Method& method, const LocalizationProblem& given,
-                                  int threads, Diagnostics& diagnostics) {
-  LocalizationProblem problem = given;
-  LocalizationResult result = located_but_for_wires(method, problem, threads, diagnostics);
+/// What no method may claim is refused.
+LocalizationResult checked(const LocalizationProblem& problem, LocalizationResult result,
+                           int threads, Diagnostics& diagnostics) {
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {
@@ -117,6 +91,36 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
   add_map_error(problem, result);
   keep_within_area(problem, result.estimates);
   return result;
+}
+
+}  // namespace
+
+LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
+                                  int threads, Diagnostics& diagnostics) {
+  if (problem.circular.empty() || !problem.has_phases) {
+    return checked(problem, method.locate(problem, threads, diagnostics), threads, diagnostics);
+  }
+  // A place by the phases as they are tells how tags' wires turn them.
+  Diagnostics of_first;
+  LocalizationResult result = method.locate(problem, threads, of_first);
+  // Traced replies have their turns already.
+  const bool is_blind = is_by_phase(result.method) && result.method != "multipath";
+  const PolarizationAllowances allowances =
+      is_blind ? allow_for_polarization(problem, result, threads) : PolarizationAllowances{};
+  const bool any_turned = std::any_of(allowances.begin(), allowances.end(),
+                                      [](const auto& of) { return of.second.samples.has_value(); });
+  if (!any_turned) {
+    for (const std::string& warning : of_first.warnings()) diagnostics.warn(warning);
+    add_polarization_error(allowances, problem.limits, result);
+    return checked(problem, std::move(result), threads, diagnostics);
+  }
+  LocalizationProblem turned = problem;
+  for (const auto& [tag, allowance] : allowances) {
+    if (allowance.samples) turned.samples[tag] = *allowance.samples;
+  }
+  result = method.locate(turned, threads, diagnostics);
+  add_polarization_error(allowances, problem.limits, result);
+  return checked(turned, std::move(result), threads, diagnostics);
 }
 
 LocalizationResult locate_tags(const std::vector<TagRead>& reads,

@@ -126,11 +126,11 @@ TEST(CircularPolarization, NothingIsDoneWithoutOrientationOrCircularAntennas) {
   estimate.verdict = Verdict::kLocated;
   estimate.candidates = {{{3.0, 2.0, 0.8}, 0.01, 0.02}};
   result.estimates = {estimate};
-  EXPECT_TRUE(allow_for_polarization(problem, result, 1).added.empty());
+  EXPECT_TRUE(allow_for_polarization(problem, result, 1).empty());
   problem.circular["a"] = Hand::kLeft;
-  EXPECT_EQ(allow_for_polarization(problem, result, 1).added.size(), 1U);
+  EXPECT_EQ(allow_for_polarization(problem, result, 1).size(), 1U);
   for (auto& stamped : problem.tracks["a"].X_WA) stamped.X_WB.rotation.setIdentity();
-  EXPECT_TRUE(allow_for_polarization(problem, result, 1).added.empty());
+  EXPECT_TRUE(allow_for_polarization(problem, result, 1).empty());
 }
 
 }  // namespace
