@@ -4,6 +4,10 @@
 #include <complex>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tagfield/base/units.h"
 #include "tagfield/field/antenna_facts.h"
@@ -20,8 +24,35 @@ struct KnownTag {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
+/// Images of antennas' places, which many tags and many places of a tag ask for. Used by several
+/// threads at once.
+class AntennaImages {
+ public:
+  std::shared_ptr<const ImageSet> at(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+                                     const TraceOptions& tracing) {
+    const Key key{tracing.order, p_WA.x(), p_WA.y(), p_WA.z()};
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = images_.find(key);
+      if (found != images_.end() && found->second.first == tracing) return found->second.second;
+    }
+    const auto images = std::make_shared<const ImageSet>(images_of(scene, p_WA, tracing));
+    const std::lock_guard lock(mutex_);
+    if (images_.size() >= kMost) images_.clear();
+    images_[key] = {tracing, images};
+    return images;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 1000;
+  using Key = std::tuple<int, double, double, double>;
+  std::mutex mutex_;
+  std::map<Key, std::pair<TraceOptions, std::shared_ptr<const ImageSet>>> images_;
+};
+
 struct KnownWorld {
   std::shared_ptr<const RadioWorld> world;
+  mutable AntennaImages antenna_images;
   std::map<std::string, AntennaParameters> antennas;
   std::map<std::string, KnownTag> tags;
 };
@@ -30,7 +61,7 @@ struct KnownWorld {
 struct PlacedTag {
   const TagModel& model;
   RigidTransform X_WT;
-  ImageSet images;
+  const ImageSet& images;
 };
 
 /// A path as if it came straight, without what its length does to it. `reversed`: it was traced
@@ -45,10 +76,18 @@ TracedWave wave_of(const RadioPath& path, bool reversed, const Complex& gain,
           path.bounce_count == 0};
 }
 
-std::vector<TracedWave> waves_from(const RadioModel& model, const RadioWorld& world,
-                                   const Carrier& carrier, const TraceOptions& tracing,
+/// A reader's antenna in the known world.
+struct KnownAntenna {
+  const RadioModel& model;
+  const RadioWorld& world;
+  TraceOptions tracing;
+  AntennaImages& images;
+};
+
+std::vector<TracedWave> waves_from(const KnownAntenna& known, const Carrier& carrier,
                                    const RigidTransform& X_WA, const PlacedTag& tag,
                                    std::vector<RadioPath>& paths) {
+  const auto& [model, world, tracing, images] = known;
   const ChannelEffects effects{model.effects.patterns, model.effects.polarization};
   const RadioEnd antenna{model.antenna, X_WA};
   const RadioEnd at_tag{tag.model.antenna, tag.X_WT};
@@ -57,7 +96,7 @@ std::vector<TracedWave> waves_from(const RadioModel& model, const RadioWorld& wo
   if (reversed) {
     trace_paths(world.scene, tag.images, X_WA.translation, tracing, paths);
   } else {
-    trace_paths(world.scene, images_of(world.scene, X_WA.translation, tracing),
+    trace_paths(world.scene, *images.at(world.scene, X_WA.translation, tracing),
                 tag.X_WT.translation, tracing, paths);
   }
   std::vector<TracedWave> waves;
@@ -70,13 +109,12 @@ std::vector<TracedWave> waves_from(const RadioModel& model, const RadioWorld& wo
   return waves;
 }
 
-TracedReply reply_to(const RadioModel& model, const RadioWorld& world, const Carrier& carrier,
-                     const TraceOptions& tracing, const RigidTransform& X_WA, const PlacedTag& tag,
-                     std::vector<RadioPath>& paths) {
+TracedReply reply_to(const KnownAntenna& known, const Carrier& carrier, const RigidTransform& X_WA,
+                     const PlacedTag& tag, std::vector<RadioPath>& paths) {
   TracedReply reply;
-  reply.forward = waves_from(model, world, carrier, tracing, X_WA, tag, paths);
-  if (model.X_AR) {
-    reply.backward = waves_from(model, world, carrier, tracing, X_WA * *model.X_AR, tag, paths);
+  reply.forward = waves_from(known, carrier, X_WA, tag, paths);
+  if (known.model.X_AR) {
+    reply.backward = waves_from(known, carrier, X_WA * *known.model.X_AR, tag, paths);
   }
   return reply;
 }
@@ -86,27 +124,52 @@ KnownTag tag_named(const KnownWorld& known, const std::string& tag) {
   return found == known.tags.end() ? KnownTag{default_tag_model()} : found->second;
 }
 
-std::vector<TracedReply> trace(const KnownWorld& known, const std::string& tag,
-                               const Eigen::Vector3d& p_WT, const std::string& antenna,
-                               const std::vector<RigidTransform>& X_WA,
-                               const std::vector<double>& carriers_hz) {
-  std::vector<TracedReply> replies(X_WA.size());
-  const auto parameters = known.antennas.find(antenna);
-  if (parameters == known.antennas.end()) return replies;
-  const RadioModel& model = *physical(parameters->second);
-  const KnownTag kind = tag_named(known, tag);
-  const TraceOptions tracing =
-      bare_view(model, *known.world, RigidTransform{}, kSpeedOfLight, 0, 0).tracing;
-  const PlacedTag placed{
-      *kind.model, {kind.rotation, p_WT}, images_of(known.world->scene, p_WT, tracing)};
+/// Of a reader's antennas that look at the world alike, with the images that they share.
+using SharedImages = std::vector<std::pair<TraceOptions, ImageSet>>;
+
+const ImageSet& images_for(const RadioScene& scene, const Eigen::Vector3d& p_WT,
+                           const TraceOptions& tracing, SharedImages& shared) {
+  for (const auto& [options, images] : shared) {
+    if (options == tracing) return images;
+  }
+  shared.emplace_back(tracing, images_of(scene, p_WT, tracing));
+  return shared.back().second;
+}
+
+std::vector<TracedReply> trace_from(const KnownAntenna& known, const TracedFrom& from,
+                                    const PlacedTag& tag) {
   std::map<double, Carrier> carriers;
   std::vector<RadioPath> paths;
-  for (std::size_t i = 0; i < X_WA.size(); ++i) {
-    auto carrier = carriers.find(carriers_hz[i]);
+  std::vector<TracedReply> replies(from.X_WA.size());
+  for (std::size_t i = 0; i < from.X_WA.size(); ++i) {
+    auto carrier = carriers.find(from.carriers_hz[i]);
     if (carrier == carriers.end()) {
-      carrier = carriers.emplace(carriers_hz[i], carrier_in(*known.world, carriers_hz[i])).first;
+      carrier =
+          carriers.emplace(from.carriers_hz[i], carrier_in(known.world, from.carriers_hz[i])).first;
     }
-    replies[i] = reply_to(model, *known.world, carrier->second, tracing, X_WA[i], placed, paths);
+    replies[i] = reply_to(known, carrier->second, from.X_WA[i], tag, paths);
+  }
+  return replies;
+}
+
+TracedReplies trace(const KnownWorld& known, const std::string& tag, const Eigen::Vector3d& p_WT,
+                    const std::map<std::string, TracedFrom>& antennas) {
+  const KnownTag kind = tag_named(known, tag);
+  SharedImages shared;
+  TracedReplies replies;
+  for (const auto& [antenna, from] : antennas) {
+    std::vector<TracedReply>& of_antenna = replies[antenna];
+    const auto parameters = known.antennas.find(antenna);
+    if (parameters == known.antennas.end()) {
+      of_antenna.resize(from.X_WA.size());
+      continue;
+    }
+    const RadioModel& model = *physical(parameters->second);
+    const TraceOptions tracing =
+        bare_view(model, *known.world, RigidTransform{}, kSpeedOfLight, 0, 0).tracing;
+    const PlacedTag placed{
+        *kind.model, {kind.rotation, p_WT}, images_for(known.world->scene, p_WT, tracing, shared)};
+    of_antenna = trace_from({model, *known.world, tracing, known.antenna_images}, from, placed);
   }
   return replies;
 }
@@ -126,9 +189,9 @@ TraceReplies traced_replies(const Scenario& scenario) {
     const auto model = tag.model ? tag.model : default_tag_model();
     known->tags[tag.id] = {model, tag.motion.front().X_WB.rotation};
   }
-  return [known](const std::string& tag, const Eigen::Vector3d& p_WT, const std::string& antenna,
-                 const std::vector<RigidTransform>& X_WA, const std::vector<double>& carriers_hz) {
-    return trace(*known, tag, p_WT, antenna, X_WA, carriers_hz);
+  return [known](const std::string& tag, const Eigen::Vector3d& p_WT,
+                 const std::map<std::string, TracedFrom>& antennas) {
+    return trace(*known, tag, p_WT, antennas);
   };
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -19,8 +20,8 @@ namespace tagfield {
 namespace {
 
 /// Methods that may be chosen.
-constexpr const char* kChosen[] = {"joint",         "ml",    "sar",     "robust", "scan",
-                                   "trilateration", "fixed", "landmarc"};
+constexpr const char* kChosen[] = {
+    "joint", "ml", "sar", "robust", "multipath", "scan", "trilateration", "fixed", "landmarc"};
 constexpr std::size_t kLooks = 20;      ///< Tags that are looked at.
 constexpr double kShortStretch = 12.0;  ///< Reads; over fewer, unwrapping leaves little.
 constexpr double kMost = 0.5;           ///< Of the reads that are looked at.
@@ -187,46 +188,65 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
                                  traits.reads_a_stretch)};
 }
 
+/// Whether the known world may be made use of, and there is one.
+bool is_through_world(const AutomaticOptions& options, const LocalizationProblem& problem,
+                      const DataTraits& traits, Diagnostics& diagnostics) {
+  if (!options.known_world) return false;
+  if (!problem.trace) {
+    diagnostics.warn(
+        "known_world has no effect: there is no world whose paths could be traced (a scenario with "
+        "model: multipath has one)");
+  }
+  return problem.trace && traits.antennas_move && traits.has_phases;
+}
+
 /// Chooses among these and runs the chosen one.
-LocateFunction among(const std::vector<Method>& methods) {
-  return [methods](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
-    DataTraits traits = traits_of(given, threads);
-    LocalizationProblem cleaned;
-    // Amid reflections phases jump where the field fades: those are no outliers.
-    const auto is_bent = [&] {
-      const std::string method = choose_method(traits, given.reference_tags.size()).method;
-      return method == "scan" || method == "robust";
-    };
-    if (traits.has_outliers) {
-      Diagnostics of_cleaning;
-      cleaned = without_outliers(given, threads, of_cleaning);
-      const DataTraits as_given = std::exchange(traits, traits_of(cleaned, threads));
-      if (is_bent()) {
-        cleaned = {};
-        traits = as_given;
-      } else {
-        for (const std::string& warning : of_cleaning.warnings()) diagnostics.warn(warning);
-      }
-    }
-    const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
-    Choice choice = choose_method(traits, problem.reference_tags.size());
-    LocalizationResult result =
-        find_method(methods, choice.method).locate(problem, threads, diagnostics);
-    const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
-    if (misfit > kLeftOver) {
-      choice = {"robust",
-                fmt::format("even with the pose error estimated the misfit is {:.1f} times "
-                            "the noise, as reflections make it",
-                            misfit)};
-      result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
-    }
-    const bool is_by_waves = choice.method == "sar" || choice.method == "robust";
-    if (is_by_waves && misfit == 0.0 && !traits.pose_is_exact) {
-      try_jointly(methods, problem, traits, threads, diagnostics, choice, result);
-    }
-    result.why = choice.why;
-    return result;
-  };
+LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions& options) {
+  return
+      [methods, options](const LocalizationProblem& given, int threads, Diagnostics& diagnostics) {
+        DataTraits traits = traits_of(given, threads);
+        if (is_through_world(options, given, traits, diagnostics)) {
+          LocalizationResult result =
+              find_method(methods, "multipath").locate(given, threads, diagnostics);
+          result.why = "the world is known: what its reflections do to the phases is traced";
+          return result;
+        }
+        LocalizationProblem cleaned;
+        // Amid reflections phases jump where the field fades: those are no outliers.
+        const auto is_bent = [&] {
+          const std::string method = choose_method(traits, given.reference_tags.size()).method;
+          return method == "scan" || method == "robust";
+        };
+        if (traits.has_outliers) {
+          Diagnostics of_cleaning;
+          cleaned = without_outliers(given, threads, of_cleaning);
+          const DataTraits as_given = std::exchange(traits, traits_of(cleaned, threads));
+          if (is_bent()) {
+            cleaned = {};
+            traits = as_given;
+          } else {
+            for (const std::string& warning : of_cleaning.warnings()) diagnostics.warn(warning);
+          }
+        }
+        const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
+        Choice choice = choose_method(traits, problem.reference_tags.size());
+        LocalizationResult result =
+            find_method(methods, choice.method).locate(problem, threads, diagnostics);
+        const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
+        if (misfit > kLeftOver) {
+          choice = {"robust",
+                    fmt::format("even with the pose error estimated the misfit is {:.1f} times "
+                                "the noise, as reflections make it",
+                                misfit)};
+          result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
+        }
+        const bool is_by_waves = choice.method == "sar" || choice.method == "robust";
+        if (is_by_waves && misfit == 0.0 && !traits.pose_is_exact) {
+          try_jointly(methods, problem, traits, threads, diagnostics, choice, result);
+        }
+        result.why = choice.why;
+        return result;
+      };
 }
 
 }  // namespace
@@ -299,11 +319,32 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   return {"ml", "the pose is exact and the phase fits"};
 }
 
+namespace {
+
+const OptionTable<AutomaticOptions>& automatic_options() {
+  using O = AutomaticOptions;
+  static const OptionTable<O> of{{setting<O>(
+      "known_world", "the scenario's world may be taken for known: multipath, where there is one",
+      &O::known_world)}};
+  return of;
+}
+
+/// Those of the settings that are its own.
+MethodSettings own_settings(const MethodSettings& settings) {
+  const std::vector<SettingHelp> own = helps_of(automatic_options().table);
+  MethodSettings some;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(some),
+               [&](const RawParameter& setting) { return has_key(own, setting.key); });
+  return some;
+}
+
+}  // namespace
+
 Method automatic_method(const std::vector<Method>& methods) {
   std::vector<Method> chosen;
   for (const char* const name : kChosen) chosen.push_back(find_method(methods, name));
   Method automatic{"auto", "one of the others, chosen by the data, and named with the reason",
-                   among(chosen)};
+                   among(chosen, {}), helps_of(automatic_options().table)};
   for (const Method& method : chosen) {
     for (const SettingHelp& help : method.settings) {
       if (!has_key(automatic.settings, help.key)) automatic.settings.push_back(help);
@@ -313,7 +354,7 @@ Method automatic_method(const std::vector<Method>& methods) {
     std::vector<Method> set;
     set.reserve(chosen.size());
     for (const Method& method : chosen) set.push_back(configured(method, settings));
-    return among(set);
+    return among(set, changed_options(automatic_options(), {}, own_settings(settings)));
   };
   return automatic;
 }

@@ -38,6 +38,12 @@ struct Choice {
 };
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags);
 
+struct AutomaticOptions {
+  /// Whether LocalizationProblem::trace may be taken for what it is in truth. A simulated world is
+  /// known to the letter, a real one never.
+  bool known_world = false;
+};
+
 /// "auto": chooses among `methods` and runs the chosen one. Where "joint" leaves a misfit over 1.6
 /// times the noise, "robust" is taken after all.
 Method automatic_method(const std::vector<Method>& methods);

@@ -71,9 +71,17 @@ bool is_by_phase(const std::string& method) {
 
 namespace {
 
+/// With what places are held against: the samples less what the method's model explains.
+LocalizationProblem less_explained(const LocalizationProblem& problem,
+                                   const LocalizationResult& result) {
+  LocalizationProblem less = problem;
+  for (const auto& [tag, samples] : result.explained) less.samples[tag] = samples;
+  return less;
+}
+
 /// What no method may claim is refused.
-LocalizationResult checked(const LocalizationProblem& problem, LocalizationResult result,
-                           int threads, Diagnostics& diagnostics) {
+LocalizationResult held_against(const LocalizationProblem& problem, LocalizationResult result,
+                                int threads, Diagnostics& diagnostics) {
   if (is_by_phase(result.method) && !problem.has_phases) {
     refuse_without_phases(problem, result);
   } else if (is_by_phase(result.method)) {
@@ -93,6 +101,15 @@ LocalizationResult checked(const LocalizationProblem& problem, LocalizationResul
   return result;
 }
 
+LocalizationResult checked(const LocalizationProblem& problem, LocalizationResult result,
+                           int threads, Diagnostics& diagnostics) {
+  if (result.explained.empty()) {
+    return held_against(problem, std::move(result), threads, diagnostics);
+  }
+  const LocalizationProblem less = less_explained(problem, result);
+  return held_against(less, std::move(result), threads, diagnostics);
+}
+
 }  // namespace
 
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
@@ -104,7 +121,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
   Diagnostics of_first;
   LocalizationResult result = method.locate(problem, threads, of_first);
   // Traced replies have their turns already.
-  const bool is_blind = is_by_phase(result.method) && result.method != "multipath";
+  const bool is_blind = is_by_phase(result.method) && result.explained.empty();
   const PolarizationAllowances allowances =
       is_blind ? allow_for_polarization(problem, result, threads) : PolarizationAllowances{};
   const bool any_turned = std::any_of(allowances.begin(), allowances.end(),

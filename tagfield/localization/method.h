@@ -25,6 +25,9 @@ struct LocalizationResult {
   std::string why;     ///< Why it was chosen, in one line; empty where it was asked for.
   /// Antenna poses with their error taken out, of methods that estimate it.
   std::vector<AntennaPose> corrected_poses;
+  /// Of tags whose phases a method's model explains beyond the distance, as by the paths of a known
+  /// world: their samples without that. Places are held against these.
+  SamplesByTag explained{};
 };
 
 /// `threads`: on how many a method may work; its result must not depend on it.

@@ -161,10 +161,19 @@ struct TracedReply {
   std::vector<TracedWave> forward, backward;
 };
 
-/// Replies of a tag at `p_WT` [m] to an antenna at each of these poses, on these carriers [Hz].
-using TraceReplies = std::function<std::vector<TracedReply>(
-    const std::string& tag, const Eigen::Vector3d& p_WT, const std::string& antenna,
-    const std::vector<RigidTransform>& X_WA, const std::vector<double>& carriers_hz)>;
+/// Poses of an antenna, and the carriers on which it reads there; as many.
+struct TracedFrom {
+  std::vector<RigidTransform> X_WA;
+  std::vector<double> carriers_hz;
+};
+
+/// By antenna, one for each of its poses; of antennas that can't be traced without waves.
+using TracedReplies = std::map<std::string, std::vector<TracedReply>>;
+
+/// Replies of a tag at `p_WT` [m] to antennas.
+using TraceReplies =
+    std::function<TracedReplies(const std::string& tag, const Eigen::Vector3d& p_WT,
+                                const std::map<std::string, TracedFrom>& antennas)>;
 
 /// All that the methods share. Phases in `samples` have the known offsets taken out.
 struct LocalizationProblem {

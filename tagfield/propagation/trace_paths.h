@@ -24,6 +24,7 @@ struct TraceOptions {
   /// An end that is inside a solid by no more than this counts as mounted on its surface, and is
   /// seen from outside.
   double mount_depth_m = 0.015;
+  bool operator==(const TraceOptions&) const = default;
 };
 
 /// An antenna mirrored by a facet, or an image mirrored once more.

@@ -156,6 +156,37 @@ Tile likelihood_of(const StretchedReads& all, const CoherentStretch& stretch,
   return -stretch.freedom * (1.0f - power / stretch.reads).max(kLeastLeft).log();
 }
 
+/// Likewise, of the reads that count.
+Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>& of_pieces) {
+  Tile power = Tile::Zero();
+  Tile reads = Tile::Zero();
+  for (const auto& channel : stretch.channels) {
+    PieceSums sum;
+    for (const std::size_t piece : channel) {
+      sum.waves.in_phase += of_pieces[piece].waves.in_phase;
+      sum.waves.quadrature += of_pieces[piece].waves.quadrature;
+      sum.reads += of_pieces[piece].reads;
+    }
+    power += (sum.waves.in_phase.square() + sum.waves.quadrature.square()) / sum.reads.max(1.0f);
+    reads += sum.reads;
+  }
+  const Tile freedom = stretch.freedom / stretch.reads * reads;
+  return -freedom * (1.0f - power / reads.max(1.0f)).max(kLeastLeft).log();
+}
+
+template <class OfStretch>
+Tile mean_over_lengths(const StretchedReads& reads, const StretchChoice& choice,
+                       const OfStretch& of_stretch) {
+  Tile sum = Tile::Zero();
+  for (int k = choice.first; k <= choice.last; ++k) {
+    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
+      if (choice.part != kWholeWay && stretch.part != choice.part) continue;
+      sum += of_stretch(stretch);
+    }
+  }
+  return sum / static_cast<float>(choice.last - choice.first + 1);
+}
+
 }  // namespace
 
 double independent_samples(const std::vector<double>& along_m, double wavelength) {
@@ -200,14 +231,16 @@ Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice
     of_pieces.push_back(wave_sums(&reads.reads.reads[static_cast<std::size_t>(piece.begin)],
                                   static_cast<std::size_t>(piece.count), x, y, z));
   }
-  Tile sum = Tile::Zero();
-  for (int k = choice.first; k <= choice.last; ++k) {
-    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
-      if (choice.part != kWholeWay && stretch.part != choice.part) continue;
-      sum += likelihood_of(reads, stretch, of_pieces);
-    }
-  }
-  return sum / static_cast<float>(choice.last - choice.first + 1);
+  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
+    return likelihood_of(reads, stretch, of_pieces);
+  });
+}
+
+Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,
+                        const std::vector<PieceSums>& of_pieces) {
+  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
+    return likelihood_of(stretch, of_pieces);
+  });
 }
 
 }  // namespace tagfield

@@ -62,4 +62,15 @@ double independent_samples(const std::vector<double>& along_m, double wavelength
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
                         const Tile& y, const Tile& z);
 
+/// Waves of a piece's reads at each place of a tile, where not all reads tell something at each.
+struct PieceSums {
+  WaveSums waves;
+  Tile reads = Tile::Zero();  ///< So many are in the sums.
+};
+
+/// The same likelihood of waves that were added up elsewhere, by piece. A stretch has the less
+/// freedom the fewer of its reads count.
+Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,
+                        const std::vector<PieceSums>& of_pieces);
+
 }  // namespace tagfield

@@ -116,16 +116,31 @@ double least_share(const JointState& state) {
   return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
 }
 
-/// Tags whose waves don't add up are looked for anew, now that others tell the pose error.
-void find_lost(Run& run, const MultipathOptions& options, int threads) {
+/// For how much a tag's reads count in the fit where it explains them, of 1 where only their noise
+/// is left.
+constexpr double kFits = 0.1;
+
+bool is_lost(const JointState& state, std::size_t index) {
+  return state.system.tags[index].weight < kFits || share_at(state, index) < least_share(state);
+}
+
+/// How far from its starts a tag that doesn't fit is looked for.
+enum class Reach { kFurther, kAnywhere };
+
+/// Tags that don't fit are looked for anew, now that others tell the pose error.
+void find_lost(Run& run, const MultipathOptions& options, Reach reach, int threads) {
+  constexpr double kFurther = 5.0;  // Deviations.
   JointState& state = run.state;
   parallel_for(run.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
-    if (tag.fixed || share_at(state, i) >= least_share(state)) return;
+    if (tag.fixed || !is_lost(state, i)) return;
     const Sight sight = sight_of(state, *run.given[i]);
-    tag.fit.unknowns = to_unknowns(
-        tag.height,
-        likeliest_place({*state.problem, sight, options.least_directness}, run.starts[i]));
+    const TracedSearch search{*state.problem, sight, options.least_directness, kFurther};
+    const Vector3d there =
+        reach == Reach::kFurther
+            ? likeliest_place(search, run.starts[i])
+            : likeliest_anywhere(search, tag.id, run.starts[i].candidates.front().p_WT);
+    tag.fit.unknowns = to_unknowns(tag.height, there);
   });
 }
 
@@ -139,7 +154,7 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
     fit_unwrapped_jointly(state, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2 || round == 4) {
-      find_lost(run, options, threads);
+      find_lost(run, options, round == 2 ? Reach::kFurther : Reach::kAnywhere, threads);
     } else if (round > 1 && farthest_move(before, places_of(state)) < kSettled) {
       break;
     }
@@ -159,9 +174,9 @@ std::vector<double> fit_weights(const JointState& state, int threads) {
 
 /// A wrong world fits a tag here and there, a right one most.
 bool is_right_world(const std::vector<double>& weights) {
-  constexpr double kFits = 0.2;
-  const auto fitting =
-      std::count_if(weights.begin(), weights.end(), [](double weight) { return weight >= kFits; });
+  constexpr double kFitsWell = 0.2;
+  const auto fitting = std::count_if(weights.begin(), weights.end(),
+                                     [](double weight) { return weight >= kFitsWell; });
   return 2 * static_cast<std::size_t>(fitting) > weights.size();
 }
 
@@ -173,7 +188,6 @@ bool is_reference(const LocalizationProblem& problem, const std::string& tag) {
 /// asked for.
 void take_estimates(const Run& run, const std::vector<std::size_t>& numbers, int threads,
                     Diagnostics& diagnostics, LocalizationResult& result) {
-  constexpr double kFits = 0.1;
   const JointState& state = run.state;
   const LocalizationProblem& problem = *state.problem;
   const std::vector<double> weights = fit_weights(state, threads);
@@ -192,6 +206,7 @@ void take_estimates(const Run& run, const std::vector<std::size_t>& numbers, int
     if (is_right && weights[k] >= kFits) {
       estimate.reads = static_cast<std::size_t>(state.system.tags[k].phases.size());
       estimate.candidates = {candidate_of(state.system, k, covariance.of_tag[k])};
+      result.explained[estimate.tag] = run.straight[k].samples;
     }
     judge(problem.limits, estimate);
   }

@@ -126,6 +126,38 @@ TEST(Automatic, RunsWhatItChoseAndSaysWhy) {
   EXPECT_EQ(result.estimates.size(), 4U);
 }
 
+TEST(Automatic, TakesTheWorldForKnownOnlyWhereItMay) {
+  made::Hall hall = moving_hall({});
+  const std::vector<Method> methods = built_in_methods();
+  const Method automatic = find_method(methods, "auto");
+  const Method trusting = configured(automatic, {{"known_world", "true", "x.yaml:1"}});
+  Diagnostics without;
+  EXPECT_EQ(trusting.locate(hall.problem, 1, without).method, "ml");
+  ASSERT_EQ(without.warnings().size(), 1U);
+  EXPECT_NE(without.warnings().front().find("known_world has no effect"), std::string::npos);
+  // An empty room: the direct path, and nothing else.
+  hall.problem.trace = [](const std::string& /*tag*/, const Eigen::Vector3d& /*p_WT*/,
+                          const std::map<std::string, TracedFrom>& antennas) {
+    TracedReplies replies;
+    for (const auto& [antenna, from] : antennas) {
+      for (const RigidTransform& X_WA : from.X_WA) {
+        replies[antenna].push_back({{{X_WA.translation, 1.0, Eigen::Vector3d::UnitX(), true}}, {}});
+      }
+    }
+    return replies;
+  };
+  Diagnostics diagnostics;
+  EXPECT_EQ(automatic.locate(hall.problem, 1, diagnostics).method, "ml");
+  const LocalizationResult through = trusting.locate(hall.problem, 1, diagnostics);
+  EXPECT_EQ(through.method, "multipath");
+  EXPECT_NE(through.why.find("the world is known"), std::string::npos) << through.why;
+  for (const TagEstimate& estimate : through.estimates) {
+    ASSERT_EQ(estimate.verdict, Verdict::kLocated) << estimate.reason;
+    const Eigen::Vector3d off = estimate.candidates.front().p_WT - hall.truth.at(estimate.tag);
+    EXPECT_LT(off.norm(), 0.02) << estimate.tag;
+  }
+}
+
 TEST(Automatic, TakesNothingAtAll) {
   Diagnostics diagnostics;
   const Method method = find_method(built_in_methods(), "auto");

@@ -164,5 +164,31 @@ TEST(LikelihoodSpread, WidensByTheRootOfWhatItIsTemperedBy) {
   EXPECT_NEAR(peak, spread.log_peak, 0.02);
 }
 
+TEST(StretchLikelihood, OfSumsMadeElsewhereIsTheSameAndFallsWithTheReadsThatCount) {
+  Rng rng(5);
+  const Eigen::Vector3d p_WT(3.0, 2.0, 1.0);
+  const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
+  const StretchedReads reads = stretched_reads(phases, 0.346, 1.0, p_WT.head<2>());
+  const Tile zero = Tile::Zero();
+  std::vector<PieceSums> sums;
+  for (const Aperture& piece : reads.reads.apertures) {
+    const auto count = static_cast<std::size_t>(piece.count);
+    sums.push_back({wave_sums(&reads.reads.reads[static_cast<std::size_t>(piece.begin)], count,
+                              zero, zero, zero),
+                    Tile::Constant(static_cast<float>(count))});
+  }
+  const float all = stretch_likelihood(reads, kForPlaces, sums)[0];
+  EXPECT_NEAR(all, stretch_likelihood(reads, kForPlaces, zero, zero, zero)[0], 1e-4f * all);
+  // Half of the reads, which add up as well, tell half as much.
+  for (PieceSums& of_piece : sums) {
+    of_piece.reads *= 0.5f;
+    of_piece.waves.in_phase *= 0.5f;
+    of_piece.waves.quadrature *= 0.5f;
+  }
+  EXPECT_NEAR(stretch_likelihood(reads, kForPlaces, sums)[0], 0.5f * all, 1e-4f * all);
+  for (PieceSums& of_piece : sums) of_piece = {};
+  EXPECT_EQ(stretch_likelihood(reads, kForPlaces, sums)[0], 0.0f);
+}
+
 }  // namespace
 }  // namespace tagfield

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSteepest = 2.0;  ///< Slope of a bend [m/m].
-
 /// The poses of an antenna at its samples: where these say, turned as its track.
 std::vector<RigidTransform> poses_of(const LocalizationProblem& problem, const std::string& antenna,
                                      const std::vector<PhaseSample>& series) {
@@ -76,23 +74,22 @@ Bend bend_at(const TracedReply& reply, const Vector3d& p_WA, const Vector3d& p, 
 
 }  // namespace
 
-TracedSamples traced(const LocalizationProblem& problem, const std::string& tag,
+TracedReplies traced(const LocalizationProblem& problem, const std::string& tag,
                      const SamplesOfTag& samples, const Vector3d& p_WT) {
-  TracedSamples all;
+  std::map<std::string, TracedFrom> antennas;
   for (const auto& [antenna, series] : samples) {
-    std::vector<double> carriers_hz;
-    carriers_hz.reserve(series.size());
+    TracedFrom& from = antennas[antenna];
+    from.X_WA = poses_of(problem, antenna, series);
+    from.carriers_hz.reserve(series.size());
     for (const PhaseSample& sample : series) {
-      carriers_hz.push_back(sample.frequency_hz / problem.multiple());
+      from.carriers_hz.push_back(sample.frequency_hz / problem.multiple());
     }
-    all[antenna] =
-        problem.trace(tag, p_WT, antenna, poses_of(problem, antenna, series), carriers_hz);
   }
-  return all;
+  return problem.trace(tag, p_WT, antennas);
 }
 
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
-                          const TracedSamples& replies, const Vector3d& p,
+                          const TracedReplies& replies, const Vector3d& p,
                           double least_directness) {
   Straightened straight;
   for (const auto& [antenna, series] : sight.samples) {
@@ -103,7 +100,7 @@ Straightened straightened(const LocalizationProblem& problem, const Sight& sight
       const Bend bend =
           bend_at(of_antenna[i], corrected[i].p_WA, p, sample.frequency_hz / problem.multiple());
       const bool is_used = bend.directness >= least_directness &&
-                           std::max(bend.by_place.norm(), bend.by_antenna.norm()) < kSteepest;
+                           std::max(bend.by_place.norm(), bend.by_antenna.norm()) < kSteepestBend;
       if (!is_used) continue;
       sample.phase_rad = wrap_to_two_pi(sample.phase_rad - problem.multiple() * bend.phase_rad);
       straight.samples[antenna].push_back(sample);

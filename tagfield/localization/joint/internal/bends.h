@@ -12,12 +12,13 @@
 
 namespace tagfield {
 
-/// Replies of a tag about a place, by antenna and sample.
-using TracedSamples = std::map<std::string, std::vector<TracedReply>>;
-
-/// Traced to `p_WT` [m] from where the samples say that the antennas are.
-TracedSamples traced(const LocalizationProblem& problem, const std::string& tag,
+/// Replies of a tag about a place `p_WT` [m], traced from where the samples say that the antennas
+/// are; by antenna and sample.
+TracedReplies traced(const LocalizationProblem& problem, const std::string& tag,
                      const SamplesOfTag& samples, const Eigen::Vector3d& p_WT);
+
+/// Bends of a slope over this are near a null of the field [m/m].
+inline constexpr double kSteepestBend = 2.0;
 
 /// Phase of a reply less that of the direct path alone, 2k|p − p_WA|, and how direct it came.
 struct Bend {
@@ -45,7 +46,7 @@ struct Straightened {
 /// Samples that hardly came the direct way are left out, and those near a null of the field, where
 /// phases turn so fast that no slope holds for long.
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
-                          const TracedSamples& replies, const Eigen::Vector3d& p,
+                          const TracedReplies& replies, const Eigen::Vector3d& p,
                           double least_directness);
 
 }  // namespace tagfield

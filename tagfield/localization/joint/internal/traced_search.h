@@ -13,11 +13,17 @@ struct TracedSearch {
   const LocalizationProblem& problem;
   const Sight& sight;
   double least_directness = 0.0;  ///< Of replies that are used.
+  double deviations = 2.5;        ///< Of a candidate, within which places are looked at.
 };
 
 /// The likeliest place [m] about any of the estimate's candidates, of which there is at least one,
-/// to 3 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out,
-/// within two and a half deviations of a candidate, at most 0.84 m to each side.
+/// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out, at
+/// most 0.84 m from a candidate to each side.
 Eigen::Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate);
+
+/// Likewise within 4 m of where the strongest reads are from, as high as `p_WT` [m]; where no place
+/// is likely at all, `p_WT`.
+Eigen::Vector3d likeliest_anywhere(const TracedSearch& search, const std::string& tag,
+                                   const Eigen::Vector3d& p_WT);
 
 }  // namespace tagfield
