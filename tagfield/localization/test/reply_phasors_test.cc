@@ -37,15 +37,20 @@ std::vector<TracedWave> some_waves(made::Rng& rng) {
   return waves;
 }
 
-/// By the definition, in double precision.
-std::complex<double> field_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
+/// By the definition, in double precision, with amplitudes as they are at `about`.
+std::complex<double> field_at(const std::vector<TracedWave>& waves, const Vector3d& p,
+                              const Vector3d& about) {
   const double k = kTwoPi / wavelength(kCarrierHz);
   std::complex<double> sum = 0.0;
   for (const TracedWave& wave : waves) {
-    const double r = (p - wave.source_W).norm();
-    sum += wave.amplitude / r * std::polar(1.0, -k * r);
+    sum += wave.amplitude / (about - wave.source_W).norm() *
+           std::polar(1.0, -k * (p - wave.source_W).norm());
   }
   return sum;
+}
+
+std::complex<double> field_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
+  return field_at(waves, p, p);
 }
 
 double directness_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
@@ -55,11 +60,11 @@ double directness_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
 }
 
 /// Phase of the way out less that of the direct wave [rad], near 0.
-double bend_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
-  return -std::arg(field_at(waves, p) / field_at({waves.front()}, p));
+double bend_at(const std::vector<TracedWave>& waves, const Vector3d& p, const Vector3d& about) {
+  return -std::arg(field_at(waves, p, about) / field_at({waves.front()}, p, about));
 }
 
-/// [m/m], by differences.
+/// [m/m], by differences. That waves also weaken with distance is left out, as it is in bends.h.
 Vector3d slope_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
   constexpr double kStep = 1e-6;
   const double k = kTwoPi / wavelength(kCarrierHz);
@@ -67,7 +72,7 @@ Vector3d slope_at(const std::vector<TracedWave>& waves, const Vector3d& p) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d step = kStep * Vector3d::Unit(axis);
     const std::complex<double> turned =
-        std::polar(1.0, bend_at(waves, p + step) - bend_at(waves, p - step));
+        std::polar(1.0, bend_at(waves, p + step, p) - bend_at(waves, p - step, p));
     slope[axis] = std::arg(turned) / (2.0 * kStep * k);
   }
   return slope;
