@@ -98,7 +98,7 @@ def heard(context, topics, run, before_s=1.0, patience_s=4, domain=DOMAIN, varia
     if before_s > 0:
         script = f"({listen}) & sleep {before_s}; {play}; code=$?; wait; exit $code"
     else:
-        script = f"({play}) & sleep {-before_s}; {listen}; wait"
+        script = f"({play}) & playing=$!; sleep {-before_s}; {listen}; wait $playing"
     done = in_own_network(context, script)
     said = (context.folder / "said.txt").read_text(encoding="utf-8")
     check_equal(done.returncode, 0, f"exit code ({said})")
