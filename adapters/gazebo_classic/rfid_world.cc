@@ -168,7 +168,7 @@ void RfidWorld::find_links(Time now) {
 void RfidWorld::after_step() {
   const Time time = from_gazebo(world_->SimTime());
   on_step_(time);
-  std::unique_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   find_links(last_ == Time::min() ? Time{} : time);
   if (time < last_) driver_.go_on(time);  // The world was reset.
   last_ = time;
@@ -181,8 +181,8 @@ void RfidWorld::after_step() {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     cost_.physics_s += took.count();
   }
-  lock.unlock();
-  // Not counted above: where this waits, it waits for the reads, which count themselves.
+  // Not counted above: where this waits, it waits for the reads, which count themselves. Whoever
+  // adds an antenna meanwhile must not get there before, with what came or went since this step.
   worker_.post(std::move(step));
 }
 

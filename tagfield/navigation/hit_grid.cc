@@ -65,9 +65,12 @@ HitGrid::Patch& HitGrid::patch_to_change(int patch_x, int patch_y) {
       patches_[place_of(patch_x - patch_x0_, patch_y - patch_y0_, patches_x_)];
   if (!patch) {
     patch = std::make_shared<Patch>();
-  } else if (patch.use_count() > 1) {
-    patch = std::make_shared<Patch>(*patch);
+    return *patch;
   }
+  // One reference more is taken first, as counting it waits for grids on other threads that have
+  // read these cells and let go of them; use_count() by itself does not.
+  const std::shared_ptr<Patch> taken = patch;
+  if (taken.use_count() > 2) patch = std::make_shared<Patch>(*taken);
   return *patch;
 }
 
@@ -91,11 +94,7 @@ void HitGrid::count_passed(const CellMarks& marks, int patch_x, int patch_y) {
   }
 }
 
-void HitGrid::add_end(const Eigen::Vector2d& end_M) {
-  const Eigen::Vector2i at = cell_of(end_M);
-  HitCell& cell = patch_to_change(at.x() >> kPatchBits,
-                                  at.y() >> kPatchBits)[place_in_patch<kPatchBits>(at.x(), at.y())];
-  const Eigen::Vector2d offset = end_M - centre_of(at.x(), at.y());
+void HitGrid::add_end(const Eigen::Vector2d& offset, HitCell& cell) const {
   cell.sum_x += static_cast<float>(offset.x());
   cell.sum_y += static_cast<float>(offset.y());
   ++cell.hits;
@@ -107,7 +106,17 @@ void HitGrid::add_end(const Eigen::Vector2d& end_M) {
 
 void HitGrid::add_ends(const std::vector<Eigen::Vector2d>& ends_M) {
   ++scans_;
-  for (const Eigen::Vector2d& end : ends_M) add_end(end);
+  // Beams side by side mostly end in one patch.
+  Patch* patch = nullptr;
+  Eigen::Vector2i where(0, 0);
+  for (const Eigen::Vector2d& end_M : ends_M) {
+    const Eigen::Vector2i at = cell_of(end_M);
+    const Eigen::Vector2i of_end(at.x() >> kPatchBits, at.y() >> kPatchBits);
+    if (patch == nullptr || of_end != where) patch = &patch_to_change(of_end.x(), of_end.y());
+    where = of_end;
+    add_end(end_M - centre_of(at.x(), at.y()),
+            (*patch)[place_in_patch<kPatchBits>(at.x(), at.y())]);
+  }
 }
 
 void HitGrid::insert(const ScanPoints& scan, const PlanarPose& pose_M) {

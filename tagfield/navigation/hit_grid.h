@@ -77,7 +77,7 @@ class HitGrid {
 
   Patch& patch_to_change(int patch_x, int patch_y);
   void make_room(int patch_x, int patch_y);
-  void add_end(const Eigen::Vector2d& end_M);
+  void add_end(const Eigen::Vector2d& offset, HitCell& cell) const;
   void pass(const Eigen::Vector2d& from, const std::vector<Ray>& rays);
   void count_passed(const CellMarks& marks, int patch_x, int patch_y);
 

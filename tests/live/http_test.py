@@ -5,6 +5,7 @@
     http_test.py --tagfield PROGRAM --source SOURCE_DIR --build BUILD_DIR
 """
 
+import http.client
 import json
 import math
 import os
@@ -14,6 +15,7 @@ import shutil
 import signal
 import socket
 import sys
+import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
@@ -462,6 +464,45 @@ def it_ends_within_a_second(context):
         check_equal(code, 0, "exit code")
         for client in clients:
             client.close()
+
+
+def keep_asking(server, is_over, ask):
+    """Again and again, whatever comes of it, until it is over."""
+    while not is_over.is_set():
+        try:
+            ask(server)
+        except (OSError, ValueError, http.client.HTTPException, websocket.WebSocketException):
+            pass
+
+
+@case
+def it_ends_in_the_middle_of_all_that_can_be_asked(context):
+    generator = random.Random(11)
+    pallet = {"name": "pallet", "position": [1, 1], "size": [1, 1]}
+    askers = [
+        lambda server: server.ask("GET", "/api/coverage?antenna=port_1&height=0.9&cell=0.2"),
+        lambda server: server.ask("GET", "/api/explain?antenna=port_1&tag=tag_03"),
+        lambda server: list(frames(server, 5)),
+        lambda server: reads_of(server, 50),
+        lambda server: server.ask("POST", "/api/tags/tag_03/move", {"position": [1, 1, 1]}),
+        lambda server: [server.ask("POST", f"/api/antennas/port_1/{what}")
+                        for what in ("disconnect", "connect")],
+        lambda server: [server.ask("POST", "/api/obstacles", pallet),
+                        server.ask("DELETE", "/api/obstacles/pallet")],
+    ]
+    for _ in range(6):
+        is_over = threading.Event()
+        with served(context, context.shipped(PORTAL), "--speed", "max") as server:
+            threads = [threading.Thread(target=keep_asking, args=(server, is_over, ask), daemon=True)
+                       for ask in askers]
+            for thread in threads:
+                thread.start()
+            time.sleep(generator.uniform(0.3, 2.0))
+            server.process.send_signal(signal.SIGTERM)
+            check_equal(server.process.wait(timeout=20), 0, "exit code")
+            is_over.set()
+            for thread in threads:
+                thread.join()
 
 
 @case

@@ -143,6 +143,7 @@ def reports_are_the_worlds_reads(context):
         tags = connected(server).run_for(ro_spec(1, 4000))
         time.sleep(0.5)
         server.process.send_signal(signal.SIGTERM)
+        check_equal(server.process.wait(timeout=20), 0, "exit code")
         following.join()
         stream.close()
         check_between(len(tags), 400, 4000, "number of reports")

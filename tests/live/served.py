@@ -105,7 +105,7 @@ def served(context, scenario, *arguments, last="http", verb="serve"):
         if process.poll() is None:
             process.send_signal(signal.SIGTERM)
             try:
-                process.wait(timeout=20)
+                check(process.wait(timeout=20) == 0, f"exit code {process.returncode} when it was to end")
             except subprocess.TimeoutExpired:
                 process.kill()
                 check(False, "it did not end")

@@ -65,6 +65,17 @@ TEST(RunSeeds, ThreadsChangeNothing) {
   }
 }
 
+// Whoever is told how far it is needs no lock, and is not told less than before.
+TEST(RunSeeds, CountsTheFinishedSeedsOneByOne) {
+  Diagnostics diagnostics;
+  std::vector<double> shares;
+  RunControl control;
+  control.threads = 3;
+  control.on_progress = [&](double share) { shares.push_back(share); };
+  run_seeds(small_experiment(), 1, 4, control, diagnostics);
+  EXPECT_EQ(shares, (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
+}
+
 TEST(RunSeeds, ComparesANoisyPoseWithTheTrueOne) {
   Scenario scenario = small_experiment();
   scenario.pose.source = PoseSource::kNoisy;

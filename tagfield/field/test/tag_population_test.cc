@@ -112,7 +112,8 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
   RC_ASSERT(replies.size() == in_range);
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const std::string& id = tags.id(replies[i].slot);
-    RC_ASSERT(i == 0 || replies[i - 1].slot < replies[i].slot);
+    // In parentheses: RapidCheck's own || would look at what is before the first.
+    RC_ASSERT((i == 0 || replies[i - 1].slot < replies[i].slot));
     const TagRead read = to_read(antenna(), id, replies[i]);
     const LinkGeometry link = link_between(p_WA, expected.at(id));
     const TagRead alone = read_tag(antenna(), id, link, stamp, 7);

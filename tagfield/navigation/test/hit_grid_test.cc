@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -74,6 +76,24 @@ TEST(HitGrid, GrowsInAllDirectionsAndTurnsScans) {
   EXPECT_TRUE(grid.at(-140, 0).is_occupied());
   EXPECT_TRUE(grid.at(0, 140).is_occupied());
   EXPECT_TRUE(grid.at(0, -140).is_occupied());
+}
+
+// The last to change what all had changes it in place, after the others have read it to copy it.
+TEST(HitGrid, CopiesAreChangedByThreadsAtOnce) {
+  std::vector<HitGrid> grids(1, HitGrid(0.1));
+  grids[0].insert(beam_to(1.04), {0.0, 0.05, 0.0});
+  grids.resize(4, grids[0]);
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(grids.size());
+    for (HitGrid& grid : grids) {
+      threads.emplace_back([&grid] { grid.insert(beam_to(1.04), {0.0, 0.05, 0.0}); });
+    }
+  }
+  for (const HitGrid& grid : grids) {
+    EXPECT_EQ(grid.at(10, 0).hits, 2U);
+    EXPECT_EQ(grid.at(5, 0).passed, 2U);
+  }
 }
 
 TEST(HitGrid, CopiesAreTheirOwn) {
