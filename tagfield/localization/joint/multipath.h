@@ -9,7 +9,7 @@
 namespace tagfield {
 
 struct MultipathOptions {
-  double least_directness = 0.35;  ///< Of replies that are used (TracedReply); in (0, 1].
+  double least_directness = 0.1;   ///< Of replies that are used (TracedReply); in (0, 1].
   int rounds = 9;                  ///< Of tracing and fitting; at least 1.
 };
 
