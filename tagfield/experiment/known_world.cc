@@ -38,16 +38,21 @@ class AntennaImages {
     }
     const auto images = std::make_shared<const ImageSet>(images_of(scene, p_WA, tracing));
     const std::lock_guard lock(mutex_);
-    if (images_.size() >= kMost) images_.clear();
+    if (count_ > kMost) {
+      images_.clear();
+      count_ = 0;
+    }
     images_[key] = {tracing, images};
+    count_ += images->images.size() + 1;
     return images;
   }
 
  private:
-  static constexpr std::size_t kMost = 1000;
+  static constexpr std::size_t kMost = 1000000;  ///< Images, some 100 MB.
   using Key = std::tuple<int, double, double, double>;
   std::mutex mutex_;
   std::map<Key, std::pair<TraceOptions, std::shared_ptr<const ImageSet>>> images_;
+  std::size_t count_ = 0;  ///< Of all sets' images.
 };
 
 struct KnownWorld {

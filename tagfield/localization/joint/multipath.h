@@ -9,8 +9,8 @@
 namespace tagfield {
 
 struct MultipathOptions {
-  double least_directness = 0.1;   ///< Of replies that are used (TracedReply); in (0, 1].
-  int rounds = 9;                  ///< Of tracing and fitting; at least 1.
+  double least_directness = 0.1;  ///< Of replies that are used (TracedReply); in (0, 1].
+  int rounds = 9;                 ///< Of tracing and fitting; at least 1.
 };
 
 /// "multipath": where no world is known (LocalizationProblem::trace), no tag is located. Throws

@@ -3,18 +3,10 @@
 /// Where a tag most likely is in a known world, looked for about a rough estimate.
 #pragma once
 
-#include "tagfield/localization/joint/internal/bends.h"
+#include "tagfield/localization/joint/internal/traced_likelihood.h"
 #include "tagfield/localization/tag_estimate.h"
 
 namespace tagfield {
-
-/// One tag's search.
-struct TracedSearch {
-  const LocalizationProblem& problem;
-  const Sight& sight;
-  double least_directness = 0.0;  ///< Of replies that are used.
-  double deviations = 2.5;        ///< Of a candidate, within which places are looked at.
-};
 
 /// The likeliest place [m] about any of the estimate's candidates, of which there is at least one,
 /// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out, at
