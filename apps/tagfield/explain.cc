@@ -24,12 +24,14 @@ struct ExplainArguments {
 };
 
 LinkExplanation explain_moment(const Scenario& scenario, const ExplainArguments& arguments) {
-  const AntennaSpec& antenna = antenna_named("explain", scenario, arguments.antenna);
+  const AntennaSpec* const antenna =
+      arguments.antenna.empty() ? nullptr : &antenna_named("explain", scenario, arguments.antenna);
   const TagSpec& tag = tag_named("explain", scenario, arguments.tag);
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
   const Time time = time_from_seconds(arguments.time_s);
   try {
-    return explain_link_at(scenario, antenna, tag, time, seed);
+    return antenna == nullptr ? explain_best_link_at(scenario, tag, time, seed)
+                              : explain_link_at(scenario, *antenna, tag, time, seed);
   } catch (const Error& error) {
     throw Error(fmt::format("explain: {}", error.what()));
   }
@@ -60,7 +62,7 @@ void add_explain_command(CLI::App& app, Action& chosen) {
       "Explain why an antenna reads a tag or not: the link budget line by line, the paths");
   add_scenario_options(*command, arguments->of_scenario);
   command->add_option("--antenna", arguments->antenna,
-                      "Name of the antenna (default: the only one)");
+                      "Name of the antenna (default: the one whose link is the best)");
   command->add_option("--tag", arguments->tag, "ID of the tag (default: the only one)");
   command
       ->add_option("--time", arguments->time_s,

@@ -183,6 +183,11 @@ std::string to_text(const LinkExplanation& link) {
   text += fmt::format("antenna {} at {}\ntag {} at {}, {:.3f} m away\nat {:g} s\n", link.antenna,
                       place(link.X_WA.translation), link.tag, place(link.X_WT.translation),
                       link.distance_m, to_seconds(link.time));
+  if (link.antennas_compared > 1) {
+    text +=
+        fmt::format("(of {} antennas the one whose link is the best; --antenna names another)\n",
+                    link.antennas_compared);
+  }
   if (link.paper) return text + paper_text(*link.paper);
   const PhysicalLink& physical = *link.physical;
   text += budget("to the tag", physical.to_tag, "power at the chip", physical.tag_dbm,

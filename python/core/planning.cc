@@ -24,9 +24,12 @@ std::pair<std::string, std::string> explain(const LoadedPtr& loaded, const std::
   const py::gil_scoped_release unlocked;
   Diagnostics diagnostics;
   const Scenario scenario = as_planned(loaded->parts.scenario, diagnostics);
-  const AntennaSpec& from = antenna_named("explain", scenario, antenna);
   const TagSpec& to = tag_named("explain", scenario, tag);
-  const LinkExplanation link = explain_link_at(scenario, from, to, time_from_seconds(time_s), seed);
+  const Time time = time_from_seconds(time_s);
+  const LinkExplanation link =
+      antenna.empty()
+          ? explain_best_link_at(scenario, to, time, seed)
+          : explain_link_at(scenario, antenna_named("explain", scenario, antenna), to, time, seed);
   nlohmann::ordered_json json = to_json(link);
   json["warnings"] = diagnostics.warnings();
   return {json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),

@@ -302,7 +302,10 @@ class Scenario:
 
     def explain(self, *, antenna: str = "", tag: str = "", time_s: float = 0.0,
                 seed: int | None = None) -> Explanation:
-        """Why an antenna reads a tag or not at a moment of the run; see docs/explain.md."""
+        """Why an antenna reads a tag or not at a moment of the run; see docs/explain.md.
+
+        antenna: by default the one whose link is the best.
+        """
         text, spoken = _core.explain(self._loaded, antenna, tag, time_s,
                                      self._loaded.seed if seed is None else seed)
         return Explanation(json.loads(text), spoken)

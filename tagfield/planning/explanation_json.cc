@@ -134,6 +134,7 @@ Json to_json(const LinkExplanation& link) {
   Json json = {{"verdict", link.verdict},
                {"read", link.read},
                {"antenna", link.antenna},
+               {"antennas_compared", link.antennas_compared},
                {"reader", link.reader},
                {"tag", link.tag},
                {"time_s", to_seconds(link.time)},

@@ -15,4 +15,13 @@ namespace tagfield {
 LinkExplanation explain_link_at(const Scenario& scenario, const AntennaSpec& antenna,
                                 const TagSpec& tag, Time time, std::uint64_t seed);
 
+/// Whether `a` is to be shown rather than `b`: it reads the tag, or has more to spare in the budget
+/// at its weaker end, or is nearer within its range.
+bool is_better(const LinkExplanation& a, const LinkExplanation& b);
+
+/// That of the antenna whose link is the best; of equal ones the first. Throws Error on a scenario
+/// without antennas, too.
+LinkExplanation explain_best_link_at(const Scenario& scenario, const TagSpec& tag, Time time,
+                                     std::uint64_t seed);
+
 }  // namespace tagfield

@@ -145,6 +145,7 @@ struct LinkExplanation {
   std::string verdict;             ///< "not read: −3.1 dB at the tag, behind rack_4 (metal)".
   std::optional<PaperLink> paper;  ///< Either this
   std::optional<PhysicalLink> physical;  ///< or that.
+  std::size_t antennas_compared = 1;     ///< Of which this one has the most to spare.
 };
 
 /// Explains one link of `scenario`, whose antennas share readers, channels and turns.

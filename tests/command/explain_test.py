@@ -405,6 +405,20 @@ def coverage_is_of_the_tag_that_is_named(context):
         check_near(powers[name], powers["near"] + 6.0, 1e-3, name)
 
 
+@case
+def without_an_antenna_it_is_the_one_whose_link_is_best(context):
+    path = context.write("open.yaml", OPEN)
+    # By Friis' law the nearer one: at (10, 3) both are as far, and the first is taken.
+    for tag, place, nearer in (("near", (1, 0), "gate"), ("lost", (10, 3), "gate"), ("lost", (11, 3), "far")):
+        asked = ("--set", f"tags.{tag}.position=[{place[0]}, {place[1]}, 1]", "--tag", tag)
+        best = explained(context, path, *asked)
+        check_equal((best["antenna"], best["antennas_compared"]), (nearer, 2), f"antenna for {tag} at {place}")
+        named = explained(context, path, *asked, "--antenna", nearer)
+        check_equal({**best, "antennas_compared": 1}, named, f"what is told of {tag}")
+    text = context.run_well("explain", path, "--tag", "near").out
+    check_in("of 2 antennas the one whose link is the best; --antenna names another", text, "explain")
+
+
 # --- Bad input ------------------------------------------------------------------------------------
 
 @case
@@ -416,7 +430,6 @@ def bad_arguments(context):
     coverage = ["coverage", path, "--out", out]
     for command, says in (
             (["explain"], "SCENARIO"), (["explain", "absent.yaml"], "no such file"),
-            (["explain", path, "--tag", "near"], "2 antennas; say which with --antenna"),
             (["explain", path, "--antenna", "gate"], "3 tags; say which with --tag"),
             (["explain", path, "--antenna", "gat", "--tag", "near"], "did you mean 'gate'"),
             (["explain", path, "--antenna", "gate", "--tag", "neer"], "did you mean 'near'"),
