@@ -36,7 +36,7 @@ class AntennaImages {
       const auto found = images_.find(key);
       if (found != images_.end() && found->second.first == tracing) return found->second.second;
     }
-    const auto images = std::make_shared<const ImageSet>(images_of(scene, p_WA, tracing));
+    auto images = std::make_shared<const ImageSet>(images_of(scene, p_WA, tracing));
     const std::lock_guard lock(mutex_);
     if (count_ > kMost) {
       images_.clear();

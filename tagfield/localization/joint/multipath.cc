@@ -120,6 +120,25 @@ double least_share(const JointState& state) {
 /// is left.
 constexpr double kFits = 0.1;
 
+/// For how much a tag's reads count in the fit, of 1 where only their noise is left; 0 where its
+/// waves don't add up.
+std::vector<double> fit_weights(const JointState& state, int threads) {
+  std::vector<double> weights(state.system.tags.size());
+  parallel_for(weights.size(), threads, [&](std::size_t i) {
+    const bool adds_up = share_at(state, i) >= least_share(state);
+    weights[i] = adds_up ? state.system.tags[i].weight : 0.0;
+  });
+  return weights;
+}
+
+/// A wrong world fits a tag here and there, a right one most.
+bool is_right_world(const std::vector<double>& weights) {
+  constexpr double kFitsWell = 0.2;
+  const auto fitting = std::count_if(weights.begin(), weights.end(),
+                                     [](double weight) { return weight >= kFitsWell; });
+  return 2 * static_cast<std::size_t>(fitting) > weights.size();
+}
+
 bool is_lost(const JointState& state, std::size_t index) {
   return state.system.tags[index].weight < kFits || share_at(state, index) < least_share(state);
 }
@@ -153,31 +172,14 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
     straighten_all(run, options, threads);
     fit_unwrapped_jointly(state, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
-    if (round == 2 || round == 4) {
-      find_lost(run, options, round == 2 ? Reach::kFurther : Reach::kAnywhere, threads);
+    if (round == 2) {
+      find_lost(run, options, Reach::kFurther, threads);
+    } else if (round == 4 && is_right_world(fit_weights(state, threads))) {
+      find_lost(run, options, Reach::kAnywhere, threads);
     } else if (round > 1 && farthest_move(before, places_of(state)) < kSettled) {
       break;
     }
   }
-}
-
-/// For how much a tag's reads count in the fit, of 1 where only their noise is left; 0 where its
-/// waves don't add up.
-std::vector<double> fit_weights(const JointState& state, int threads) {
-  std::vector<double> weights(state.system.tags.size());
-  parallel_for(weights.size(), threads, [&](std::size_t i) {
-    const bool adds_up = share_at(state, i) >= least_share(state);
-    weights[i] = adds_up ? state.system.tags[i].weight : 0.0;
-  });
-  return weights;
-}
-
-/// A wrong world fits a tag here and there, a right one most.
-bool is_right_world(const std::vector<double>& weights) {
-  constexpr double kFitsWell = 0.2;
-  const auto fitting = std::count_if(weights.begin(), weights.end(),
-                                     [](double weight) { return weight >= kFitsWell; });
-  return 2 * static_cast<std::size_t>(fitting) > weights.size();
 }
 
 bool is_reference(const LocalizationProblem& problem, const std::string& tag) {
