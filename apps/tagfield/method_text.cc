@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tagfield/localization/locate.h"
 
 namespace tagfield {
@@ -15,15 +17,24 @@ std::string told_of(const SettingHelp& help) {
                      help.otherwise);
 }
 
+bool is_of_another(const std::vector<Method>& methods, const std::string& key) {
+  return std::any_of(methods.begin(), methods.end(), [&](const Method& method) {
+    return method.name != "auto" && has_key(method.settings, key);
+  });
+}
+
 }  // namespace
 
 std::string told_of_methods() {
   std::string text;
-  for (const Method& method : built_in_methods()) {
+  const std::vector<Method> methods = built_in_methods();
+  for (const Method& method : methods) {
     text += fmt::format("{:<16} {}\n", method.name, method.summary);
-    // What it chooses among says it.
-    if (method.name == "auto") continue;
-    for (const SettingHelp& help : method.settings) text += told_of(help);
+    for (const SettingHelp& help : method.settings) {
+      // What "auto" chooses among says what it takes, too.
+      if (method.name == "auto" && is_of_another(methods, help.key)) continue;
+      text += told_of(help);
+    }
   }
   return text;
 }
