@@ -14,8 +14,6 @@ static_assert(kTile % kLanes == 0);
 /// `z` is null for places of the plane.
 inline void add_waves(const SearchRead* reads, std::size_t count, const float* x, const float* y,
                       const float* z, float* in_phase, float* quadrature) {
-  // Added to a number of this size, fractions are rounded off.
-  constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
   float cosines[kLanes] = {};
   float sines[kLanes] = {};
   for (std::size_t i = 0; i < count; ++i) {
@@ -26,14 +24,11 @@ inline void add_waves(const SearchRead* reads, std::size_t count, const float* x
       const float dz = z != nullptr ? z[k] - read.z : 0.0f;
       const float rest = z != nullptr ? dz * dz : read.height_squared;
       const float turns = read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + rest);
-      const float t = turns - ((turns + kRounds) - kRounds);
-      // Cosine and sine of πt by polynomials that meet them at Chebyshev's points, then the double
-      // angle.
-      const float u = t * t;
-      const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
-      const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
-      cosines[k] += 1.0f - 2.0f * (s * s);
-      sines[k] += 2.0f * s * c;
+      float cosine = 0.0f;
+      float sine = 0.0f;
+      wave_of(turns, cosine, sine);
+      cosines[k] += cosine;
+      sines[k] += sine;
     }
   }
   for (int k = 0; k < kLanes; ++k) {

@@ -19,6 +19,20 @@ struct SearchRead {
   float turns_per_metre = 0.0f;  ///< 2/λ.
 };
 
+/// Cosine and sine of 2π `turns`, |turns| < 2²², to 2·10⁻⁵: those of π times what is left of whole
+/// turns by polynomials that meet them at Chebyshev's points, then the double angle. For loops over
+/// lanes.
+inline void wave_of(float turns, float& cosine, float& sine) {
+  // Added to a number of this size, fractions are rounded off.
+  constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
+  const float t = turns - ((turns + kRounds) - kRounds);
+  const float u = t * t;
+  const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
+  const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
+  cosine = 1.0f - 2.0f * (s * s);
+  sine = 2.0f * s * c;
+}
+
 /// Σ cos and Σ sin of the residuals φ − 2r/λ at each place of a tile.
 struct WaveSums {
   Tile in_phase = Tile::Zero();

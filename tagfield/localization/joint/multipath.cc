@@ -19,6 +19,8 @@ using Eigen::Vector3d;
 
 /// Places worse than this are no start [m].
 constexpr double kWorstStart = 0.5;
+/// Deviations of a start, within which its tag is looked for at first.
+constexpr double kNear = 2.5;
 
 /// A run of the method under way.
 struct Run {
@@ -116,18 +118,19 @@ double least_share(const JointState& state) {
   return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
 }
 
-/// For how much a tag's reads count in the fit where it explains them, of 1 where only their noise
-/// is left.
+/// Less is no fit.
 constexpr double kFits = 0.1;
 
 /// For how much a tag's reads count in the fit, of 1 where only their noise is left; 0 where its
 /// waves don't add up.
+double fit_weight(const JointState& state, std::size_t index) {
+  const bool adds_up = share_at(state, index) >= least_share(state);
+  return adds_up ? state.system.tags[index].weight : 0.0;
+}
+
 std::vector<double> fit_weights(const JointState& state, int threads) {
   std::vector<double> weights(state.system.tags.size());
-  parallel_for(weights.size(), threads, [&](std::size_t i) {
-    const bool adds_up = share_at(state, i) >= least_share(state);
-    weights[i] = adds_up ? state.system.tags[i].weight : 0.0;
-  });
+  parallel_for(weights.size(), threads, [&](std::size_t i) { weights[i] = fit_weight(state, i); });
   return weights;
 }
 
@@ -139,10 +142,6 @@ bool is_right_world(const std::vector<double>& weights) {
   return 2 * static_cast<std::size_t>(fitting) > weights.size();
 }
 
-bool is_lost(const JointState& state, std::size_t index) {
-  return state.system.tags[index].weight < kFits || share_at(state, index) < least_share(state);
-}
-
 /// How far from its starts a tag that doesn't fit is looked for.
 enum class Reach { kFurther, kAnywhere };
 
@@ -152,12 +151,12 @@ void find_lost(Run& run, const MultipathOptions& options, Reach reach, int threa
   JointState& state = run.state;
   parallel_for(run.given.size(), threads, [&](std::size_t i) {
     JointTag& tag = state.system.tags[i];
-    if (tag.fixed || !is_lost(state, i)) return;
+    if (tag.fixed || fit_weight(state, i) >= kFits) return;
     const Sight sight = sight_of(state, *run.given[i]);
-    const TracedSearch search{*state.problem, sight, options.least_directness, kFurther};
+    const TracedSearch search{*state.problem, sight, options.least_directness};
     const Vector3d there =
         reach == Reach::kFurther
-            ? likeliest_place(search, run.starts[i])
+            ? likeliest_place(search, run.starts[i], kFurther)
             : likeliest_anywhere(search, tag.id, run.starts[i].candidates.front().p_WT);
     tag.fit.unknowns = to_unknowns(tag.height, there);
   });
@@ -227,10 +226,11 @@ Run begin(const LocalizationProblem& problem, const std::vector<TagEstimate>& es
     const Sight sight{samples, samples};
     run.given[k] = &samples;
     run.starts[k] = estimate;
-    placed[k] = {estimate.tag, &samples,
-                 is_reference(problem, estimate.tag)
-                     ? problem.reference_tags.at(estimate.tag)
-                     : likeliest_place({problem, sight, options.least_directness}, estimate)};
+    placed[k] = {
+        estimate.tag, &samples,
+        is_reference(problem, estimate.tag)
+            ? problem.reference_tags.at(estimate.tag)
+            : likeliest_place({problem, sight, options.least_directness}, estimate, kNear)};
   });
   run.state = begin_at(problem, placed);
   return run;

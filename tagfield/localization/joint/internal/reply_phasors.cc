@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/holograms/wave_sums.h"
 
 namespace tagfield {
 namespace {
@@ -28,8 +29,6 @@ struct LaneField {
 
 inline void add_wave(const NearReply::Wave& wave, float turns_per_metre, const float* x,
                      const float* y, const float* z, LaneField& field) {
-  // Added to a number of this size, fractions are rounded off.
-  constexpr float kRounds = 12582912.0f;  // 1.5 · 2²³
   const float is_direct = wave.direct ? 1.0f : 0.0f;
   for (int k = 0; k < kLanes; ++k) {
     const float dx = x[k] - wave.x;
@@ -37,14 +36,9 @@ inline void add_wave(const NearReply::Wave& wave, float turns_per_metre, const f
     const float dz = z[k] - wave.z;
     const float far = std::sqrt(dx * dx + dy * dy + dz * dz);
     const float r = far > kNearest ? far : kNearest;
-    const float turns = turns_per_metre * r;
-    const float t = turns - ((turns + kRounds) - kRounds);
-    // As in wave_sums.cc: cosine and sine of πt by polynomials, then the double angle.
-    const float u = t * t;
-    const float s = t * (3.1415903f + u * (-5.1674058f + u * (2.5440002f - u * 0.5594350f)));
-    const float c = 0.9999932f + u * (-4.9339313f + u * (4.0412123f - u * 1.2219364f));
-    const float cosine = 1.0f - 2.0f * (s * s);
-    const float sine = 2.0f * s * c;
+    float cosine = 0.0f;
+    float sine = 0.0f;
+    wave_of(turns_per_metre * r, cosine, sine);
     const float inverse = 1.0f / r;
     const float re = (wave.in_phase * cosine + wave.quadrature * sine) * inverse;
     const float im = (wave.quadrature * cosine - wave.in_phase * sine) * inverse;

@@ -20,7 +20,6 @@ struct TracedSearch {
   const LocalizationProblem& problem;
   const Sight& sight;
   double least_directness = 0.0;  ///< Of replies that are used.
-  double deviations = 2.5;        ///< Of a candidate, within which places are looked at.
 };
 
 /// Reads laid out once for all places.

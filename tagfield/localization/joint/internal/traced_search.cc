@@ -166,8 +166,9 @@ Place best_of(const TracedSearch& search, const std::string& tag, const Places& 
 
 constexpr std::size_t kFewReads = 200;
 
-Place best_about(const TracedSearch& search, const std::string& tag, const Candidate& candidate) {
-  const double reach = search.deviations * candidate.expected_error_m / std::sqrt(2.0);
+Place best_about(const TracedSearch& search, const std::string& tag, const Candidate& candidate,
+                 double deviations) {
+  const double reach = deviations * candidate.expected_error_m / std::sqrt(2.0);
   const Sight few = some_of(search.sight, kFewReads);
   const Places far =
       look_far({search.problem, few, search.least_directness}, tag, candidate, reach);
@@ -190,10 +191,11 @@ Vector3d strongest_from(const SamplesOfTag& samples) {
 
 }  // namespace
 
-Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate) {
+Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate,
+                         double deviations) {
   Place best{estimate.candidates.front().p_WT, -1.0};
   for (const Candidate& candidate : estimate.candidates) {
-    const Place place = best_about(search, estimate.tag, candidate);
+    const Place place = best_about(search, estimate.tag, candidate, deviations);
     if (is_likelier(place, best)) best = place;
   }
   return best.p_WT;

@@ -9,9 +9,10 @@
 namespace tagfield {
 
 /// The likeliest place [m] about any of the estimate's candidates, of which there is at least one,
-/// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out, at
-/// most 0.84 m from a candidate to each side.
-Eigen::Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate);
+/// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out,
+/// within so many deviations of a candidate, at most 0.84 m to each side.
+Eigen::Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate,
+                                double deviations);
 
 /// Likewise within 4 m of where the strongest reads are from, as high as `p_WT` [m]; where no place
 /// is likely at all, `p_WT`.
