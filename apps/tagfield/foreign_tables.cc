@@ -53,9 +53,6 @@ std::vector<AntennaPose> poses_of(const std::string& command, const std::string&
   return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
 }
 
-/// Whether that is the folder of a run, with its tables.
-bool is_run(const fs::path& path) { return fs::exists(path / "reads.csv"); }
-
 /// Tables that are there as they are.
 ReadsAndPoses read_plain_tables(const std::string& command, const std::string& reads,
                                 const std::string& poses, const std::string& format) {
@@ -80,6 +77,8 @@ ReadsAndPoses read_plain_tables(const std::string& command, const std::string& r
 }
 
 }  // namespace
+
+bool is_run(const std::string& path) { return fs::exists(fs::path(path) / "reads.csv"); }
 
 void add_format_option(CLI::App& command, std::string& format) {
   command.add_option("--format", format,

@@ -17,6 +17,9 @@ struct ReadsAndPoses {
   std::vector<AntennaPose> poses;
 };
 
+/// Whether that is the folder of a run, with its tables.
+bool is_run(const std::string& path);
+
 /// `reads`: a table, the folder of a run, or with a format a folder of tables too, or any of them
 /// in an archive. `poses`: a table, or "" where the format or the run has the antennas' places.
 /// `format`: a file, the name of one in profiles/datasets, or "" for the project's own form. Throws

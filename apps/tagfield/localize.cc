@@ -76,6 +76,7 @@ LocalizationOptions options_of(const LocalizeArguments& arguments,
   take_known(arguments, reads, options.known);
   options.known.pose_error = pose_error_of(arguments, scenario_in(loaded), poses);
   options.known.map_error = map_error_of(arguments, poses);
+  options.known.world_sigma_m = world_sigma_of(arguments, options.method, options.known);
   return options;
 }
 

@@ -34,6 +34,7 @@ struct LocalizeArguments {
   std::optional<double> pose_yaw_sigma_deg;
   std::optional<double> pose_time_constant_s;
   std::optional<double> map_sigma_m;
+  std::optional<double> world_sigma_m;
   std::optional<double> map_yaw_sigma_deg;
   std::string calibration;  ///< Profile, or "".
   std::optional<double> tag_height_m;

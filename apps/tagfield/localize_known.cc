@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/tagfield/foreign_tables.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/spelling.h"
@@ -151,6 +152,13 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
                   "Likewise of its turn about the first pose [deg]")
       ->check(CLI::NonNegativeNumber)
       ->needs(map_sigma);
+  command
+      .add_option("--world-sigma", arguments.world_sigma_m,
+                  "For 'multipath': how far surfaces of the scenario's world may be from where it "
+                  "says, standard deviation in x and y [m] (default 0 in the folder of a run, else "
+                  "0.01)")
+      ->check(CLI::Range(0.0, kMostLength_m))
+      ->needs("--scenario");
 }
 
 void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
@@ -176,6 +184,18 @@ std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const s
   MapError error;
   error.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
   return error;
+}
+
+double world_sigma_of(const LocalizeArguments& arguments, const std::string& method,
+                      const KnownBeforehand& known) {
+  constexpr double kMeasured_m = 0.01;
+  if (arguments.world_sigma_m && (!known.trace || (method != "multipath" && method != "auto"))) {
+    throw Error(
+        "localize: --world-sigma has no effect: it wants method multipath or auto, and a scenario "
+        "with model: multipath");
+  }
+  // A run was simulated in the very world that its scenario names.
+  return arguments.world_sigma_m.value_or(is_run(arguments.recording) ? 0.0 : kMeasured_m);
 }
 
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,

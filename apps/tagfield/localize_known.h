@@ -31,4 +31,9 @@ std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
 /// Likewise of the map that they are on; none where nothing is told, and for true poses.
 std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses);
 
+/// How far surfaces of the known world may be off [m]; 0 in the folder of a run. Throws Error where
+/// the command line says so and the method makes nothing of it.
+double world_sigma_of(const LocalizeArguments& arguments, const std::string& method,
+                      const KnownBeforehand& known);
+
 }  // namespace tagfield

@@ -24,19 +24,19 @@ struct KnownTag {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// Images of antennas' places, which many tags and many places of a tag ask for. Used by several
-/// threads at once.
-class AntennaImages {
+/// Images of places that are asked for again: of antennas, by many tags and many places of a tag,
+/// and of a tag, by all antennas and each round of a fit. Used by several threads at once.
+class KeptImages {
  public:
-  std::shared_ptr<const ImageSet> at(const RadioScene& scene, const Eigen::Vector3d& p_WA,
+  std::shared_ptr<const ImageSet> at(const RadioScene& scene, const Eigen::Vector3d& p_W,
                                      const TraceOptions& tracing) {
-    const Key key{tracing.order, p_WA.x(), p_WA.y(), p_WA.z()};
+    const Key key{tracing.order, p_W.x(), p_W.y(), p_W.z()};
     {
       const std::lock_guard lock(mutex_);
       const auto found = images_.find(key);
       if (found != images_.end() && found->second.first == tracing) return found->second.second;
     }
-    auto images = std::make_shared<const ImageSet>(images_of(scene, p_WA, tracing));
+    auto images = std::make_shared<const ImageSet>(images_of(scene, p_W, tracing));
     const std::lock_guard lock(mutex_);
     if (count_ > kMost) {
       images_.clear();
@@ -57,7 +57,7 @@ class AntennaImages {
 
 struct KnownWorld {
   std::shared_ptr<const RadioWorld> world;
-  mutable AntennaImages antenna_images;
+  mutable KeptImages images;
   std::map<std::string, AntennaParameters> antennas;
   std::map<std::string, KnownTag> tags;
 };
@@ -86,7 +86,7 @@ struct KnownAntenna {
   const RadioModel& model;
   const RadioWorld& world;
   TraceOptions tracing;
-  AntennaImages& images;
+  KeptImages& images;
 };
 
 std::vector<TracedWave> waves_from(const KnownAntenna& known, const Carrier& carrier,
@@ -129,18 +129,6 @@ KnownTag tag_named(const KnownWorld& known, const std::string& tag) {
   return found == known.tags.end() ? KnownTag{default_tag_model()} : found->second;
 }
 
-/// Of a reader's antennas that look at the world alike, with the images that they share.
-using SharedImages = std::vector<std::pair<TraceOptions, ImageSet>>;
-
-const ImageSet& images_for(const RadioScene& scene, const Eigen::Vector3d& p_WT,
-                           const TraceOptions& tracing, SharedImages& shared) {
-  for (const auto& [options, images] : shared) {
-    if (options == tracing) return images;
-  }
-  shared.emplace_back(tracing, images_of(scene, p_WT, tracing));
-  return shared.back().second;
-}
-
 std::vector<TracedReply> trace_from(const KnownAntenna& known, const TracedFrom& from,
                                     const PlacedTag& tag) {
   std::map<double, Carrier> carriers;
@@ -160,7 +148,6 @@ std::vector<TracedReply> trace_from(const KnownAntenna& known, const TracedFrom&
 TracedReplies trace(const KnownWorld& known, const std::string& tag, const Eigen::Vector3d& p_WT,
                     const std::map<std::string, TracedFrom>& antennas) {
   const KnownTag kind = tag_named(known, tag);
-  SharedImages shared;
   TracedReplies replies;
   for (const auto& [antenna, from] : antennas) {
     std::vector<TracedReply>& of_antenna = replies[antenna];
@@ -172,9 +159,9 @@ TracedReplies trace(const KnownWorld& known, const std::string& tag, const Eigen
     const RadioModel& model = *physical(parameters->second);
     const TraceOptions tracing =
         bare_view(model, *known.world, RigidTransform{}, kSpeedOfLight, 0, 0).tracing;
-    const PlacedTag placed{
-        *kind.model, {kind.rotation, p_WT}, images_for(known.world->scene, p_WT, tracing, shared)};
-    of_antenna = trace_from({model, *known.world, tracing, known.antenna_images}, from, placed);
+    const auto images = known.images.at(known.world->scene, p_WT, tracing);
+    const PlacedTag placed{*kind.model, {kind.rotation, p_WT}, *images};
+    of_antenna = trace_from({model, *known.world, tracing, known.images}, from, placed);
   }
   return replies;
 }

@@ -188,16 +188,25 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
                                  traits.reads_a_stretch)};
 }
 
+/// Tags that are located through a known world unasked: each takes seconds.
+constexpr std::size_t kMostThroughWorld = 100;
+
 /// Whether the known world may be made use of, and there is one.
 bool is_through_world(const AutomaticOptions& options, const LocalizationProblem& problem,
                       const DataTraits& traits, Diagnostics& diagnostics) {
   if (!options.known_world) return false;
-  if (!problem.trace) {
+  if (!problem.trace && options.wants_known_world) {
     diagnostics.warn(
         "known_world has no effect: there is no world whose paths could be traced (a scenario with "
         "model: multipath has one)");
   }
-  return problem.trace && traits.antennas_move && traits.has_phases;
+  if (!problem.trace || !traits.antennas_move || !traits.has_phases) return false;
+  if (problem.samples.size() <= kMostThroughWorld || options.wants_known_world) return true;
+  diagnostics.warn(fmt::format(
+      "the world is known, but tracing its reflections for more than {} tags takes long: {} are "
+      "located without it (known_world: true does it all the same)",
+      kMostThroughWorld, problem.samples.size()));
+  return false;
 }
 
 /// Chooses among these and runs the chosen one.
@@ -208,8 +217,11 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
         if (is_through_world(options, given, traits, diagnostics)) {
           LocalizationResult result =
               find_method(methods, "multipath").locate(given, threads, diagnostics);
-          result.why = "the world is known: what its reflections do to the phases is traced";
-          return result;
+          result.why =
+              "the world is known, and what its reflections do to the phases is traced "
+              "(known_world: false locates without it)";
+          // Nothing is explained by a world that is another one.
+          if (!result.explained.empty()) return result;
         }
         LocalizationProblem cleaned;
         // Amid reflections phases jump where the field fades: those are no outliers.
@@ -324,7 +336,7 @@ namespace {
 const OptionTable<AutomaticOptions>& automatic_options() {
   using O = AutomaticOptions;
   static const OptionTable<O> of{{setting<O>(
-      "known_world", "the scenario's world may be taken for known: multipath, where there is one",
+      "known_world", "multipath where a scenario's world is known, as its reads fit that",
       &O::known_world)}};
   return of;
 }
@@ -354,7 +366,10 @@ Method automatic_method(const std::vector<Method>& methods) {
     std::vector<Method> set;
     set.reserve(chosen.size());
     for (const Method& method : chosen) set.push_back(configured(method, settings));
-    return among(set, changed_options(automatic_options(), {}, own_settings(settings)));
+    const MethodSettings own = own_settings(settings);
+    AutomaticOptions options = changed_options(automatic_options(), {}, own);
+    options.wants_known_world = !own.empty();
+    return among(set, options);
   };
   return automatic;
 }

@@ -39,9 +39,9 @@ struct Choice {
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags);
 
 struct AutomaticOptions {
-  /// Whether LocalizationProblem::trace may be taken for what it is in truth. A simulated world is
-  /// known to the letter, a real one never.
-  bool known_world = false;
+  /// Whether use is made of a world that is known (LocalizationProblem::trace).
+  bool known_world = true;
+  bool wants_known_world = false;  ///< Whether that was asked for, and it matters if there is none.
 };
 
 /// "auto": chooses among `methods` and runs the chosen one. Where "joint" leaves a misfit over 1.6

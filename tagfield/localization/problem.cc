@@ -148,6 +148,7 @@ LocalizationProblem make_problem(const std::vector<TagRead>& reads,
   problem.map_error = map_error_of(known, problem.tracks);
   problem.limits = known.limits;
   problem.trace = known.trace;
+  problem.world_sigma_m = known.world_sigma_m;
   problem.circular = known.circular;
   return problem;
 }

@@ -192,6 +192,7 @@ struct LocalizationProblem {
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace;  ///< Through the world, where that is known; else null.
+  double world_sigma_m = 0.0;  ///< How far its surfaces may be from where they are said to be.
 
   /// By which phases and carriers in `samples` were multiplied.
   [[nodiscard]] double multiple() const { return half_turns ? 2.0 : 1.0; }
@@ -210,6 +211,8 @@ struct KnownBeforehand {
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace{};  ///< Through the world, where that is known. Called by several threads.
+  /// How far its surfaces may be from where they are said to be, standard deviation along each axis.
+  double world_sigma_m = 0.0;
   std::map<std::string, Hand> circular{};  ///< Antennas that are known to be circularly polarized.
 };
 

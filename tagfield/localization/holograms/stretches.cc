@@ -174,6 +174,21 @@ Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>&
   return -freedom * (1.0f - power / reads.max(1.0f)).max(kLeastLeft).log();
 }
 
+/// Likewise, as if only `left` of each read's power were noise.
+Tile likelihood_with(const CoherentStretch& stretch, const std::vector<PieceSums>& of_pieces,
+                     float left) {
+  Tile offsets = Tile::Zero();
+  Tile reads = Tile::Zero();
+  for (const auto& channel : stretch.channels) {
+    Tile of_channel = Tile::Zero();
+    for (const std::size_t piece : channel) of_channel += of_pieces[piece].reads;
+    offsets += of_channel.min(1.0f);
+    reads += of_channel;
+  }
+  const Tile freedom = stretch.freedom / stretch.reads * reads;
+  return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kLeastLeft).log();
+}
+
 template <class OfStretch>
 Tile mean_over_lengths(const StretchedReads& reads, const StretchChoice& choice,
                        const OfStretch& of_stretch) {
@@ -240,6 +255,14 @@ Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice
                         const std::vector<PieceSums>& of_pieces) {
   return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
     return likelihood_of(stretch, of_pieces);
+  });
+}
+
+Tile likelihood_of_noise(const StretchedReads& reads, const StretchChoice& choice,
+                         const std::vector<PieceSums>& of_pieces, double noise_rad) {
+  const auto left = static_cast<float>(-std::expm1(-noise_rad * noise_rad));
+  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
+    return likelihood_with(stretch, of_pieces, left);
   });
 }
 

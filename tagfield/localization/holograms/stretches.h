@@ -73,4 +73,9 @@ struct PieceSums {
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,
                         const std::vector<PieceSums>& of_pieces);
 
+/// What it would be of the same reads if nothing but phase noise were left in them: of a stretch
+/// with n reads and C offsets 1 − e^(−σ²) of the power, less C/n of that, which the offsets take.
+Tile likelihood_of_noise(const StretchedReads& reads, const StretchChoice& choice,
+                         const std::vector<PieceSums>& of_pieces, double noise_rad);
+
 }  // namespace tagfield

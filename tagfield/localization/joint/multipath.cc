@@ -27,7 +27,8 @@ struct Run {
   JointState state;
   std::vector<TagEstimate> starts;         ///< By tag of the state, as are
   std::vector<const SamplesOfTag*> given;  ///< the samples as they were measured,
-  std::vector<Straightened> straight;      ///< and without their bends.
+  std::vector<Straightened> straight;      ///< and without their bends;
+  std::vector<char> looked_about;          ///< and whether there was a look about where it is.
 };
 
 /// Robust estimates, loosely limited: they are but starts.
@@ -77,7 +78,7 @@ void straighten_all(Run& run, const MultipathOptions& options, int threads) {
     const Sight sight = sight_of(state, *run.given[i]);
     const Vector3d p = to_place(tag.height, tag.fit.unknowns);
     next[i] = straightened(problem, sight, traced(problem, tag.id, sight.corrected, p), p,
-                           options.least_directness);
+                           options.least_directness, state.system.noise_rad);
   });
   run.straight = std::move(next);
   for (std::size_t i = 0; i < run.straight.size(); ++i) {
@@ -145,7 +146,13 @@ bool is_right_world(const std::vector<double>& weights) {
 /// How far from its starts a tag that doesn't fit is looked for.
 enum class Reach { kFurther, kAnywhere };
 
-/// Tags that don't fit are looked for anew, now that others tell the pose error.
+TracedSearch search_for(const JointState& state, const Sight& sight,
+                        const MultipathOptions& options) {
+  return {*state.problem, sight, options.least_directness, state.system.noise_rad};
+}
+
+/// Tags that don't fit are looked for anew, now that others tell the pose error; those that fit
+/// somewhat, about where they are.
 void find_lost(Run& run, const MultipathOptions& options, Reach reach, int threads) {
   constexpr double kFurther = 5.0;  // Deviations.
   JointState& state = run.state;
@@ -153,12 +160,49 @@ void find_lost(Run& run, const MultipathOptions& options, Reach reach, int threa
     JointTag& tag = state.system.tags[i];
     if (tag.fixed || fit_weight(state, i) >= kFits) return;
     const Sight sight = sight_of(state, *run.given[i]);
-    const TracedSearch search{*state.problem, sight, options.least_directness};
+    const TracedSearch search = search_for(state, sight, options);
     const Vector3d there =
         reach == Reach::kFurther
             ? likeliest_place(search, run.starts[i], kFurther)
             : likeliest_anywhere(search, tag.id, run.starts[i].candidates.front().p_WT);
     tag.fit.unknowns = to_unknowns(tag.height, there);
+    run.looked_about[i] = 0;
+  });
+}
+
+/// A step of the joint fit can lead over a ridge of a likelihood with many peaks, and a search end
+/// on a lesser one: each tag that leaves more than noise goes on from the best place about where it
+/// was and where it is, and once, late on, further about that, if it is clearly better.
+void climb_all(Run& run, const std::vector<Vector3d>& before, const MultipathOptions& options,
+               bool is_late, int threads) {
+  constexpr double kAbout = 0.3;    // [m]
+  constexpr double kClearly = 6.0;  // Less of the cost.
+  constexpr double kFar = 0.01;     // [m]
+  JointState& state = run.state;
+  parallel_for(run.given.size(), threads, [&](std::size_t i) {
+    JointTag& tag = state.system.tags[i];
+    if (tag.fixed) return;
+    const Sight sight = sight_of(state, *run.given[i]);
+    const TracedSearch search = search_for(state, sight, options);
+    const Vector3d now = to_place(tag.height, tag.fit.unknowns);
+    const Fit here = fit_at(search, tag.id, now);
+    if (is_settled(here)) return;
+    std::vector<Vector3d> places{now};
+    if ((before[i] - now).norm() > kFar) places.push_back(before[i]);
+    if (is_late && run.looked_about[i] == 0) {
+      run.looked_about[i] = 1;
+      for (const LikelyPlace& about : likeliest_about(search, tag.id, now, kAbout).places) {
+        places.push_back(about.p_WT);
+      }
+    }
+    double best = here.cost - kClearly;
+    for (const Vector3d& place : places) {
+      const Vector3d there = climbed(search, tag.id, place).p_WT;
+      const double cost = fit_at(search, tag.id, there).cost;
+      if (cost >= best) continue;
+      best = cost;
+      tag.fit.unknowns = to_unknowns(tag.height, there);
+    }
   });
 }
 
@@ -170,6 +214,7 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
     const std::vector<Vector3d> before = places_of(state);
     straighten_all(run, options, threads);
     fit_unwrapped_jointly(state, threads);
+    climb_all(run, before, options, round > 2, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2) {
       find_lost(run, options, Reach::kFurther, threads);
@@ -185,14 +230,34 @@ bool is_reference(const LocalizationProblem& problem, const std::string& tag) {
   return problem.reference_tags.count(tag) > 0;
 }
 
+/// What the world's error adds to a place's covariance [m²]: the image of an antenna in a surface
+/// moves twice as far as the surface, and a tag that reflections hold goes along.
+Eigen::Matrix2d of_world(const LocalizationProblem& problem) {
+  const double sigma_m = 2.0 * problem.world_sigma_m;
+  return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
+}
+
+std::vector<Fit> fits_of(const Run& run, const MultipathOptions& options, int threads) {
+  const JointState& state = run.state;
+  std::vector<Fit> fits(run.given.size());
+  parallel_for(fits.size(), threads, [&](std::size_t i) {
+    const JointTag& tag = state.system.tags[i];
+    const Sight sight = sight_of(state, *run.given[i]);
+    fits[i] = fit_at(search_for(state, sight, options), tag.id,
+                     to_place(tag.height, tag.fit.unknowns));
+  });
+  return fits;
+}
+
 /// What the joint fit says where it fits; else the robust estimates stay, by the limits that were
 /// asked for.
-void take_estimates(const Run& run, const std::vector<std::size_t>& numbers, int threads,
-                    Diagnostics& diagnostics, LocalizationResult& result) {
+void take_estimates(const Run& run, const std::vector<std::size_t>& numbers,
+                    const MultipathOptions& options, int threads, Diagnostics& diagnostics, LocalizationResult& result) {
   const JointState& state = run.state;
   const LocalizationProblem& problem = *state.problem;
   const std::vector<double> weights = fit_weights(state, threads);
   const bool is_right = is_right_world(weights);
+  const std::vector<Fit> fits = fits_of(run, options, threads);
   JointCovariance covariance;
   if (is_right) {
     covariance = covariance_of(state.system, threads);
@@ -204,9 +269,10 @@ void take_estimates(const Run& run, const std::vector<std::size_t>& numbers, int
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     TagEstimate& estimate = result.estimates[numbers[k]];
     if (is_reference(problem, estimate.tag)) continue;
-    if (is_right && weights[k] >= kFits) {
+    if (is_right && weights[k] >= kFits && is_believable(fits[k])) {
       estimate.reads = static_cast<std::size_t>(state.system.tags[k].phases.size());
       estimate.candidates = {candidate_of(state.system, k, covariance.of_tag[k])};
+      add_error(of_world(problem), estimate.candidates.front());
       result.explained[estimate.tag] = run.straight[k].samples;
     }
     judge(problem.limits, estimate);
@@ -217,9 +283,11 @@ void take_estimates(const Run& run, const std::vector<std::size_t>& numbers, int
 Run begin(const LocalizationProblem& problem, const std::vector<TagEstimate>& estimates,
           const std::vector<std::size_t>& numbers, const MultipathOptions& options, int threads) {
   Run run;
+  const double noise_rad = first_noise(problem);
   std::vector<PlacedTag> placed(numbers.size());
   run.given.resize(numbers.size());
   run.starts.resize(numbers.size());
+  run.looked_about.resize(numbers.size());
   parallel_for(numbers.size(), threads, [&](std::size_t k) {
     const TagEstimate& estimate = estimates[numbers[k]];
     const SamplesOfTag& samples = problem.samples.at(estimate.tag);
@@ -230,7 +298,8 @@ Run begin(const LocalizationProblem& problem, const std::vector<TagEstimate>& es
         estimate.tag, &samples,
         is_reference(problem, estimate.tag)
             ? problem.reference_tags.at(estimate.tag)
-            : likeliest_place({problem, sight, options.least_directness}, estimate, kNear)};
+            : likeliest_place({problem, sight, options.least_directness, noise_rad}, estimate,
+                              kNear)};
   });
   run.state = begin_at(problem, placed);
   return run;
@@ -265,7 +334,7 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
   if (numbers.empty()) return result;
   Run run = begin(problem, result.estimates, numbers, options, threads);
   fit_through_world(run, options, threads);
-  take_estimates(run, numbers, threads, diagnostics, result);
+  take_estimates(run, numbers, options, threads, diagnostics, result);
   return result;
 }
 

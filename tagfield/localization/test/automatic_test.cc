@@ -126,13 +126,17 @@ TEST(Automatic, RunsWhatItChoseAndSaysWhy) {
   EXPECT_EQ(result.estimates.size(), 4U);
 }
 
-TEST(Automatic, TakesTheWorldForKnownOnlyWhereItMay) {
+TEST(Automatic, TakesTheWorldForKnownUnlessItMustNot) {
   made::Hall hall = moving_hall({});
   const std::vector<Method> methods = built_in_methods();
   const Method automatic = find_method(methods, "auto");
-  const Method trusting = configured(automatic, {{"known_world", "true", "x.yaml:1"}});
+  const Method doubting = configured(automatic, {{"known_world", "false", "x.yaml:1"}});
+  const Method asked = configured(automatic, {{"known_world", "true", "x.yaml:1"}});
+  Diagnostics silent;
+  EXPECT_EQ(automatic.locate(hall.problem, 1, silent).method, "ml");
+  EXPECT_TRUE(silent.warnings().empty());
   Diagnostics without;
-  EXPECT_EQ(trusting.locate(hall.problem, 1, without).method, "ml");
+  EXPECT_EQ(asked.locate(hall.problem, 1, without).method, "ml");
   ASSERT_EQ(without.warnings().size(), 1U);
   EXPECT_NE(without.warnings().front().find("known_world has no effect"), std::string::npos);
   // An empty room: the direct path, and nothing else.
@@ -147,8 +151,8 @@ TEST(Automatic, TakesTheWorldForKnownOnlyWhereItMay) {
     return replies;
   };
   Diagnostics diagnostics;
-  EXPECT_EQ(automatic.locate(hall.problem, 1, diagnostics).method, "ml");
-  const LocalizationResult through = trusting.locate(hall.problem, 1, diagnostics);
+  EXPECT_EQ(doubting.locate(hall.problem, 1, diagnostics).method, "ml");
+  const LocalizationResult through = automatic.locate(hall.problem, 1, diagnostics);
   EXPECT_EQ(through.method, "multipath");
   EXPECT_NE(through.why.find("the world is known"), std::string::npos) << through.why;
   for (const TagEstimate& estimate : through.estimates) {

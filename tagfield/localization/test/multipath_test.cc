@@ -54,7 +54,23 @@ struct TracedStudy {
   double believed_gain = 0.5;  ///< Likewise.
   bool half_turns = false;
   bool pose_error_told = true;
+  double walls_off_m = 0.0;    ///< From where they are believed to be.
+  double world_sigma_m = 0.0;  ///< What is said of that.
+  double strays = 0.0;         ///< Share of reads with any phase.
 };
+
+std::vector<Mirror> moved(std::vector<Mirror> mirrors, double by_m) {
+  for (Mirror& mirror : mirrors) mirror.at += by_m;
+  return mirrors;
+}
+
+void stray(double share, Hall& hall, Rng& rng) {
+  for (auto& [tag, of_tag] : hall.problem.samples) {
+    for (PhaseSample& sample : of_tag["a"]) {
+      if (uniform(rng, 0.0, 1.0) < share) sample.phase_rad = uniform(rng, 0.0, kTwoPi);
+    }
+  }
+}
 
 std::size_t about_the_world(const Diagnostics& diagnostics) {
   const std::vector<std::string>& all = diagnostics.warnings();
@@ -74,6 +90,7 @@ Tally with(const Method& method, const TracedStudy& study, std::size_t* warnings
     // Phases are bent at the true places of the antenna.
     Hall hall = made::hall(path, path, 4, Noise{}, rng);
     reflect(walls(study.gain), hall);
+    stray(study.strays, hall, rng);
     hall.problem.tracks["a"] = track_along(beliefs);
     for (auto& [tag, of_tag] : hall.problem.samples) {
       for (PhaseSample& s : of_tag["a"]) {
@@ -85,7 +102,8 @@ Tally with(const Method& method, const TracedStudy& study, std::size_t* warnings
     if (study.pose_error_told) hall.problem.pose_error = PoseErrorModel{study.pose_m, 0.0, 5.0};
     hall.problem.half_turns = study.half_turns;
     if (study.half_turns) double_phases(hall.problem.samples);
-    hall.problem.trace = known(walls(study.believed_gain));
+    hall.problem.trace = known(moved(walls(study.believed_gain), study.walls_off_m));
+    hall.problem.world_sigma_m = study.world_sigma_m;
     Diagnostics diagnostics;
     for (const TagEstimate& estimate : method.locate(hall.problem, 2, diagnostics).estimates) {
       tally.add(estimate, hall.truth.at(estimate.tag));
@@ -137,6 +155,24 @@ TEST(Multipath, AWorldKnownWronglyIsNoCertainty) {
   EXPECT_EQ(warnings, 2U);  // One a run: that the phases don't fit the known world.
   EXPECT_EQ(tally.worse_than(0.3), 0U);
   EXPECT_LT(tally.calibration(), 3.0);
+}
+
+TEST(Multipath, ErrorsOfAWorldThatIsOffAreExpected) {
+  TracedStudy study{.half_turns = true, .walls_off_m = 0.01};
+  const double bold = with(multipath_method(), study).calibration();
+  study.world_sigma_m = 0.01;
+  const Tally tally = with(multipath_method(), study);
+  EXPECT_GE(tally.errors.size(), 7U);  // Of 8.
+  EXPECT_LT(tally.calibration(), 1.5);
+  EXPECT_GT(bold, 2.0 * tally.calibration());
+}
+
+TEST(Multipath, AFewReadsThatNoPathExplainsDoNoHarm) {
+  const Tally tally = with(multipath_method(), {.half_turns = true, .strays = 0.05});
+  EXPECT_GE(tally.errors.size(), 7U);  // Of 8.
+  EXPECT_LT(tally.part(0.5), 0.003);
+  EXPECT_LT(tally.errors.back(), 0.05);
+  EXPECT_LT(tally.calibration(), 1.5);
 }
 
 TEST(Multipath, WithoutAWorldSaysSo) {

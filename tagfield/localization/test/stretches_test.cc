@@ -106,6 +106,30 @@ TEST(StretchLikelihood, IsThatOfTheDefinition) {
   }
 }
 
+TEST(StretchLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
+  constexpr double kNoise = 0.3;  // As in two_channels().
+  const Eigen::Vector3d p_WT(3.1, 1.7, 0.9);
+  double there = 0.0;
+  double expected = 0.0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    Rng rng(seed);
+    const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
+    const Eigen::Vector2d middle = middle_of(phases);
+    const StretchedReads reads = stretched_reads(phases, 0.346, p_WT.z(), middle);
+    const Tile x = Tile::Constant(static_cast<float>(p_WT.x() - middle.x()));
+    const Tile y = Tile::Constant(static_cast<float>(p_WT.y() - middle.y()));
+    there +=
+        static_cast<double>(stretch_likelihood(reads, kForPlaces, x, y, Tile::Zero())[0]);
+    std::vector<PieceSums> counts(reads.reads.apertures.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      counts[i].reads = Tile::Constant(static_cast<float>(reads.reads.apertures[i].count));
+    }
+    expected +=
+        static_cast<double>(likelihood_of_noise(reads, kForPlaces, counts, kNoise)[0]);
+  }
+  EXPECT_NEAR(there, expected, 0.05 * expected);
+}
+
 TEST(StretchLikelihood, OfTheWayIsThatOfItsParts) {
   Rng rng(4);
   const Eigen::Vector3d p_WT(3.1, 1.7, 0.4);

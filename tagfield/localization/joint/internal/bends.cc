@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/joint/internal/outlying.h"
 
 namespace tagfield {
 namespace {
@@ -72,6 +73,22 @@ Bend bend_at(const TracedReply& reply, const Vector3d& p_WA, const Vector3d& p, 
   return bend;
 }
 
+/// Leaves out the samples so marked, in the order of the antennas and of their samples.
+void leave_out(const std::vector<bool>& marked, Straightened& straight) {
+  std::size_t next = 0;
+  for (auto& [antenna, series] : straight.samples) {
+    std::vector<Bend>& bends = straight.bends.at(antenna);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      if (marked[next++]) continue;
+      series[kept] = series[i];
+      bends[kept++] = bends[i];
+    }
+    series.resize(kept);
+    bends.resize(kept);
+  }
+}
+
 }  // namespace
 
 TracedReplies traced(const LocalizationProblem& problem, const std::string& tag,
@@ -89,9 +106,11 @@ TracedReplies traced(const LocalizationProblem& problem, const std::string& tag,
 }
 
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
-                          const TracedReplies& replies, const Vector3d& p,
-                          double least_directness) {
+                          const TracedReplies& replies, const Vector3d& p, double least_directness,
+                          double noise_rad) {
   Straightened straight;
+  std::vector<PhaseLeft> left;
+  ChannelNumbers channels;
   for (const auto& [antenna, series] : sight.samples) {
     const std::vector<PhaseSample>& corrected = sight.corrected.at(antenna);
     const std::vector<TracedReply>& of_antenna = replies.at(antenna);
@@ -103,10 +122,15 @@ Straightened straightened(const LocalizationProblem& problem, const Sight& sight
                            std::max(bend.by_place.norm(), bend.by_antenna.norm()) < kSteepestBend;
       if (!is_used) continue;
       sample.phase_rad = wrap_to_two_pi(sample.phase_rad - problem.multiple() * bend.phase_rad);
+      const double direct_rad =
+          2.0 * kTwoPi / wavelength(sample.frequency_hz) * (p - corrected[i].p_WA).norm();
+      left.push_back(
+          {channels.of(antenna, sample.frequency_hz), sample.phase_rad - direct_rad});
       straight.samples[antenna].push_back(sample);
       straight.bends[antenna].push_back(bend);
     }
   }
+  leave_out(spread_of(left, noise_rad).outlying, straight);
   return straight;
 }
 

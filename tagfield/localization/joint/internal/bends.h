@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/localization/problem.h"
@@ -30,6 +31,17 @@ struct Bend {
   Eigen::Vector3d by_antenna = Eigen::Vector3d::Zero();
 };
 
+/// Numbers of channels, by antenna and frequency, in the order in which they are asked for.
+class ChannelNumbers {
+ public:
+  std::size_t of(const std::string& antenna, double frequency_hz) {
+    return numbers_.emplace(std::pair(antenna, frequency_hz), numbers_.size()).first->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, double>, std::size_t> numbers_;
+};
+
 /// A tag's samples, and the same with the antennas where they truly are, as far as that is known.
 struct Sight {
   SamplesOfTag samples;
@@ -44,9 +56,10 @@ struct Straightened {
 
 /// With the tag at `p`, near the place that `replies` were traced to from `sight.corrected`.
 /// Samples that hardly came the direct way are left out, and those near a null of the field, where
-/// phases turn so fast that no slope holds for long.
+/// phases turn so fast that no slope holds for long; and outlying ones (outlying.h), of phases with
+/// the noise `noise_rad`.
 Straightened straightened(const LocalizationProblem& problem, const Sight& sight,
                           const TracedReplies& replies, const Eigen::Vector3d& p,
-                          double least_directness);
+                          double least_directness, double noise_rad);
 
 }  // namespace tagfield

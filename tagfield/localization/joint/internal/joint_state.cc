@@ -99,19 +99,6 @@ PoseKnots knots_of(const LocalizationProblem& problem, const PoseErrorModel& mod
   return knots;
 }
 
-/// From the phases before any fit; 0 where they don't tell.
-double first_noise(const LocalizationProblem& problem) {
-  std::vector<double> of_series;
-  for (const auto& [tag, of_tag] : problem.samples) {
-    for (const auto& [antenna, series] : of_tag) {
-      const double noise = phase_noise(series);
-      if (noise > 0.0) of_series.push_back(noise);
-    }
-  }
-  const double usual = problem.half_turns ? 0.2 : 0.1;
-  return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
-}
-
 JointTag joint_tag(const LocalizationProblem& problem, const std::string& tag,
                    UnwrappedFit unwrapped) {
   JointTag joint;
@@ -220,6 +207,18 @@ JointState without_tags(const LocalizationProblem& problem, std::size_t tags) {
 }
 
 }  // namespace
+
+double first_noise(const LocalizationProblem& problem) {
+  std::vector<double> of_series;
+  for (const auto& [tag, of_tag] : problem.samples) {
+    for (const auto& [antenna, series] : of_tag) {
+      const double noise = phase_noise(series);
+      if (noise > 0.0) of_series.push_back(noise);
+    }
+  }
+  const double usual = problem.half_turns ? 0.2 : 0.1;
+  return of_series.empty() ? usual : std::max(median(std::move(of_series)), 1e-3);
+}
 
 JointState begin_jointly(const LocalizationProblem& problem, int threads) {
   std::vector<const SamplesByTag::value_type*> tags;

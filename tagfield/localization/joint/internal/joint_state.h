@@ -28,6 +28,9 @@ struct JointState {
 /// Each tag by itself on its unwrapped phase, and knots for the pose error.
 JointState begin_jointly(const LocalizationProblem& problem, int threads);
 
+/// Phase noise [rad] before any fit, from how phases change from read to read.
+double first_noise(const LocalizationProblem& problem);
+
 /// A tag that is about at a place; of a reference tag, just there.
 struct PlacedTag {
   std::string id;

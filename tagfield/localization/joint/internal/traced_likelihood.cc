@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/joint/internal/traced_likelihood.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+
+#include "tagfield/localization/joint/internal/outlying.h"
 
 namespace tagfield {
 namespace {
@@ -28,13 +32,16 @@ std::vector<std::pair<std::string, std::size_t>> samples_by_read(const TagPhases
   return by_read;
 }
 
-/// Adds what a read measured less what it would be at each place, where it tells something.
-void add_read(const TracedSearch& search, const NearReply& reply, double phase_rad, const Tile& x,
-              const Tile& y, const Tile& z, PieceSums& sums) {
+/// What a read measured less what it would be at each place, where it tells something.
+struct Difference {
+  Tile cosine;
+  Tile sine;
+  Tile used;  ///< 0 or 1.
+};
+
+Difference difference(const TracedSearch& search, const NearReply& reply, double phase_rad,
+                      const Tile& x, const Tile& y, const Tile& z) {
   const ReplyPhasors there = reply_phasors(reply, x, y, z);
-  const Tile used = (there.directness >= static_cast<float>(search.least_directness) &&
-                     there.slope < static_cast<float>(kSteepestBend))
-                        .cast<float>();
   Tile cosine = there.in_phase;
   Tile sine = there.quadrature;
   if (search.problem.half_turns) {
@@ -43,9 +50,67 @@ void add_read(const TracedSearch& search, const NearReply& reply, double phase_r
   }
   const auto c = static_cast<float>(std::cos(phase_rad));
   const auto s = static_cast<float>(std::sin(phase_rad));
-  sums.waves.in_phase += used * (c * cosine + s * sine);
-  sums.waves.quadrature += used * (s * cosine - c * sine);
-  sums.reads += used;
+  return {c * cosine + s * sine, s * cosine - c * sine,
+          (there.directness >= static_cast<float>(search.least_directness) &&
+           there.slope < static_cast<float>(kSteepestBend))
+              .cast<float>()};
+}
+
+void add(const Difference& read, PieceSums& sums) {
+  sums.waves.in_phase += read.used * read.cosine;
+  sums.waves.quadrature += read.used * read.sine;
+  sums.reads += read.used;
+}
+
+std::vector<PieceSums> sums_at(const TracedSearch& search, const TracedLayout& layout,
+                               const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
+                               const Tile& z) {
+  std::vector<PieceSums> of_pieces;
+  of_pieces.reserve(layout.reads.reads.apertures.size());
+  for (const Aperture& piece : layout.reads.reads.apertures) {
+    PieceSums sums;
+    for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
+      add(difference(search, replies[static_cast<std::size_t>(i)], layout.phase_rad[i], x, y, z),
+          sums);
+    }
+    of_pieces.push_back(sums);
+  }
+  return of_pieces;
+}
+
+/// By piece, of all reads.
+std::vector<PieceSums> sums_of(const TracedLayout& layout, const std::vector<Difference>& reads) {
+  std::vector<PieceSums> of_pieces;
+  of_pieces.reserve(layout.reads.reads.apertures.size());
+  for (const Aperture& piece : layout.reads.reads.apertures) {
+    PieceSums sums;
+    for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
+      add(reads[static_cast<std::size_t>(i)], sums);
+    }
+    of_pieces.push_back(sums);
+  }
+  return of_pieces;
+}
+
+std::size_t channels_of(const std::vector<PhaseLeft>& left) {
+  std::set<std::size_t> channels;
+  for (const PhaseLeft& read : left) channels.insert(read.channel);
+  return channels.size();
+}
+
+double cost_of(const Spread& spread, double noise_rad, std::size_t reads) {
+  constexpr double kMost = 16.0;
+  double cost = kMost * static_cast<double>(reads - spread.off_rad.size());
+  for (const double off : spread.off_rad) cost += std::min(kMost, std::pow(off / noise_rad, 2));
+  return cost;
+}
+
+double kept_cost_of(const Spread& spread, double noise_rad) {
+  double cost = 0.0;
+  for (std::size_t i = 0; i < spread.off_rad.size(); ++i) {
+    if (!spread.outlying[i]) cost += std::pow(spread.off_rad[i] / noise_rad, 2);
+  }
+  return cost;
 }
 
 }  // namespace
@@ -59,6 +124,11 @@ TracedLayout layout_of(const TracedSearch& search) {
   layout.reads = stretched_reads(phases, wavelength, 0.0, middle_of(phases));
   layout.phase_rad = phases.value * phases.wavenumber;
   layout.sample = samples_by_read(phases, search.sight.samples);
+  ChannelNumbers channels;
+  for (const auto& [antenna, number] : layout.sample) {
+    layout.channel.push_back(
+        channels.of(antenna, search.sight.samples.at(antenna)[number].frequency_hz));
+  }
   return layout;
 }
 
@@ -78,16 +148,40 @@ std::vector<NearReply> replies_about(const TracedSearch& search, const TracedLay
 Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
                     const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
                     const Tile& z) {
-  std::vector<PieceSums> of_pieces;
-  of_pieces.reserve(layout.reads.reads.apertures.size());
-  for (const Aperture& piece : layout.reads.reads.apertures) {
-    PieceSums sums;
-    for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
-      add_read(search, replies[static_cast<std::size_t>(i)], layout.phase_rad[i], x, y, z, sums);
-    }
-    of_pieces.push_back(sums);
+  return stretch_likelihood(layout.reads, kForPlaces, sums_at(search, layout, replies, x, y, z));
+}
+
+Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
+                  const std::vector<NearReply>& replies) {
+  const Tile here = Tile::Zero();
+  std::vector<Difference> reads;
+  std::vector<PhaseLeft> left;  // Of those in use.
+  for (std::size_t i = 0; i < replies.size(); ++i) {
+    const double phase_rad = layout.phase_rad[static_cast<Index>(i)];
+    reads.push_back(difference(search, replies[i], phase_rad, here, here, here));
+    if (!(reads.back().used[0] > 0.0f)) continue;
+    left.push_back({layout.channel[i], std::atan2(reads.back().sine[0], reads.back().cosine[0])});
   }
-  return stretch_likelihood(layout.reads, kForPlaces, of_pieces);
+  Fit fit;
+  fit.log_likelihood = static_cast<double>(
+      stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, reads))[0]);
+  const Spread spread = spread_of(left, search.noise_rad);
+  fit.cost = cost_of(spread, search.noise_rad, reads.size());
+  fit.kept_cost = kept_cost_of(spread, search.noise_rad);
+  const auto kept_reads = std::count(spread.outlying.begin(), spread.outlying.end(), false);
+  fit.cost_of_noise =
+      std::max(0.0, static_cast<double>(kept_reads) - static_cast<double>(channels_of(left)) - 2.0);
+  std::size_t next = 0;
+  for (Difference& read : reads) {
+    if (read.used[0] > 0.0f && spread.outlying[next++]) read.used = Tile::Zero();
+  }
+  const std::vector<PieceSums> kept = sums_of(layout, reads);
+  fit.without_outlying =
+      static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, kept)[0]);
+  fit.attainable =
+      static_cast<double>(likelihood_of_noise(layout.reads, kForPlaces, kept, search.noise_rad)[0]);
+  fit.freedom = fit.attainable / -std::log(-std::expm1(-search.noise_rad * search.noise_rad));
+  return fit;
 }
 
 }  // namespace tagfield

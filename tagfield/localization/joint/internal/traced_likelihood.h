@@ -20,6 +20,7 @@ struct TracedSearch {
   const LocalizationProblem& problem;
   const Sight& sight;
   double least_directness = 0.0;  ///< Of replies that are used.
+  double noise_rad = 0.0;         ///< Of the phases.
 };
 
 /// Reads laid out once for all places.
@@ -28,6 +29,7 @@ struct TracedLayout {
   Eigen::ArrayXd phase_rad;  ///< As measured, by read.
   /// By read: its antenna, and which of that antenna's samples it is.
   std::vector<std::pair<std::string, std::size_t>> sample;
+  std::vector<std::size_t> channel;  ///< By read, as ChannelNumbers has them.
 };
 
 TracedLayout layout_of(const TracedSearch& search);
@@ -42,5 +44,24 @@ std::vector<NearReply> replies_about(const TracedSearch& search, const TracedLay
 Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
                     const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
                     const Tile& z);
+
+/// ln of a place's likelihood; the same without outlying reads (outlying.h), and what that would be
+/// if only noise were left of them.
+struct Fit {
+  double log_likelihood = 0.0;
+  double without_outlying = 0.0;
+  double attainable = 0.0;
+  double freedom = 0.0;  ///< Independent samples that these reads come to.
+  /// Squares of what is left of the phases over the noise's, summed: of outlying reads, and of
+  /// those that tell nothing here, 16.
+  double cost = 0.0;
+  // The same of the reads that are not outlying, and what it comes to where only noise is left.
+  double kept_cost = 0.0;
+  double cost_of_noise = 0.0;
+};
+
+/// At the place that the replies were traced to.
+Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
+                  const std::vector<NearReply>& replies);
 
 }  // namespace tagfield

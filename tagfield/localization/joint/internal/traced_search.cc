@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "tagfield/localization/joint/internal/traced_likelihood.h"
@@ -13,10 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Place {
-  Vector3d p_WT;
-  double log_likelihood = 0.0;
-};
+using Place = LikelyPlace;
 
 bool is_likelier(const Place& a, const Place& b) { return a.log_likelihood > b.log_likelihood; }
 
@@ -81,98 +79,152 @@ Sight some_of(const Sight& sight, std::size_t count) {
   return {some_of(sight.samples, count), some_of(sight.corrected, count)};
 }
 
-/// A search with few reads, square by square: replies are traced to each square's middle, as paths
-/// come and go.
-class FarSearch {
- public:
-  FarSearch(const TracedSearch& search, const std::string& tag)
-      : search_(search), tag_(tag), layout_(layout_of(search)) {}
+constexpr std::size_t kFewReads = 100;
+constexpr std::size_t kManyReads = 300;
 
-  void look_at(const Square& square) {
-    const std::vector<NearReply> replies = replies_about(search_, layout_, tag_, square.middle);
-    const Places here = look_about(search_, layout_, replies, square.middle, square);
-    // Of one square no more can be of use.
-    const auto count = static_cast<std::ptrdiff_t>(std::min(here.size(), kOfSquare));
-    found_.insert(found_.end(), here.begin(), here.begin() + count);
-  }
+/// A tag's search by some of its reads.
+struct Look {
+  Look(const TracedSearch& search, std::size_t count)
+      : sight(some_of(search.sight, count)),
+        search{search.problem, sight, search.least_directness, search.noise_rad},
+        layout(layout_of(this->search)) {}
+  Look(const Look&) = delete;
+  Look& operator=(const Look&) = delete;
 
-  /// The best first.
-  Places found() {
-    std::stable_sort(found_.begin(), found_.end(), is_likelier);
-    return found_;
-  }
-
- private:
-  static constexpr std::size_t kOfSquare = 121;
-  const TracedSearch& search_;
-  const std::string& tag_;
-  TracedLayout layout_;
-  Places found_;
+  Sight sight;
+  TracedSearch search;
+  TracedLayout layout;
 };
 
-constexpr double kFarStep = 0.024;  ///< [m]
-
-/// All places within `reach` [m] of a candidate.
-Places look_far(const TracedSearch& search, const std::string& tag, const Candidate& candidate,
-                double reach) {
-  constexpr int kSteps = 5;
-  constexpr int kMostSquares = 3;  // To each side.
-  constexpr double kWidth = 2 * kSteps * kFarStep;
-  const int squares =
-      std::clamp(static_cast<int>(std::ceil(reach / kWidth - 0.5)), 0, kMostSquares);
-  FarSearch far(search, tag);
-  for (int i = -squares; i <= squares; ++i) {
-    for (int j = -squares; j <= squares; ++j) {
-      far.look_at({candidate.p_WT + kWidth * Vector3d(i, j, 0.0), kSteps, kFarStep});
+/// From a place uphill. Replies are traced anew where it led, as paths come and go, but not for each
+/// step: in a large world tracing takes most of the time.
+Place climb(const TracedSearch& search, const TracedLayout& layout, const std::string& tag,
+            const Place& from, const std::vector<double>& steps_m) {
+  constexpr int kMostTraced = 3;
+  constexpr int kMostMoves = 4;       // A step's.
+  constexpr double kStillHere = 2.0;  // Of the finest steps.
+  Place best = from;
+  for (int traced = 0; traced < kMostTraced; ++traced) {
+    const Vector3d origin = best.p_WT;
+    const std::vector<NearReply> here = replies_about(search, layout, tag, origin);
+    for (const double step : steps_m) {
+      for (int move = 0; move < kMostMoves; ++move) {
+        const Place next = look_about(search, layout, here, origin, {best.p_WT, 2, step}).front();
+        const double moved = (next.p_WT - best.p_WT).norm();
+        best = next;
+        // Within the square there is no need to look further out.
+        if (moved < 1.5 * step) break;
+      }
     }
-  }
-  return far.found();
-}
-
-/// All places within `reach` [m] of the middle, in larger squares.
-Places look_everywhere(const TracedSearch& search, const std::string& tag, const Vector3d& middle,
-                       double reach) {
-  constexpr int kSteps = 10;
-  constexpr double kWidth = 2 * kSteps * kFarStep;
-  const int squares = static_cast<int>(std::ceil(reach / kWidth));
-  FarSearch far(search, tag);
-  for (int i = -squares; i <= squares; ++i) {
-    for (int j = -squares; j <= squares; ++j) {
-      const Vector3d off = kWidth * Vector3d(i, j, 0.0);
-      if (off.norm() <= reach) far.look_at({middle + off, kSteps, kFarStep});
-    }
-  }
-  return far.found();
-}
-
-/// Of those seen with few reads the better ones are looked at more closely with many.
-Place best_of(const TracedSearch& search, const std::string& tag, const Places& far, Place best) {
-  constexpr std::size_t kManyReads = 500;
-  constexpr std::size_t kCloser = 8;
-  constexpr double kApart = 0.03;  // [m]
-  const Sight many = some_of(search.sight, kManyReads);
-  const TracedSearch close{search.problem, many, search.least_directness};
-  const TracedLayout layout = layout_of(close);
-  for (const Place& start : apart(far, kApart, kCloser)) {
-    const std::vector<NearReply> here = replies_about(close, layout, tag, start.p_WT);
-    Place closer = start;
-    for (const double step : {0.008, 0.003, 0.001}) {
-      closer = look_about(close, layout, here, start.p_WT, {closer.p_WT, 2, step}).front();
-    }
-    if (is_likelier(closer, best)) best = closer;
+    if ((best.p_WT - origin).norm() <= kStillHere * steps_m.back()) break;
   }
   return best;
 }
 
-constexpr std::size_t kFewReads = 200;
+/// A search with few reads, square by square, as paths come and go; the better places are then
+/// looked at with many.
+class FarSearch {
+ public:
+  FarSearch(const TracedSearch& search, const std::string& tag)
+      : tag_(tag), few_(search, kFewReads), many_(search, kManyReads) {}
 
-Place best_about(const TracedSearch& search, const std::string& tag, const Candidate& candidate,
-                 double deviations) {
-  const double reach = deviations * candidate.expected_error_m / std::sqrt(2.0);
-  const Sight few = some_of(search.sight, kFewReads);
-  const Places far =
-      look_far({search.problem, few, search.least_directness}, tag, candidate, reach);
-  return best_of(search, tag, far, {candidate.p_WT, -1.0});
+  /// Whether there is a better place than in all squares before.
+  bool look_at(const Square& square) {
+    const std::vector<NearReply> replies =
+        replies_about(few_.search, few_.layout, tag_, square.middle);
+    const Places here = look_about(few_.search, few_.layout, replies, square.middle, square);
+    const bool is_better = found_.empty() || is_likelier(here.front(), best_);
+    if (is_better) best_ = here.front();
+    // Of one square no more can be of use.
+    const auto count = static_cast<std::ptrdiff_t>(std::min(here.size(), kOfSquare));
+    found_.insert(found_.end(), here.begin(), here.begin() + count);
+    return is_better;
+  }
+
+  /// The best place so far, closer, if no place can be much likelier: its reads leave hardly more
+  /// than noise.
+  [[nodiscard]] std::optional<Place> settled() const {
+    constexpr double kMaybe = 0.85;
+    const Place place = begun(best_);
+    const Fit by_few = fit_of(few_, place);
+    if (by_few.without_outlying < kMaybe * by_few.attainable) return {};
+    const Place there = closer(place);
+    return is_settled(fit_of(many_, there)) ? std::optional(there) : std::nullopt;
+  }
+
+  /// The best of several apart from each other, closer, the best first.
+  [[nodiscard]] Places best_of_all() {
+    constexpr std::size_t kBegun = 8;
+    constexpr std::size_t kCloser = 3;
+    constexpr double kApart = 0.03;  // [m]
+    std::stable_sort(found_.begin(), found_.end(), is_likelier);
+    Places places = apart(found_, kApart, kBegun);
+    for (Place& place : places) place = begun(place);
+    std::stable_sort(places.begin(), places.end(), is_likelier);
+    places.resize(std::min(places.size(), kCloser));
+    for (Place& place : places) place = closer(place);
+    std::stable_sort(places.begin(), places.end(), is_likelier);
+    return places;
+  }
+
+ private:
+  static constexpr std::size_t kOfSquare = 121;
+
+  [[nodiscard]] Fit fit_of(const Look& look, const Place& place) const {
+    return fit_at_middle(look.search, look.layout,
+                         replies_about(look.search, look.layout, tag_, place.p_WT));
+  }
+  [[nodiscard]] Place begun(const Place& start) const {
+    return climb(few_.search, few_.layout, tag_, start, {0.008, 0.003});
+  }
+  [[nodiscard]] Place closer(const Place& start) const {
+    return climb(many_.search, many_.layout, tag_, start, {0.003, 0.001});
+  }
+
+  const std::string& tag_;
+  Look few_, many_;
+  Places found_;
+  Place best_;
+};
+
+/// How a search is laid out.
+struct Grid {
+  int steps = 1;  ///< To each side, of its squares.
+  double step = 0.0;
+  [[nodiscard]] double width() const { return 2 * steps * step; }
+};
+
+constexpr Grid kNearGrid{10, 0.012};
+constexpr Grid kFarGrid{10, 0.024};
+
+/// The squares of a ring about a middle, so many squares out.
+std::vector<Square> ring_of(const Vector3d& middle, int ring, const Grid& grid) {
+  std::vector<Square> squares;
+  for (int i = -ring; i <= ring; ++i) {
+    for (int j = -ring; j <= ring; ++j) {
+      if (std::max(std::abs(i), std::abs(j)) != ring) continue;
+      squares.push_back({middle + grid.width() * Vector3d(i, j, 0.0), grid.steps, grid.step});
+    }
+  }
+  return squares;
+}
+
+/// The likeliest places up to `reach` [m] away, ring by ring outwards until one explains all.
+LikelyPlaces search_outwards(const TracedSearch& search, const std::string& tag, const Vector3d& middle,
+                        double reach, const Grid& grid) {
+  const double width = grid.width();
+  FarSearch far(search, tag);
+  const int rings = std::max(0, static_cast<int>(std::ceil(reach / width - 0.5)));
+  for (int ring = 0; ring <= rings; ++ring) {
+    bool is_better = false;
+    for (const Square& square : ring_of(middle, ring, grid)) {
+      if (ring > 0 && (square.middle - middle).norm() > reach + width) continue;
+      if (far.look_at(square)) is_better = true;
+    }
+    if (!is_better) continue;
+    if (const std::optional<Place> place = far.settled()) return {{*place}, true};
+  }
+  return {far.best_of_all(), false};
 }
 
 /// Where the antennas were at the strongest of the reads [m], in the mean over a twentieth of them.
@@ -189,14 +241,46 @@ Vector3d strongest_from(const SamplesOfTag& samples) {
   return sum / static_cast<double>(reads.size());
 }
 
+/// Of fewer independent samples a wrong place may well explain most.
+constexpr double kFewestSamples = 10.0;
+
 }  // namespace
+
+bool is_settled(const Fit& fit) {
+  constexpr double kNearly = 0.97;  // About a fifth more than noise is left.
+  return fit.freedom >= kFewestSamples && fit.without_outlying > kNearly * fit.attainable;
+}
+
+bool is_believable(const Fit& fit) {
+  constexpr double kDeviations = 2.0;
+  return fit.freedom >= kFewestSamples ||
+         fit.kept_cost < fit.cost_of_noise + kDeviations * std::sqrt(2.0 * fit.cost_of_noise);
+}
+
+Fit fit_at(const TracedSearch& search, const std::string& tag, const Vector3d& p_WT) {
+  const TracedLayout layout = layout_of(search);
+  return fit_at_middle(search, layout, replies_about(search, layout, tag, p_WT));
+}
+
+LikelyPlace climbed(const TracedSearch& search, const std::string& tag, const Vector3d& p_WT) {
+  return climb(search, layout_of(search), tag, {p_WT, 0.0}, {0.004, 0.002, 0.001, 0.0005, 0.00025});
+}
+
+LikelyPlaces likeliest_about(const TracedSearch& search, const std::string& tag,
+                            const Vector3d& p_WT, double reach) {
+  return search_outwards(search, tag, p_WT, reach, kNearGrid);
+}
 
 Vector3d likeliest_place(const TracedSearch& search, const TagEstimate& estimate,
                          double deviations) {
+  constexpr double kFarthest = 0.84;  // [m]
   Place best{estimate.candidates.front().p_WT, -1.0};
   for (const Candidate& candidate : estimate.candidates) {
-    const Place place = best_about(search, estimate.tag, candidate, deviations);
-    if (is_likelier(place, best)) best = place;
+    const double reach = deviations * candidate.expected_error_m / std::sqrt(2.0);
+    const LikelyPlaces found =
+        likeliest_about(search, estimate.tag, candidate.p_WT, std::min(reach, kFarthest));
+    if (found.is_settled) return found.places.front().p_WT;
+    if (is_likelier(found.places.front(), best)) best = found.places.front();
   }
   return best.p_WT;
 }
@@ -206,10 +290,8 @@ Vector3d likeliest_anywhere(const TracedSearch& search, const std::string& tag,
   constexpr double kReach = 4.0;  // [m]
   Vector3d middle = strongest_from(search.sight.corrected);
   middle.z() = p_WT.z();
-  const Sight few = some_of(search.sight, kFewReads);
-  const Places far =
-      look_everywhere({search.problem, few, search.least_directness}, tag, middle, kReach);
-  return best_of(search, tag, far, {p_WT, -1.0}).p_WT;
+  const Place best = search_outwards(search, tag, middle, kReach, kFarGrid).places.front();
+  return best.log_likelihood > 0.0 ? best.p_WT : p_WT;
 }
 
 }  // namespace tagfield
