@@ -191,7 +191,7 @@ struct LocalizationProblem {
   bool half_turns = false;                   ///< Phases and carriers were doubled (half_turns.h).
   TagArea area;                              ///< Where tags can be.
   EstimateLimits limits;
-  TraceReplies trace;  ///< Through the world, where that is known; else null.
+  TraceReplies trace;          ///< Through the world, where that is known; else null.
   double world_sigma_m = 0.0;  ///< How far its surfaces may be from where they are said to be.
 
   /// By which phases and carriers in `samples` were multiplied.
@@ -211,7 +211,8 @@ struct KnownBeforehand {
   TagArea area;  ///< Where tags can be.
   EstimateLimits limits;
   TraceReplies trace{};  ///< Through the world, where that is known. Called by several threads.
-  /// How far its surfaces may be from where they are said to be, standard deviation along each axis.
+  /// How far its surfaces may be from where they are said to be, standard deviation along each
+  /// axis.
   double world_sigma_m = 0.0;
   std::map<std::string, Hand> circular{};  ///< Antennas that are known to be circularly polarized.
 };

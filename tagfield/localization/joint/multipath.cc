@@ -143,6 +143,10 @@ bool is_right_world(const std::vector<double>& weights) {
   return 2 * static_cast<std::size_t>(fitting) > weights.size();
 }
 
+bool any_fits(const std::vector<double>& weights) {
+  return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight >= kFits; });
+}
+
 /// How far from its starts a tag that doesn't fit is looked for.
 enum class Reach { kFurther, kAnywhere };
 
@@ -189,7 +193,7 @@ void climb_all(Run& run, const std::vector<Vector3d>& before, const MultipathOpt
     if (is_settled(here)) return;
     std::vector<Vector3d> places{now};
     if ((before[i] - now).norm() > kFar) places.push_back(before[i]);
-    if (is_late && run.looked_about[i] == 0) {
+    if (is_late && run.looked_about[i] == 0 && fit_weight(state, i) >= kFits) {
       run.looked_about[i] = 1;
       for (const LikelyPlace& about : likeliest_about(search, tag.id, now, kAbout).places) {
         places.push_back(about.p_WT);
@@ -217,6 +221,8 @@ void fit_through_world(Run& run, const MultipathOptions& options, int threads) {
     climb_all(run, before, options, round > 2, threads);
     if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
     if (round == 2) {
+      // The reads of no tag fit this world: it is another one, or they are not what they seem.
+      if (!any_fits(fit_weights(state, threads))) break;
       find_lost(run, options, Reach::kFurther, threads);
     } else if (round == 4 && is_right_world(fit_weights(state, threads))) {
       find_lost(run, options, Reach::kAnywhere, threads);
@@ -243,8 +249,8 @@ std::vector<Fit> fits_of(const Run& run, const MultipathOptions& options, int th
   parallel_for(fits.size(), threads, [&](std::size_t i) {
     const JointTag& tag = state.system.tags[i];
     const Sight sight = sight_of(state, *run.given[i]);
-    fits[i] = fit_at(search_for(state, sight, options), tag.id,
-                     to_place(tag.height, tag.fit.unknowns));
+    fits[i] =
+        fit_at(search_for(state, sight, options), tag.id, to_place(tag.height, tag.fit.unknowns));
   });
   return fits;
 }
@@ -252,7 +258,8 @@ std::vector<Fit> fits_of(const Run& run, const MultipathOptions& options, int th
 /// What the joint fit says where it fits; else the robust estimates stay, by the limits that were
 /// asked for.
 void take_estimates(const Run& run, const std::vector<std::size_t>& numbers,
-                    const MultipathOptions& options, int threads, Diagnostics& diagnostics, LocalizationResult& result) {
+                    const MultipathOptions& options, int threads, Diagnostics& diagnostics,
+                    LocalizationResult& result) {
   const JointState& state = run.state;
   const LocalizationProblem& problem = *state.problem;
   const std::vector<double> weights = fit_weights(state, threads);
@@ -294,12 +301,11 @@ Run begin(const LocalizationProblem& problem, const std::vector<TagEstimate>& es
     const Sight sight{samples, samples};
     run.given[k] = &samples;
     run.starts[k] = estimate;
-    placed[k] = {
-        estimate.tag, &samples,
-        is_reference(problem, estimate.tag)
-            ? problem.reference_tags.at(estimate.tag)
-            : likeliest_place({problem, sight, options.least_directness, noise_rad}, estimate,
-                              kNear)};
+    placed[k] = {estimate.tag, &samples,
+                 is_reference(problem, estimate.tag)
+                     ? problem.reference_tags.at(estimate.tag)
+                     : likeliest_place({problem, sight, options.least_directness, noise_rad},
+                                       estimate, kNear)};
   });
   run.state = begin_at(problem, placed);
   return run;

@@ -28,7 +28,7 @@ std::vector<PhaseLeft> reads(std::size_t count, std::size_t every, Rng& rng) {
 
 TEST(Outlying, NamesThoseFarFromTheirChannel) {
   Rng rng(3);
-  const Spread spread = spread_of(reads(300, 20, rng), kNoise);
+  const PhaseSpread spread = spread_of(reads(300, 20, rng), kNoise);
   for (std::size_t i = 0; i < 300; ++i) {
     EXPECT_EQ(spread.outlying[i], i % 20 == 0) << i << ": " << spread.off_rad[i];
   }
@@ -36,14 +36,14 @@ TEST(Outlying, NamesThoseFarFromTheirChannel) {
 
 TEST(Outlying, OfNoiseAloneHardlyAny) {
   Rng rng(4);
-  const Spread spread = spread_of(reads(3000, 0, rng), kNoise);
+  const PhaseSpread spread = spread_of(reads(3000, 0, rng), kNoise);
   // Beyond four deviations are 6 of 100,000.
   EXPECT_LE(std::count(spread.outlying.begin(), spread.outlying.end(), true), 3);
 }
 
 TEST(Outlying, WhereManyDoNotFitItNamesNone) {
   Rng rng(5);
-  const Spread spread = spread_of(reads(300, 5, rng), kNoise);
+  const PhaseSpread spread = spread_of(reads(300, 5, rng), kNoise);
   EXPECT_EQ(std::count(spread.outlying.begin(), spread.outlying.end(), true), 0);
 }
 

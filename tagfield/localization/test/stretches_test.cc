@@ -118,14 +118,12 @@ TEST(StretchLikelihood, AtTheTagIsWhatNoiseAloneLeaves) {
     const StretchedReads reads = stretched_reads(phases, 0.346, p_WT.z(), middle);
     const Tile x = Tile::Constant(static_cast<float>(p_WT.x() - middle.x()));
     const Tile y = Tile::Constant(static_cast<float>(p_WT.y() - middle.y()));
-    there +=
-        static_cast<double>(stretch_likelihood(reads, kForPlaces, x, y, Tile::Zero())[0]);
+    there += static_cast<double>(stretch_likelihood(reads, kForPlaces, x, y, Tile::Zero())[0]);
     std::vector<PieceSums> counts(reads.reads.apertures.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
       counts[i].reads = Tile::Constant(static_cast<float>(reads.reads.apertures[i].count));
     }
-    expected +=
-        static_cast<double>(likelihood_of_noise(reads, kForPlaces, counts, kNoise)[0]);
+    expected += static_cast<double>(likelihood_of_noise(reads, kForPlaces, counts, kNoise)[0]);
   }
   EXPECT_NEAR(there, expected, 0.05 * expected);
 }

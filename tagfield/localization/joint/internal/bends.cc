@@ -124,8 +124,7 @@ Straightened straightened(const LocalizationProblem& problem, const Sight& sight
       sample.phase_rad = wrap_to_two_pi(sample.phase_rad - problem.multiple() * bend.phase_rad);
       const double direct_rad =
           2.0 * kTwoPi / wavelength(sample.frequency_hz) * (p - corrected[i].p_WA).norm();
-      left.push_back(
-          {channels.of(antenna, sample.frequency_hz), sample.phase_rad - direct_rad});
+      left.push_back({channels.of(antenna, sample.frequency_hz), sample.phase_rad - direct_rad});
       straight.samples[antenna].push_back(sample);
       straight.bends[antenna].push_back(bend);
     }

@@ -26,12 +26,12 @@ std::vector<double> middles_of(const std::vector<PhaseLeft>& left, const std::ve
 
 }  // namespace
 
-Spread spread_of(const std::vector<PhaseLeft>& left, double noise_rad) {
+PhaseSpread spread_of(const std::vector<PhaseLeft>& left, double noise_rad) {
   constexpr int kRounds = 3;
   constexpr double kFar = 4.0;          // Deviations.
   constexpr double kOfMedian = 1.4826;  // Deviations of a normal distribution a median of |x|.
   constexpr double kMost = 1.0 / 7.0;   // Of the reads.
-  Spread spread{std::vector<double>(left.size()), std::vector<bool>(left.size(), false)};
+  PhaseSpread spread{std::vector<double>(left.size()), std::vector<bool>(left.size(), false)};
   auto& [off, out] = spread;
   if (left.empty()) return spread;
   for (int round = 0; round < kRounds; ++round) {

@@ -16,7 +16,7 @@ struct PhaseLeft {
 };
 
 /// Of reads, how far each is from the middle of its channel [rad], and which of them are outlying.
-struct Spread {
+struct PhaseSpread {
   std::vector<double> off_rad;
   std::vector<bool> outlying;
 };
@@ -24,6 +24,6 @@ struct Spread {
 /// Outlying are those over four deviations off: of the noise [rad], or of what is left in the
 /// median where that is more. Never more than a seventh of the reads: where more don't fit it is
 /// the place that is wrong, and none is named.
-Spread spread_of(const std::vector<PhaseLeft>& left, double noise_rad);
+PhaseSpread spread_of(const std::vector<PhaseLeft>& left, double noise_rad);
 
 }  // namespace tagfield

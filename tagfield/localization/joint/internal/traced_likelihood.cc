@@ -98,14 +98,14 @@ std::size_t channels_of(const std::vector<PhaseLeft>& left) {
   return channels.size();
 }
 
-double cost_of(const Spread& spread, double noise_rad, std::size_t reads) {
+double cost_of(const PhaseSpread& spread, double noise_rad, std::size_t reads) {
   constexpr double kMost = 16.0;
   double cost = kMost * static_cast<double>(reads - spread.off_rad.size());
   for (const double off : spread.off_rad) cost += std::min(kMost, std::pow(off / noise_rad, 2));
   return cost;
 }
 
-double kept_cost_of(const Spread& spread, double noise_rad) {
+double kept_cost_of(const PhaseSpread& spread, double noise_rad) {
   double cost = 0.0;
   for (std::size_t i = 0; i < spread.off_rad.size(); ++i) {
     if (!spread.outlying[i]) cost += std::pow(spread.off_rad[i] / noise_rad, 2);
@@ -163,9 +163,9 @@ Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
     left.push_back({layout.channel[i], std::atan2(reads.back().sine[0], reads.back().cosine[0])});
   }
   Fit fit;
-  fit.log_likelihood = static_cast<double>(
-      stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, reads))[0]);
-  const Spread spread = spread_of(left, search.noise_rad);
+  fit.log_likelihood =
+      static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, reads))[0]);
+  const PhaseSpread spread = spread_of(left, search.noise_rad);
   fit.cost = cost_of(spread, search.noise_rad, reads.size());
   fit.kept_cost = kept_cost_of(spread, search.noise_rad);
   const auto kept_reads = std::count(spread.outlying.begin(), spread.outlying.end(), false);
@@ -176,8 +176,7 @@ Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
     if (read.used[0] > 0.0f && spread.outlying[next++]) read.used = Tile::Zero();
   }
   const std::vector<PieceSums> kept = sums_of(layout, reads);
-  fit.without_outlying =
-      static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, kept)[0]);
+  fit.without_outlying = static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, kept)[0]);
   fit.attainable =
       static_cast<double>(likelihood_of_noise(layout.reads, kForPlaces, kept, search.noise_rad)[0]);
   fit.freedom = fit.attainable / -std::log(-std::expm1(-search.noise_rad * search.noise_rad));

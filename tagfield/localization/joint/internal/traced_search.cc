@@ -96,8 +96,8 @@ struct Look {
   TracedLayout layout;
 };
 
-/// From a place uphill. Replies are traced anew where it led, as paths come and go, but not for each
-/// step: in a large world tracing takes most of the time.
+/// From a place uphill. Replies are traced anew where it led, as paths come and go, but not for
+/// each step: in a large world tracing takes most of the time.
 Place climb(const TracedSearch& search, const TracedLayout& layout, const std::string& tag,
             const Place& from, const std::vector<double>& steps_m) {
   constexpr int kMostTraced = 3;
@@ -210,8 +210,8 @@ std::vector<Square> ring_of(const Vector3d& middle, int ring, const Grid& grid) 
 }
 
 /// The likeliest places up to `reach` [m] away, ring by ring outwards until one explains all.
-LikelyPlaces search_outwards(const TracedSearch& search, const std::string& tag, const Vector3d& middle,
-                        double reach, const Grid& grid) {
+LikelyPlaces search_outwards(const TracedSearch& search, const std::string& tag,
+                             const Vector3d& middle, double reach, const Grid& grid) {
   const double width = grid.width();
   FarSearch far(search, tag);
   const int rings = std::max(0, static_cast<int>(std::ceil(reach / width - 0.5)));
@@ -267,7 +267,7 @@ LikelyPlace climbed(const TracedSearch& search, const std::string& tag, const Ve
 }
 
 LikelyPlaces likeliest_about(const TracedSearch& search, const std::string& tag,
-                            const Vector3d& p_WT, double reach) {
+                             const Vector3d& p_WT, double reach) {
   return search_outwards(search, tag, p_WT, reach, kNearGrid);
 }
 

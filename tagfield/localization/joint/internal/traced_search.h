@@ -38,7 +38,7 @@ struct LikelyPlaces {
 /// The likeliest places within `reach` [m], to 1 mm, at most three; or the first on the way
 /// outwards that is settled.
 LikelyPlaces likeliest_about(const TracedSearch& search, const std::string& tag,
-                            const Eigen::Vector3d& p_WT, double reach);
+                             const Eigen::Vector3d& p_WT, double reach);
 
 /// The likeliest place [m] about any of the estimate's candidates, of which there is at least one,
 /// to 1 mm: by the likelihood of stretches of the way (stretches.h) with the bends taken out,
