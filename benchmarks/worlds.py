@@ -11,6 +11,7 @@ is free of solids, drawn at random from the world's name and the route's number;
 before surfaces that the route passes within 0.6 to 3 m with nothing between. The reader hops between channels, and
 phases have the π ambiguity. The real command simulates and locates (`tagfield bench`); columns are those of
 benchmarks/halls.py. With --pose noisy the believed pose wanders by 1 cm and 0.5°, of which the methods are not told.
+auto takes multipath, as a simulated world is known; --methods robust shows what is told without that.
 """
 
 import argparse

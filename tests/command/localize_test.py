@@ -640,5 +640,38 @@ def the_folder_of_a_run_is_its_tables(context):
                   for name in ("folder", "tables")), "estimates")
 
 
+@case
+def a_known_world_and_how_well(context):
+    """Of a run its world is known to the letter; of tables to a centimetre, or as the command line says."""
+    scenario = context.shipped("warehouse_physics")
+    run = context.simulate("warehouse_physics", "--record-only", "--set", "duration_s=40")
+    lines = (run / "reads.csv").read_text(encoding="utf-8").splitlines()
+    tag = lines[0].split(",").index("tag")
+    few = [line for line in lines[1:] if line.split(",")[tag] in ("tag2", "tag3", "tag8")]
+    (run / "reads.csv").write_text("\n".join([lines[0], *few]) + "\n", encoding="utf-8")
+    tables = (run / "reads.csv", "--poses", run / "antenna_poses.csv")
+
+    def located(name, *arguments):
+        folder = context.folder / name
+        context.run_well("localize", *arguments, "--scenario", scenario, "--method", "multipath", "--out", folder)
+        return {row["tag"]: row for row in read_csv(folder / "estimates.csv") if row["verdict"] == "located"}
+
+    of_run, of_tables = located("of_run", run), located("of_tables", *tables)
+    told = located("told", *tables, "--world-sigma", "0.002")
+    check(len(of_run) >= 2, f"only {len(of_run)} of three tags are located")
+    check_equal(set(of_run), set(told), "tags that are located")
+    for tag, row in of_run.items():
+        for rows, sigma_m in ((of_tables, 0.01), (told, 0.002)):
+            if tag not in rows:
+                continue
+            for entry in ("cov_xx", "cov_yy"):
+                check_near(float(rows[tag][entry]) - float(row[entry]), (2 * sigma_m) ** 2, 1e-8, f"{tag}: {entry}")
+
+    bad = context.run("localize", *tables, "--scenario", scenario, "--method", "robust", "--world-sigma", "0.01",
+                      "--out", context.folder / "bad")
+    check_equal(bad.code, 2, "exit code of a setting without an effect")
+    check_in("--world-sigma has no effect", bad.err, "what it says")
+
+
 if __name__ == "__main__":
     main()

@@ -140,7 +140,7 @@ bool is_right_world(const std::vector<double>& weights) {
   constexpr double kFitsWell = 0.2;
   const auto fitting = std::count_if(weights.begin(), weights.end(),
                                      [](double weight) { return weight >= kFitsWell; });
-  return 2 * static_cast<std::size_t>(fitting) > weights.size();
+  return 2 * static_cast<std::size_t>(fitting) >= weights.size();
 }
 
 bool any_fits(const std::vector<double>& weights) {
@@ -265,18 +265,18 @@ void take_estimates(const Run& run, const std::vector<std::size_t>& numbers,
   const std::vector<double> weights = fit_weights(state, threads);
   const bool is_right = is_right_world(weights);
   const std::vector<Fit> fits = fits_of(run, options, threads);
-  JointCovariance covariance;
+  const JointCovariance covariance = covariance_of(state.system, threads);
   if (is_right) {
-    covariance = covariance_of(state.system, threads);
     result.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
   } else {
     diagnostics.warn(
-        "the phases of most tags don't fit the known world: reflections are not taken out");
+        "the phases of most tags don't fit the known world: their reflections are not taken out");
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     TagEstimate& estimate = result.estimates[numbers[k]];
     if (is_reference(problem, estimate.tag)) continue;
-    if (is_right && weights[k] >= kFits && is_believable(fits[k])) {
+    const bool fits_somewhat = is_right && weights[k] >= kFits && is_believable(fits[k]);
+    if (fits_somewhat || is_settled(fits[k])) {
       estimate.reads = static_cast<std::size_t>(state.system.tags[k].phases.size());
       estimate.candidates = {candidate_of(state.system, k, covariance.of_tag[k])};
       add_error(of_world(problem), estimate.candidates.front());
