@@ -188,14 +188,13 @@ std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const s
 
 double world_sigma_of(const LocalizeArguments& arguments, const std::string& method,
                       const KnownBeforehand& known) {
-  constexpr double kMeasured_m = 0.01;
   if (arguments.world_sigma_m && (!known.trace || (method != "multipath" && method != "auto"))) {
     throw Error(
         "localize: --world-sigma has no effect: it wants method multipath or auto, and a scenario "
         "with model: multipath");
   }
-  // A run was simulated in the very world that its scenario names.
-  return arguments.world_sigma_m.value_or(is_run(arguments.recording) ? 0.0 : kMeasured_m);
+  return arguments.world_sigma_m.value_or(is_run(arguments.recording) ? 0.0
+                                                                      : kMeasuredWorldSigma_m);
 }
 
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,

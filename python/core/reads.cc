@@ -128,9 +128,7 @@ KnownBeforehand known_of(const Asked& asked, const LoadedPtr& loaded,
   take_offsets(asked, reads, known);
   take_area(asked, known);
   take_pose_error(asked, known);
-  // Tables may be of a hall that somebody measured.
-  constexpr double kMeasured_m = 0.01;
-  known.world_sigma_m = asked.number("world_sigma_m", 0.0).value_or(kMeasured_m);
+  known.world_sigma_m = asked.number("world_sigma_m", 0.0).value_or(kMeasuredWorldSigma_m);
   if (const auto references = asked.get<PlacesById>("reference_tags")) {
     known.reference_tags = *references;
   }

@@ -99,8 +99,8 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     heights are estimated, on that side of the antennas; side ("left", "right", "+x", "-x", "+y", "-y") and
     box_m (x0, y0, x1, y1): where tags can be; reference_tags {tag: (3,) m}; offset_rad, or offsets_rad
     {antenna: rad}; pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: the error of the poses;
-    world_sigma_m: how far surfaces of the scenario's world may be off, for multipath (0.01; of reads simulated
-    in that very world 0); max_expected_error_m: a worse place is none; half_turns: whether phases have the π ambiguity.
+    world_sigma_m: how far surfaces of the scenario's world may be off, for multipath (0.01 if not given;
+    0 suits reads that were simulated in that very world); max_expected_error_m: a worse place is none; half_turns: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
     own = method if isinstance(method, _core.Method) else None

@@ -28,7 +28,8 @@ struct Run {
   std::vector<TagEstimate> starts;         ///< By tag of the state, as are
   std::vector<const SamplesOfTag*> given;  ///< the samples as they were measured,
   std::vector<Straightened> straight;      ///< and without their bends;
-  std::vector<char> looked_about;          ///< and whether there was a look about where it is.
+  /// and whether there was a look about where it is (by several threads, so no vector<bool>).
+  std::vector<char> looked_about;
 };
 
 /// Robust estimates, loosely limited: they are but starts.
@@ -155,8 +156,7 @@ TracedSearch search_for(const JointState& state, const Sight& sight,
   return {*state.problem, sight, options.least_directness, state.system.noise_rad};
 }
 
-/// Tags that don't fit are looked for anew, now that others tell the pose error; those that fit
-/// somewhat, about where they are.
+/// Tags that don't fit are looked for anew, now that others tell the pose error.
 void find_lost(Run& run, const MultipathOptions& options, Reach reach, int threads) {
   constexpr double kFurther = 5.0;  // Deviations.
   JointState& state = run.state;

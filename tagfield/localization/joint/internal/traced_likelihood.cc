@@ -62,30 +62,15 @@ void add(const Difference& read, PieceSums& sums) {
   sums.reads += read.used;
 }
 
-std::vector<PieceSums> sums_at(const TracedSearch& search, const TracedLayout& layout,
-                               const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
-                               const Tile& z) {
+/// By piece; `read` gives the Difference of a read by its number.
+template <class OfRead>
+std::vector<PieceSums> sums_of(const TracedLayout& layout, const OfRead& read) {
   std::vector<PieceSums> of_pieces;
   of_pieces.reserve(layout.reads.reads.apertures.size());
   for (const Aperture& piece : layout.reads.reads.apertures) {
     PieceSums sums;
     for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
-      add(difference(search, replies[static_cast<std::size_t>(i)], layout.phase_rad[i], x, y, z),
-          sums);
-    }
-    of_pieces.push_back(sums);
-  }
-  return of_pieces;
-}
-
-/// By piece, of all reads.
-std::vector<PieceSums> sums_of(const TracedLayout& layout, const std::vector<Difference>& reads) {
-  std::vector<PieceSums> of_pieces;
-  of_pieces.reserve(layout.reads.reads.apertures.size());
-  for (const Aperture& piece : layout.reads.reads.apertures) {
-    PieceSums sums;
-    for (Index i = piece.begin; i < piece.begin + piece.count; ++i) {
-      add(reads[static_cast<std::size_t>(i)], sums);
+      add(read(static_cast<std::size_t>(i)), sums);
     }
     of_pieces.push_back(sums);
   }
@@ -148,7 +133,10 @@ std::vector<NearReply> replies_about(const TracedSearch& search, const TracedLay
 Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
                     const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
                     const Tile& z) {
-  return stretch_likelihood(layout.reads, kForPlaces, sums_at(search, layout, replies, x, y, z));
+  const auto read = [&](std::size_t i) {
+    return difference(search, replies[i], layout.phase_rad[static_cast<Index>(i)], x, y, z);
+  };
+  return stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, read));
 }
 
 Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
@@ -163,8 +151,6 @@ Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
     left.push_back({layout.channel[i], std::atan2(reads.back().sine[0], reads.back().cosine[0])});
   }
   Fit fit;
-  fit.log_likelihood =
-      static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, sums_of(layout, reads))[0]);
   const PhaseSpread spread = spread_of(left, search.noise_rad);
   fit.cost = cost_of(spread, search.noise_rad, reads.size());
   fit.kept_cost = kept_cost_of(spread, search.noise_rad);
@@ -175,7 +161,8 @@ Fit fit_at_middle(const TracedSearch& search, const TracedLayout& layout,
   for (Difference& read : reads) {
     if (read.used[0] > 0.0f && spread.outlying[next++]) read.used = Tile::Zero();
   }
-  const std::vector<PieceSums> kept = sums_of(layout, reads);
+  const std::vector<PieceSums> kept =
+      sums_of(layout, [&](std::size_t i) -> const Difference& { return reads[i]; });
   fit.without_outlying = static_cast<double>(stretch_likelihood(layout.reads, kForPlaces, kept)[0]);
   fit.attainable =
       static_cast<double>(likelihood_of_noise(layout.reads, kForPlaces, kept, search.noise_rad)[0]);

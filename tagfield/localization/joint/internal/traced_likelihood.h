@@ -45,10 +45,9 @@ Tile likelihoods_at(const TracedSearch& search, const TracedLayout& layout,
                     const std::vector<NearReply>& replies, const Tile& x, const Tile& y,
                     const Tile& z);
 
-/// ln of a place's likelihood; the same without outlying reads (outlying.h), and what that would be
-/// if only noise were left of them.
+/// How well a place explains the reads: ln of its likelihood without outlying reads (outlying.h),
+/// and what that would be if only noise were left of them.
 struct Fit {
-  double log_likelihood = 0.0;
   double without_outlying = 0.0;
   double attainable = 0.0;
   double freedom = 0.0;  ///< Independent samples that these reads come to.
