@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/localization/joint/internal/world_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/localization/holograms/coherent_fit.h"
+
+namespace tagfield {
+namespace {
+
+using Eigen::Vector3d;
+
+Sight sight_of(const JointState& state, const SamplesOfTag& samples) {
+  return {samples, corrected_samples(*state.problem, state.system.knots, state.system.u, samples)};
+}
+
+/// By phase of a tag whose samples these are; an antenna reads a tag once at a time.
+BendSlopes slopes_of(const JointState& state, const JointTag& tag, const Straightened& straight) {
+  std::map<std::pair<std::string, double>, const Bend*> bends;
+  for (const auto& [antenna, series] : straight.samples) {
+    const std::vector<Bend>& of_antenna = straight.bends.at(antenna);
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      bends[{antenna, to_seconds(series[i].stamp)}] = &of_antenna[i];
+    }
+  }
+  BendSlopes slopes;
+  slopes.p_WT = to_place(tag.height, tag.fit.unknowns);
+  slopes.moved.resize(2, tag.phases.size());
+  slopes.by_place.resize(3, tag.phases.size());
+  slopes.by_antenna.resize(3, tag.phases.size());
+  for (const TagPhases::Span& span : tag.phases.spans) {
+    for (Eigen::Index i = span.begin; i < span.begin + span.count; ++i) {
+      const Bend& bend = *bends.at({span.antenna, tag.phases.time_s[i]});
+      slopes.moved.col(i) = displacement_at(state.system, tag, i);
+      slopes.by_place.col(i) = bend.by_place;
+      slopes.by_antenna.col(i) = bend.by_antenna;
+    }
+  }
+  return slopes;
+}
+
+/// Takes the bends out where the state stands.
+void straighten_all(WorldFit& fit, const MultipathOptions& options, int threads) {
+  JointState& state = fit.state;
+  const LocalizationProblem& problem = *state.problem;
+  std::vector<Straightened> next(fit.given.size());
+  parallel_for(fit.given.size(), threads, [&](std::size_t i) {
+    const JointTag& tag = state.system.tags[i];
+    const Sight sight = sight_of(state, *fit.given[i]);
+    const Vector3d p = to_place(tag.height, tag.fit.unknowns);
+    next[i] = straightened(problem, sight, traced(problem, tag.id, sight.corrected, p), p,
+                           options.least_directness, state.system.noise_rad);
+  });
+  fit.straight = std::move(next);
+  for (std::size_t i = 0; i < fit.straight.size(); ++i) {
+    take_samples(state, i, fit.straight[i].samples);
+    JointTag& tag = state.system.tags[i];
+    tag.slopes = slopes_of(state, tag, fit.straight[i]);
+  }
+}
+
+std::vector<Vector3d> places_of(const JointState& state) {
+  std::vector<Vector3d> places;
+  places.reserve(state.system.tags.size());
+  for (const JointTag& tag : state.system.tags) {
+    places.push_back(to_place(tag.height, tag.fit.unknowns));
+  }
+  return places;
+}
+
+double farthest_move(const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    most = std::max(most, (after[i] - before[i]).norm());
+  }
+  return most;
+}
+
+/// Of the waves that add up at the tag's place with the corrected poses, less their bends.
+double share_at(const JointState& state, std::size_t index) {
+  const JointTag& tag = state.system.tags[index];
+  const TagPhases phases =
+      coherent_reads(*state.problem, sight_of(state, *state.samples[index]).corrected);
+  return coherent_share(phases, tag.height, tag.fit.unknowns);
+}
+
+/// Less is a wrong place, or a wrong world: noise alone leaves e^(−σ²/2).
+double least_share(const JointState& state) {
+  constexpr double kOfNoiseAlone = 0.85;
+  return kOfNoiseAlone * std::exp(-0.5 * state.system.noise_rad * state.system.noise_rad);
+}
+
+double fit_weight(const JointState& state, std::size_t index) {
+  const bool adds_up = share_at(state, index) >= least_share(state);
+  return adds_up ? state.system.tags[index].weight : 0.0;
+}
+
+bool any_fits(const std::vector<double>& weights) {
+  return std::any_of(weights.begin(), weights.end(), fits_somewhat);
+}
+
+/// How far from its starts a tag that doesn't fit is looked for.
+enum class Reach { kFurther, kAnywhere };
+
+TracedSearch search_for(const JointState& state, const Sight& sight,
+                        const MultipathOptions& options) {
+  return {*state.problem, sight, options.least_directness, state.system.noise_rad};
+}
+
+Fit fit_of(const WorldFit& fit, const MultipathOptions& options, std::size_t index) {
+  const JointState& state = fit.state;
+  const JointTag& tag = state.system.tags[index];
+  const Sight sight = sight_of(state, *fit.given[index]);
+  return fit_at(search_for(state, sight, options), tag.id, to_place(tag.height, tag.fit.unknowns));
+}
+
+/// Tags that don't fit are looked for anew, now that others tell the pose error.
+void find_lost(WorldFit& fit, const MultipathOptions& options, Reach reach, int threads) {
+  constexpr double kFurther = 5.0;  // Deviations.
+  JointState& state = fit.state;
+  parallel_for(fit.given.size(), threads, [&](std::size_t i) {
+    JointTag& tag = state.system.tags[i];
+    if (tag.fixed || fits_somewhat(fit_weight(state, i))) return;
+    const Sight sight = sight_of(state, *fit.given[i]);
+    const TracedSearch search = search_for(state, sight, options);
+    const Vector3d there =
+        reach == Reach::kFurther
+            ? likeliest_place(search, fit.starts[i], kFurther)
+            : likeliest_anywhere(search, tag.id, fit.starts[i].candidates.front().p_WT);
+    tag.fit.unknowns = to_unknowns(tag.height, there);
+    fit.looked_about[i] = 0;
+  });
+}
+
+/// A step of the joint fit can lead over a ridge of a likelihood with many peaks, and a search end
+/// on a lesser one: each tag that leaves more than noise goes on from the best place about where it
+/// was and where it is, and once, late on, further about that, if it is clearly better.
+void climb_all(WorldFit& fit, const std::vector<Vector3d>& before, const MultipathOptions& options,
+               bool is_late, int threads) {
+  constexpr double kAbout = 0.3;    // [m]
+  constexpr double kClearly = 6.0;  // Less of the cost.
+  constexpr double kFar = 0.01;     // [m]
+  JointState& state = fit.state;
+  parallel_for(fit.given.size(), threads, [&](std::size_t i) {
+    JointTag& tag = state.system.tags[i];
+    if (tag.fixed) return;
+    const Sight sight = sight_of(state, *fit.given[i]);
+    const TracedSearch search = search_for(state, sight, options);
+    const Vector3d now = to_place(tag.height, tag.fit.unknowns);
+    const Fit here = fit_at(search, tag.id, now);
+    if (is_settled(here)) return;
+    std::vector<Vector3d> places{now};
+    if ((before[i] - now).norm() > kFar) places.push_back(before[i]);
+    if (is_late && fit.looked_about[i] == 0 && fits_somewhat(fit_weight(state, i))) {
+      fit.looked_about[i] = 1;
+      for (const LikelyPlace& about : likeliest_about(search, tag.id, now, kAbout).places) {
+        places.push_back(about.p_WT);
+      }
+    }
+    double best = here.cost - kClearly;
+    for (const Vector3d& place : places) {
+      const Vector3d there = climbed(search, tag.id, place).p_WT;
+      const double cost = fit_at(search, tag.id, there).cost;
+      if (cost >= best) continue;
+      best = cost;
+      tag.fit.unknowns = to_unknowns(tag.height, there);
+    }
+  });
+}
+
+/// Where tags have gone on since the fit, their bends, slopes and offsets are those of the places
+/// where they were; and so are the weights of those that leave no more than noise now.
+void come_to_rest(WorldFit& fit, const std::vector<Vector3d>& fitted,
+                  const MultipathOptions& options, int threads) {
+  JointState& state = fit.state;
+  const std::vector<Vector3d> places = places_of(state);
+  if (farthest_move(fitted, places) == 0.0) return;
+  straighten_all(fit, options, threads);
+  parallel_for(places.size(), threads, [&](std::size_t i) {
+    JointTag& tag = state.system.tags[i];
+    if (tag.fixed || places[i] == fitted[i]) return;
+    if (is_settled(fit_of(fit, options, i))) tag.weight = 1.0;
+  });
+}
+
+}  // namespace
+
+void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threads) {
+  constexpr double kSettled = 3e-4;  // [m]
+  JointState& state = fit.state;
+  std::vector<Vector3d> fitted = places_of(state);
+  for (int round = 0; round < options.rounds; ++round) {
+    const std::vector<Vector3d> before = places_of(state);
+    straighten_all(fit, options, threads);
+    fit_unwrapped_jointly(state, threads);
+    fitted = places_of(state);
+    climb_all(fit, before, options, round > 2, threads);
+    if (round == 1 && !state.problem->pose_error) learn_pose_error(state, threads);
+    if (round == 2) {
+      // The reads of no tag fit this world: it is another one, or they are not what they seem.
+      if (!any_fits(fit_weights(state, threads))) break;
+      find_lost(fit, options, Reach::kFurther, threads);
+    } else if (round == 4 && is_right_world(fit_weights(state, threads))) {
+      find_lost(fit, options, Reach::kAnywhere, threads);
+    } else if (round > 1 && farthest_move(before, places_of(state)) < kSettled) {
+      break;
+    }
+  }
+  come_to_rest(fit, fitted, options, threads);
+}
+
+std::vector<double> fit_weights(const JointState& state, int threads) {
+  std::vector<double> weights(state.system.tags.size());
+  parallel_for(weights.size(), threads, [&](std::size_t i) { weights[i] = fit_weight(state, i); });
+  return weights;
+}
+
+bool is_right_world(const std::vector<double>& weights) {
+  constexpr double kFitsWell = 0.2;
+  const auto fitting = std::count_if(weights.begin(), weights.end(),
+                                     [](double weight) { return weight >= kFitsWell; });
+  return 2 * static_cast<std::size_t>(fitting) >= weights.size();
+}
+
+bool fits_somewhat(double weight) {
+  constexpr double kLeast = 0.1;
+  return weight >= kLeast;
+}
+
+std::vector<Fit> fits_of(const WorldFit& fit, const MultipathOptions& options, int threads) {
+  std::vector<Fit> of_tags(fit.given.size());
+  parallel_for(of_tags.size(), threads,
+               [&](std::size_t i) { of_tags[i] = fit_of(fit, options, i); });
+  return of_tags;
+}
+
+}  // namespace tagfield
