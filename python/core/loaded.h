@@ -61,4 +61,7 @@ void bind_reads(pybind11::module_& module);
 /// Binds bench().
 void bind_bench(pybind11::module_& module);
 
+/// Binds plan().
+void bind_plan(pybind11::module_& module);
+
 }  // namespace tagfield::python

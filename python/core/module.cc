@@ -25,4 +25,5 @@ PYBIND11_MODULE(_core, module) {
   of::bind_links(module);
   of::bind_reads(module);
   of::bind_bench(module);
+  of::bind_plan(module);
 }

@@ -117,7 +117,9 @@ py::list run_seeds(const LoadedPtr& loaded, const std::vector<std::uint64_t>& se
   for (const py::handle outlet : outlets) {
     attach_python(py::reinterpret_borrow<py::object>(outlet), attached);
   }
-  const RunOptions how{locates, method};
+  const bool asks_for_places =
+      method || loaded->parts.scenario.localization.method != kNoLocalization;
+  const RunOptions how{locates && asks_for_places, method};
   std::vector<RunResult> results = interruptible(threads, progress, [&](RunControl& control) {
     control.outlets = attached;
     return run_all(*loaded, seeds, how, control);

@@ -18,6 +18,7 @@ from . import _core
 from ._bench import Bench, bench
 from ._core import Error, Link, LinkState, Method, Place, Pose, Read
 from ._methods import Estimate, Problem, method
+from ._plan import Plan, plan
 from ._reads import Calibration, calibrate, localize, methods, poses_table, read, reads_table, track
 from ._runs import Coverage, Explanation, Layer, Localization, Run, Scan, Simulation, Tracks, Truth
 from ._scenario import Outlet, Scenario, World, load, share
@@ -27,9 +28,9 @@ __version__: str = _core.__version__
 
 __all__ = [
     "Bench", "Calibration", "Coverage", "Error", "Estimate", "Explanation", "Layer", "Link", "LinkState",
-    "Localization", "Method", "Outlet", "Place", "Pose", "Problem", "Read", "Run", "Scan", "Scenario",
+    "Localization", "Method", "Outlet", "Place", "Plan", "Pose", "Problem", "Read", "Run", "Scan", "Scenario",
     "Simulation", "Table", "Tracks", "Truth", "World", "bench", "calibrate", "load", "localize", "method",
-    "methods", "plot", "poses_table", "read", "reads_table", "share", "track",
+    "methods", "plan", "plot", "poses_table", "read", "reads_table", "share", "track",
 ]
 
 

@@ -160,3 +160,6 @@ def bench_suite(path: str, own: list[Method], seeds: int | None, threads: int,
 def bench(name: str, methods: list[tuple[str, str, list[tuple[str, str]]]], conditions: list[Any],
           own: list[Method], first_seed: int, seeds: int, threads: int,
           progress: Callable[[float], Any] | None) -> dict[str, Any]: ...
+def plan(path: str, overrides: list[tuple[str, str]], skip_missing: bool, allow_outside: bool, seed: int | None,
+         samples: int, check_seeds: int, exact_s: float, links: str, threads: int,
+         progress: Callable[[float], Any] | None) -> dict[str, Any]: ...

@@ -209,17 +209,7 @@ class Scenario:
 
         Mappings in keywords are merged into what is there; lists replace.
         """
-        more: list[tuple[str, str]] = []
-        for change in changes:
-            if isinstance(change, str):
-                key, equals, value = change.partition("=")
-                if not (key and equals and value):
-                    raise _core.Error(f"with_: '{change}': expected key.path=value")
-                more.append((key, value))
-            else:
-                more += [(key, _value_text(value)) for key, value in change.items()]
-        for key, value in keys.items():
-            more += _flat(key, value)
+        more = _changes("with_", changes, keys)
         source = self._source
         return Scenario._from(replace(source, overrides=(*source.overrides, *more)))
 
@@ -394,6 +384,23 @@ def _text_of(content: Mapping[str, Any]) -> str:
 
 def _value_text(value: Any) -> str:
     return value if isinstance(value, str) else _dumped(value)
+
+
+def _changes(what: str, changes: Iterable[str | Mapping[str, Any]],
+             keys: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Of with_() and its like, as the core takes them."""
+    more: list[tuple[str, str]] = []
+    for change in changes:
+        if isinstance(change, str):
+            key, equals, value = change.partition("=")
+            if not (key and equals and value):
+                raise _core.Error(f"{what}: '{change}': expected key.path=value")
+            more.append((key, value))
+        else:
+            more += [(key, _value_text(value)) for key, value in change.items()]
+    for key, value in keys.items():
+        more += _flat(key, value)
+    return more
 
 
 def _flat(key: str, value: Any) -> list[tuple[str, str]]:

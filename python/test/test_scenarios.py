@@ -129,6 +129,46 @@ def test_coverage_of_a_paper_antenna_is_a_disc():
         scenario.coverage(region_m=(1, 1, 0, 0))
 
 
+def test_a_plan_s_layout_runs(tmp_path):
+    path = tmp_path / "shelf.yaml"
+    path.write_text("""
+name: shelf
+model: link_budget
+duration_s: 2
+plan:
+  tags:
+    - {name: shelf, box: [0, 0, 1, 3, 0, 1.5], spacing_m: [0.5, 1, 0.5]}
+  mounts:
+    - {name: roof, line: [[0, 2, 2.5], [3, 2, 2.5]], spacing_m: 1.5, rpy_deg: [[0, 30, -90]], cost: 100,
+       profiles: [speedway_r420, panel_6dbi], powers_dbm: [19]}
+  limits: {antennas: 3, readers: 1}
+""")
+    shares = []
+    made = tagfield.plan(path, {"plan.limits.antennas": 2}, samples=8, check=3, links=tmp_path / "links",
+                         progress=shares.append)
+    assert made.layouts()["antennas"].tolist() == [1, 2]
+    assert len(made.chosen["antennas"]) == 2 and made.data["check"]["seeds"] == [1, 2, 3]
+    assert len(made.places()) == 14 and (tmp_path / "links").is_dir()
+    assert all(0 <= share <= 1 for share in shares) and "14 tags in 14 places" in str(made)
+    made.save_page(tmp_path / "plan.html")
+    assert "plan-data" in (tmp_path / "plan.html").read_text(encoding="utf-8")
+    run = made.scenario.run(seed=3)
+    read = set(run.reads.names("tag"))
+    assert made.chosen["read"]["low"] <= len(read) <= made.chosen["read"]["high"]
+    assert not run.located.any()
+    (tmp_path / "elsewhere").mkdir()
+    made.save_layout(tmp_path / "elsewhere" / "layout.yaml")
+    loaded = tagfield.load(tmp_path / "elsewhere" / "layout.yaml", allow_outside=True)
+    assert loaded.antennas == made.scenario.antennas
+    for change, words in (({"plan.limits.antennas": 0}, "plan.limits.antennas"),
+                          ({"plan.aim": {"dwell_reads": 0.5}}, "must be at least 1"),
+                          ("plan", "expected key.path=value")):
+        with pytest.raises(tagfield.Error, match=words):
+            tagfield.plan(path, change)
+    with pytest.raises(tagfield.Error, match="expected 8 to 10000"):
+        tagfield.plan(path, samples=2)
+
+
 def warehouse():
     return tagfield.load(tagfield.share("scenarios/paper_warehouse.yaml")).with_(duration_s=6)
 

@@ -12,6 +12,10 @@
 
 namespace tagfield {
 
+/// Readers that send at the same time go on in pieces of this, so that what one does to a tag's
+/// memory is known to the other about then.
+inline constexpr Duration kReadersSideBySide = std::chrono::milliseconds(5);
+
 /// One antenna's turn within a cycle.
 struct PortTurn {
   std::string antenna;

@@ -15,10 +15,6 @@
 namespace tagfield {
 namespace {
 
-/// Readers that send at the same time go on in pieces of this, so that what one does to a tag's
-/// memory is known to the other about then.
-constexpr Duration kPiece = std::chrono::milliseconds(5);
-
 /// Where `time` is between `before` (0) and `now` (1). Slots that began just before `before` are
 /// a little below 0.
 double share_at(Time time, Time before, Time now) {
@@ -322,7 +318,7 @@ void RadioAir::run_inventories(Time now, const TagPopulation& tags) {
   ran_to_ = now;
   while (begin < now) {
     Time end = next_change(cycles_, begin).value_or(now);
-    if (cycles_.size() > 1) end = std::min(end, begin + kPiece);
+    if (cycles_.size() > 1) end = std::min(end, begin + kReadersSideBySide);
     end = std::min(end, now);
     run_piece(begin, end, tags);
     begin = end;

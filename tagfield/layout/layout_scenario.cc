@@ -90,6 +90,7 @@ YAML::Node value_of(const std::string& text) {
 }
 
 std::string from_folder(const fs::path& file, const std::string& folder) {
+  if (folder.empty()) return fs::absolute(file).string();
   std::error_code error;
   const fs::path relative = fs::relative(fs::absolute(file), fs::absolute(folder), error);
   return error || relative.empty() ? fs::absolute(file).string() : relative.string();

@@ -19,7 +19,8 @@ Scenario scenario_of_layout(const ScenarioToPlan& to_plan, const PlannedLayout& 
                             std::uint64_t seed, std::size_t sample, double less_db = 0.0);
 
 /// The same as YAML text for a file in `folder`: the scenario at `path`, with `overrides`, less its
-/// section `plan`. Files that it names are found from `folder`. Throws Error as load_scenario().
+/// section `plan`. Files that it names are found from `folder`; with "" from anywhere, by absolute
+/// paths. Throws Error as load_scenario().
 std::string layout_to_yaml(const std::string& path, const std::vector<Override>& overrides,
                            const ScenarioToPlan& to_plan, const PlannedLayout& layout,
                            std::uint64_t seed, const std::string& folder);

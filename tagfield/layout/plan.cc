@@ -90,31 +90,81 @@ OptionSet layout_of(const PlanProblem& problem, const std::vector<std::vector<st
   return best;
 }
 
-std::vector<double> place_probabilities(const PlanSpec& plan, const LinkMatrix& matrix,
-                                        const PlanProblem& problem, const OptionSet& choice) {
-  std::vector<double> miss(problem.selection.elements.size(), 1.0);
+/// By element (with its fading places) how much it has of what is aimed at: the probability to be
+/// read, or whether there are enough reads, or its place is known.
+std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& choice) {
+  std::vector<double> met(problem.elements.size(), 1.0);
+  if (problem.worth != Worth::kProbability) {
+    const std::vector<bool> satisfied = satisfied_by(problem, choice);
+    std::transform(satisfied.begin(), satisfied.end(), met.begin(),
+                   [](bool is_met) { return is_met ? 1.0 : 0.0; });
+    return met;
+  }
   for (const std::size_t option : choice) {
-    for (const Miss& one : problem.selection.options[option].misses) {
-      miss[one.element] *= static_cast<double>(one.probability);
+    for (const Miss& one : problem.options[option].misses) {
+      met[one.element] *= static_cast<double>(one.probability);
     }
   }
-  std::vector<std::size_t> first_place(plan.tags.size(), 0);
+  for (double& of_element : met) of_element = 1.0 - of_element;
+  return met;
+}
+
+/// Where each group's places begin among all, and how many there are.
+std::pair<std::vector<std::size_t>, std::size_t> first_places(const PlanSpec& plan) {
+  std::vector<std::size_t> first(plan.tags.size(), 0);
   std::size_t places = 0;
   for (std::size_t group = 0; group < plan.tags.size(); ++group) {
-    first_place[group] = places;
+    first[group] = places;
     places += plan.tags[group].places.size();
   }
-  std::vector<double> probability(places, 0.0);
+  return {first, places};
+}
+
+/// The mean of that over the orientations and fading of each place.
+std::vector<double> met_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
+                                 const PlanProblem& problem, const OptionSet& choice) {
+  const std::vector<double> met = met_by(problem.selection, choice);
+  const auto [first_place, places] = first_places(plan);
+  std::vector<double> by_place(places, 0.0);
   const std::vector<LinkElement> elements = elements_of(matrix);
   for (std::size_t number = 0; number < elements.size(); ++number) {
     const LinkRow& row = matrix.rows[elements[number].first_row];
     const auto ways = static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
     for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
-      probability[first_place[row.group] + row.place] +=
-          (1.0 - miss[number * kFadingPlaces + fade]) / ways;
+      by_place[first_place[row.group] + row.place] += met[number * kFadingPlaces + fade] / ways;
     }
   }
-  return probability;
+  return by_place;
+}
+
+/// Bounds on the error of each place [m], by what is told in the mean over its orientations and
+/// fading.
+std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
+                                    const PlanProblem& problem, const OptionSet& choice) {
+  const auto [first_place, places] = first_places(plan);
+  const std::vector<LinkElement> elements = elements_of(matrix);
+  std::vector<std::vector<Told>> told(places);
+  for (const std::size_t option : choice) {
+    for (Told one : problem.selection.options[option].told) {
+      const LinkRow& row = matrix.rows[elements[one.element / kFadingPlaces].first_row];
+      const auto ways =
+          static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPlaces);
+      one.xx /= ways;
+      one.xy /= ways;
+      one.yy /= ways;
+      told[first_place[row.group] + row.place].push_back(one);
+    }
+  }
+  std::vector<double> errors(places);
+  std::transform(told.begin(), told.end(), errors.begin(), error_bound_m);
+  return errors;
+}
+
+PlannedAim planned_aim(const PlanAim& aim) {
+  using Kind = PlannedAim::Kind;
+  if (aim.dwell_reads) return {Kind::kReads, *aim.dwell_reads, aim.share};
+  if (aim.position_error_m) return {Kind::kPosition, *aim.position_error_m, aim.share};
+  return {Kind::kReadProbability, aim.read_probability, aim.share};
 }
 
 }  // namespace
@@ -185,8 +235,7 @@ class Planner {
     plan.description = to_plan_.loaded.scenario.description;
     plan.dwell_s = to_plan_.plan.dwell_s;
     plan.options = problem_.options.size();
-    plan.aim = to_plan_.plan.aim.read_probability;
-    plan.aim_share = to_plan_.plan.aim.share;
+    plan.aim = planned_aim(to_plan_.plan.aim);
     plan.cross_limit = to_plan_.plan.limits.cross;
     plan.guaranteed = guaranteed_share(selection);
     for (const PlanTags& tags : to_plan_.plan.tags) {
@@ -238,22 +287,35 @@ class Planner {
     layout.score = score_of(of_count, choice);
     layout.bound = upper_bound(of_count, choice);
     forecast_.fill(choice, layout);
-    layout.places = place_probabilities(to_plan_.plan, matrix_, problem_, choice);
+    layout.share = of_count.worth == Worth::kProbability
+                       ? layout.score
+                       : layout.read.mean / static_cast<double>(plan.tags);
+    layout.places = met_by_place(to_plan_.plan, matrix_, problem_, choice);
+    if (of_count.worth == Worth::kPlace) {
+      layout.errors_m = errors_by_place(to_plan_.plan, matrix_, problem_, choice);
+    }
     choices_.push_back(choice);
     plan.layouts.push_back(std::move(layout));
   }
 
-  /// The smallest that is enough, or the best.
+  /// The smallest that is enough, or the best. More antennas can be worse, as ports of a reader
+  /// take turns: not for the score, which knows no contention, but for what is forecast.
   void choose(AntennaPlan& plan) {
     plan.chosen = plan.layouts.size() - 1;
+    if (problem_.selection.worth != Worth::kProbability) {
+      const auto best = std::max_element(
+          plan.layouts.begin(), plan.layouts.end(),
+          [](const PlannedLayout& a, const PlannedLayout& b) { return a.share < b.share; });
+      plan.chosen = static_cast<std::size_t>(best - plan.layouts.begin());
+    }
     const auto& share = to_plan_.plan.aim.share;
     for (std::size_t i = 0; share && i < plan.layouts.size(); ++i) {
-      if (plan.layouts[i].score < *share) continue;
+      if (plan.layouts[i].share < *share) continue;
       plan.chosen = i;
       break;
     }
     if (request_.exact_s > 0.0) solve_exactly(plan);
-    plan.reaches_aim = !share || plan.layouts[plan.chosen].score >= *share;
+    plan.reaches_aim = !share || plan.layouts[plan.chosen].share >= *share;
     SelectionProblem of_all = problem_.selection;
     plan.stopped_by = holding_limit(of_all, choices_[plan.chosen]);
   }
@@ -295,8 +357,21 @@ class Planner {
       const BestLink link =
           best_link(to_plan_.plan, matrix_, problem_, choices_[plan.chosen], group, within);
       plan.hard.push_back({place, layout.places[place], link.antenna, link.distance_m,
-                           link.median_db, why_hard(link)});
+                           link.median_db, why(layout, place, link)});
     }
+  }
+
+  [[nodiscard]] std::string why(const PlannedLayout& layout, std::size_t place,
+                                const BestLink& link) const {
+    if (problem_.selection.worth == Worth::kProbability || link.median_db < 0.0) {
+      return why_hard(link);
+    }
+    if (problem_.selection.worth == Worth::kReads) {
+      return fmt::format("heard with {:.1f} dB to spare, but not often enough", link.median_db);
+    }
+    return std::isfinite(layout.errors_m[place])
+               ? fmt::format("known to {:.2f} m by those that hear it", layout.errors_m[place])
+               : "heard by too few antennas, or from one direction";
   }
 
   void add_sensitivity(AntennaPlan& plan) const {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/layout/plan_check.h"
 
-#include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/layout/internal/satisfied_tags.h"
 #include "tagfield/layout/layout_scenario.h"
+#include "tagfield/reader/radio_model.h"
 #include "tagfield/simulator/simulation.h"
 
 namespace tagfield {
@@ -16,46 +16,28 @@ namespace {
 /// Samples of tags that no forecast takes.
 constexpr std::size_t kFirstSample = 1'000'000;
 
-/// Names of zones; "" for none.
-struct Zones {
-  std::map<std::string, std::string> of_tag;
-  std::map<std::string, std::string> of_reader;
-};
-
 struct TagCounts {
   double read = -1.0;
   double crossed = -1.0;  ///< By a reader of another zone.
 };
 
-class ReadTags final : public ReadListener {
- public:
-  explicit ReadTags(const Zones& zones) : zones_(zones) {}
-  void on_read(const TagRead& read) override {
-    tags_.insert(read.tag);
-    const std::string& own = zones_.of_tag.at(read.tag);
-    const std::string& readers = zones_.of_reader.at(read.reader);
-    if (is_crossing(readers, own)) crossed_.insert(read.tag);
-  }
-  [[nodiscard]] TagCounts counts() const {
-    return {static_cast<double>(tags_.size()), static_cast<double>(crossed_.size())};
-  }
-
- private:
-  const Zones& zones_;
-  std::set<std::string> tags_;
-  std::set<std::string> crossed_;
-};
-
-Zones zones_of(const PlanSpec& plan, const PlannedLayout& layout, const std::vector<PlanTag>& tags,
-               const Scenario& scenario) {
-  Zones zones;
+CountedRun counted_run(const PlanSpec& plan, const PlannedLayout& layout,
+                       const std::vector<PlanTag>& tags, const Scenario& scenario) {
+  CountedRun run;
+  run.aim = plan.aim;
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    zones.of_tag[scenario.tags[i].id] = plan.tags[tags[i].group].zone;
+    const TagSpec& tag = scenario.tags[i];
+    run.zone_of_tag[tag.id] = plan.tags[tags[i].group].zone;
+    run.p_WT[tag.id] = tag.motion.front().X_WB.translation;
   }
   for (const PlannedAntenna& antenna : layout.antennas) {
-    zones.of_reader[antenna.reader] = antenna.zone;
+    run.zone_of_reader[antenna.reader] = antenna.zone;
+    run.p_WA[antenna.name] = antenna.p_W;
   }
-  return zones;
+  for (const AntennaSpec& antenna : scenario.antennas) {
+    run.readers[antenna.parameters.name] = physical(antenna.parameters)->hardware;
+  }
+  return run;
 }
 
 class Checker {
@@ -70,15 +52,14 @@ class Checker {
   [[nodiscard]] TagCounts run(std::size_t i, double less_db) const {
     const std::size_t sample = kFirstSample + i;
     const Scenario scenario = scenario_of_layout(to_plan_, layout_, seed_, sample, less_db);
-    const Zones zones =
-        zones_of(to_plan_.plan, layout_, tags_of_sample(to_plan_.plan, seed_, sample), scenario);
-    const auto read = std::make_shared<ReadTags>(zones);
+    const auto counted = std::make_shared<SatisfiedTags>(counted_run(
+        to_plan_.plan, layout_, tags_of_sample(to_plan_.plan, seed_, sample), scenario));
     Outlets outlets;
-    outlets.reads.push_back(read);
+    outlets.reads.push_back(counted);
     Simulation simulation(scenario, seed_ + i, outlets);
     while (!simulation.finished() && !stopped(control_)) simulation.step();
     simulation.finish();
-    return read->counts();
+    return {static_cast<double>(counted->satisfied()), static_cast<double>(counted->crossed())};
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "tagfield/layout/internal/link_reads.h"
 #include "tagfield/planning/local_link.h"
 #include "tagfield/reader/radio_model.h"
 
@@ -28,16 +29,41 @@ double miss_of(double share, double looks, std::size_t carriers) {
   return miss;
 }
 
+/// Ports that take turns at a reader with all its ports in use.
+std::size_t ports_in_turn(const PlanSpec& plan) {
+  return std::min(plan.limits.ports, plan.limits.antennas);
+}
+
 /// How often an antenna has its turn in a second.
 double looks_a_second(const PlanSpec& plan, const RadioModel& model) {
   const double dwell_s = model.gen2 ? model.gen2->port_dwell_s : kDwell_s;
-  return 1.0 / (dwell_s * static_cast<double>(std::min(plan.limits.ports, plan.limits.antennas)));
+  return 1.0 / (dwell_s * static_cast<double>(ports_in_turn(plan)));
+}
+
+/// How far places are from their mean, along one axis, root mean square [m]; more than what is
+/// aimed at.
+double spread_of(const PlanSpec& plan) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double squares = 0.0;
+  double count = 0.0;
+  for (const PlanTags& group : plan.tags) {
+    for (const Eigen::Vector3d& place : group.places) {
+      sum += place.head<2>();
+      squares += place.head<2>().squaredNorm();
+      count += 1.0;
+    }
+  }
+  const double variance = squares / count - (sum / count).squaredNorm();
+  return std::max(std::sqrt(std::max(variance, 0.0) / 2.0), 2.0 * *plan.aim.position_error_m);
 }
 
 class Builder {
  public:
   Builder(const PlanSpec& plan, const LinkMatrix& matrix)
-      : plan_(plan), matrix_(matrix), elements_(elements_of(matrix)) {}
+      : plan_(plan),
+        matrix_(matrix),
+        elements_(elements_of(matrix)),
+        reads_a_turn_(ports_in_turn(plan)) {}
 
   PlanProblem build() {
     PlanProblem problem;
@@ -54,6 +80,9 @@ class Builder {
         option.misses = misses(column, most - power + plan_.margin_db, false);
         // Being cautious here is to take links for as good as they are.
         if (plan_.limits.cross) option.crossings = misses(column, most - power, true);
+        if (plan_.aim.dwell_reads || plan_.aim.position_error_m) {
+          add_reads(column, most - power + plan_.margin_db, option);
+        }
         problem.selection.options.push_back(std::move(option));
       }
     }
@@ -99,8 +128,7 @@ class Builder {
       if (only_crossings && !is_crossing(mount.zone, group.zone)) continue;
       std::array<double, kFadingPlaces> miss{};
       miss.fill(1.0);
-      const std::vector<PlanStop>& stops =
-          stops_.try_emplace(&group, stops_of(group, plan_.dwell_s)).first->second;
+      const std::vector<PlanStop>& stops = stops_at(group);
       for (std::size_t stop = 0; stop < element.stops; ++stop) {
         const LinkStates states = matrix_.states(column, element.first_row + stop);
         if (states.is_empty()) continue;
@@ -119,6 +147,70 @@ class Builder {
     return all;
   }
 
+  /// Tags that are heard at a time, in the mean.
+  [[nodiscard]] double tags_heard(std::size_t column, double less_db) const {
+    double heard = 0.0;
+    for (const LinkElement& element : elements_) {
+      const PlanTags& group = plan_.tags[matrix_.rows[element.first_row].group];
+      const auto ways = static_cast<double>(group.places.size() * group.orientations.size());
+      double share = 0.0;
+      for (std::size_t stop = 0; stop < element.stops; ++stop) {
+        share =
+            std::max(share, matrix_.states(column, element.first_row + stop).share_heard(less_db));
+      }
+      heard += share * static_cast<double>(group.count) / ways;
+    }
+    return heard;
+  }
+
+  /// Reads, or what they tell, by element and fading place.
+  void add_reads(std::size_t column, double less_db, SelectionOption& option) {
+    const LinkColumn& of_column = matrix_.columns[column];
+    const PlanMount& mount = plan_.mounts[of_column.mount];
+    const RadioModel& model = *physical(mount.antenna);
+    const double a_second =
+        looks_a_second(plan_, model) *
+        reads_a_turn_.of(model, mount.antenna.rate_hz, tags_heard(column, less_db));
+    // Of its turns, and of the hops in the time.
+    const double visited = std::min(looks_a_second(plan_, model) * plan_.dwell_s,
+                                    std::floor(plan_.dwell_s / model.plan.dwell_s) + 1.0);
+    for (std::size_t number = 0; number < elements_.size(); ++number) {
+      const LinkElement& element = elements_[number];
+      const std::vector<PlanStop>& stops =
+          stops_at(plan_.tags[matrix_.rows[element.first_row].group]);
+      std::array<double, kFadingPlaces> reads{};
+      for (std::size_t stop = 0; stop < element.stops; ++stop) {
+        const LinkStates states = matrix_.states(column, element.first_row + stop);
+        if (states.is_empty()) continue;
+        const double time_s = stops[stop].end_s - stops[stop].begin_s;
+        for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+          reads[place] += a_second * time_s * states.share_heard(place, less_db);
+        }
+      }
+      const Eigen::Vector3d p_WA = mount.X_WA[of_column.look].translation;
+      const Eigen::Vector3d p_WT = matrix_.rows[element.first_row].X_WT.translation;
+      const RangeTold range = plan_.aim.position_error_m
+                                  ? range_told(model, matrix_.states(column, element.first_row),
+                                               less_db, (p_WT - p_WA).norm())
+                                  : RangeTold{};
+      for (std::size_t place = 0; place < kFadingPlaces; ++place) {
+        if (reads[place] < kSure) continue;
+        const auto at = static_cast<std::uint32_t>(number * kFadingPlaces + place);
+        if (plan_.aim.dwell_reads) {
+          option.reads.push_back({at, static_cast<float>(reads[place])});
+        } else {
+          const double spread = expected_spread(model, reads[place], visited);
+          option.told.push_back(told_by(range, reads[place], spread, p_WA, p_WT));
+          option.told.back().element = at;
+        }
+      }
+    }
+  }
+
+  const std::vector<PlanStop>& stops_at(const PlanTags& group) const {
+    return stops_.try_emplace(&group, stops_of(group, plan_.dwell_s)).first->second;
+  }
+
   void set_limits(SelectionProblem& selection) const {
     const PlanLimits& limits = plan_.limits;
     selection.limits.antennas = std::min(limits.antennas, plan_.mounts.size());
@@ -128,12 +220,21 @@ class Builder {
     if (limits.cost) selection.limits.cost = *limits.cost;
     if (limits.cross) selection.limits.cross = *limits.cross;
     selection.cap = plan_.aim.read_probability;
+    if (plan_.aim.dwell_reads) {
+      selection.worth = Worth::kReads;
+      selection.cap = *plan_.aim.dwell_reads;
+    } else if (plan_.aim.position_error_m) {
+      selection.worth = Worth::kPlace;
+      selection.error_m = *plan_.aim.position_error_m;
+      selection.spread_m = spread_of(plan_);
+    }
   }
 
   const PlanSpec& plan_;
   const LinkMatrix& matrix_;
   std::vector<LinkElement> elements_;
   mutable std::map<const PlanTags*, std::vector<PlanStop>> stops_;
+  ReadsATurn reads_a_turn_;
 };
 
 }  // namespace

@@ -18,6 +18,21 @@ struct Miss {
   float probability = 1.0F;  ///< In [0, 1).
 };
 
+/// How often an option reads an element, where it does.
+struct ReadsOf {
+  std::uint32_t element = 0;
+  float reads = 0.0F;
+};
+
+/// What an option tells of where an element is: its part of the Fisher information of x and y
+/// [1/m²].
+struct Told {
+  std::uint32_t element = 0;
+  float xx = 0.0F;
+  float xy = 0.0F;
+  float yy = 0.0F;
+};
+
 /// One way to mount one antenna.
 struct SelectionOption {
   std::size_t site = 0;  ///< Of options of one site at most one is taken.
@@ -27,6 +42,8 @@ struct SelectionOption {
   /// The same for elements of other zones, as far as it is a cross read: what counts against the
   /// option need not be as weak as what counts for it.
   std::vector<Miss> crossings;
+  std::vector<ReadsOf> reads{};  ///< By rising element, each once, where Worth::kReads counts;
+  std::vector<Told> told{};      ///< likewise where Worth::kPlace does.
 };
 
 inline constexpr std::size_t kNoZone = std::numeric_limits<std::size_t>::max();
@@ -47,18 +64,40 @@ struct SelectionLimits {
   double cross = std::numeric_limits<double>::infinity();
 };
 
+/// What is worth something of an element, from 0 to 1.
+enum class Worth {
+  kProbability,  ///< min(1 − Π p, cap)/cap, of the options' misses.
+  kReads,        ///< min(Σ n, cap)/cap, of their reads.
+  /// ln(det J/det J₀)/ln(det J₁/det J₀), at most 1: J = J₀ + Σ of what they tell, J₀ = 1/spread²,
+  /// and J₁ = 8/error² (times the unit matrix), of an error half as large.
+  kPlace,
+};
+
 struct SelectionProblem {
   std::vector<SelectionOption> options;
   std::vector<SelectionElement> elements;  ///< Weights sum to 1.
   std::size_t zones = 0;
   SelectionLimits limits;
-  double cap = 1.0;  ///< Probability beyond which more is worth nothing; in (0, 1].
+  Worth worth = Worth::kProbability;
+  double cap = 1.0;       ///< Probability in (0, 1], or reads, beyond which more is worth nothing.
+  double error_m = 1.0;   ///< Of a place, root mean square, that is aimed at; over 0,
+  double spread_m = 1.0;  ///< and what is known of it before; √2·spread is over the error.
 };
 
 using OptionSet = std::vector<std::size_t>;  ///< Numbers of options, rising.
 
-/// Σ w·min(1 − Π p, cap)/cap over the elements: monotone and submodular in the choice.
+/// Σ w·worth over the elements: monotone and submodular in the choice.
 double score_of(const SelectionProblem& problem, const OptionSet& choice);
+
+/// By element, whether the choice gives it all that is aimed at: where places count, a bound on its
+/// error, error_bound_m(), of error_m at most.
+std::vector<bool> satisfied_by(const SelectionProblem& problem, const OptionSet& choice);
+
+/// Two distances leave two places: so many antennas must tell something.
+inline constexpr std::size_t kFewestForPlace = 3;
+
+/// √tr (Σ told)⁻¹ [m]; infinity where nothing is told in some direction, or by too few.
+double error_bound_m(const std::vector<Told>& told);
 
 /// Readers that the choice needs: of each zone as many as its antennas need ports.
 std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice);
@@ -102,8 +141,9 @@ struct ExactChoice {
 bool has_exact_solver();
 
 /// By an integer program: elements' probabilities are bounded by tangents of 1 − e^−L, of which
-/// more are added where the solution is not on the curve, and by cuts where it crosses zones too
-/// much. `begin` is a choice that fits. Throws Error without a solver.
+/// more are added where the solution is not on the curve, reads by their sum, and by cuts where it
+/// crosses zones too much. `begin` is a choice that fits. Throws Error without a solver, and where
+/// places count, which are no such program.
 ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds);
 
 }  // namespace tagfield

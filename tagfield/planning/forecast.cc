@@ -138,18 +138,21 @@ class Sampler {
   explicit Sampler(const ForecastRequest& request);
   /// What one sample reads: by group and tag, and by tag and port.
   void sample(std::size_t first, std::size_t place, Forecast& forecast,
-              std::vector<std::vector<float>>& by_port) const;
+              std::vector<std::vector<CountedReads>>& by_port) const;
 
  private:
-  [[nodiscard]] std::size_t carrier_at(std::size_t number, std::size_t port, double time_s) const;
+  /// Of tag, port and channel; whether it was the first of that tag and port.
+  using OnRead = std::function<bool(std::size_t, std::size_t, std::size_t)>;
+  [[nodiscard]] std::size_t channel_on(std::size_t number, std::size_t port, double time_s) const;
+  [[nodiscard]] std::size_t sampled_carrier(std::size_t port, std::size_t channel) const;
   [[nodiscard]] std::vector<TagOnAir> heard_in(std::size_t number, const Turn& turn,
                                                const std::vector<std::size_t>& places,
                                                HoldingLinks& holding) const;
   void run_inventories(std::size_t number, const std::vector<std::size_t>& places,
-                       const std::function<bool(std::size_t, std::size_t)>& on_read) const;
+                       const OnRead& on_read) const;
   [[nodiscard]] std::size_t pairs_heard(const std::vector<std::size_t>& places) const;
   void read_updates(std::size_t number, const std::vector<std::size_t>& places,
-                    const std::function<bool(std::size_t, std::size_t)>& on_read) const;
+                    const OnRead& on_read) const;
 
   const ForecastRequest& request_;
   std::vector<Turn> turns_;
@@ -195,20 +198,25 @@ Sampler::Sampler(const ForecastRequest& request)
   }
 }
 
-/// The sampled carrier that stands for the channel that the reader is on: it hops over all channels
-/// of its plan in a random order, drawn for each sample, as readers do (channel_at()).
-std::size_t Sampler::carrier_at(std::size_t number, std::size_t port, double time_s) const {
+/// The channel that the reader is on: it hops over all channels of its plan in a random order,
+/// drawn for each sample, as readers do (channel_at()).
+std::size_t Sampler::channel_on(std::size_t number, std::size_t port, double time_s) const {
   const RadioModel& model = *physical(request_.ports[port].antenna);
   if (hopped_channels(model) < 2) return 0;
   RandomStream stream(request_.seed, Purpose::kForecast, number, 0, 1);
-  const std::size_t channel = channel_at(model.plan, time_from_seconds(std::max(0.0, time_s)),
-                                         stream_key(model.plan.name), stream(), turn_of_[port]);
-  return sampled_carrier_of(model, channel);
+  return channel_at(model.plan, time_from_seconds(std::max(0.0, time_s)),
+                    stream_key(model.plan.name), stream(), turn_of_[port]);
+}
+
+/// The one of the states' carriers that stands for a channel.
+std::size_t Sampler::sampled_carrier(std::size_t port, std::size_t channel) const {
+  const RadioModel& model = *physical(request_.ports[port].antenna);
+  return hopped_channels(model) < 2 ? 0 : sampled_carrier_of(model, channel);
 }
 
 /// Antennas without an inventory: each update reads all that is heard on its carrier.
 void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& places,
-                           const std::function<bool(std::size_t, std::size_t)>& on_read) const {
+                           const OnRead& on_read) const {
   for (std::size_t port = 0; port < request_.ports.size(); ++port) {
     if (takes_turns(request_.ports[port]) || links_[port].empty()) continue;
     const AntennaParameters& antenna = request_.ports[port].antenna;
@@ -219,14 +227,15 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
     HoldingLinks holding(links_[port]);
     for (std::size_t update = 0; update < updates; ++update) {
       const double time_s = static_cast<double>(update) / antenna.rate_hz;
-      const std::size_t carrier = is_paper ? 0 : carrier_at(number, port, time_s);
+      const std::size_t channel = is_paper ? 0 : channel_on(number, port, time_s);
+      const std::size_t carrier = is_paper ? 0 : sampled_carrier(port, channel);
       // The paper's range is drawn once an update for all tags.
       const double draw = uniform(stream);
       for (const Link& link : holding.at(time_s)) {
         const bool is_heard =
             is_paper ? draw < link.link->update_probability
                      : link.link->states->margin_db(places[link.tag], carrier) >= request_.less_db;
-        if (is_heard) on_read(link.tag, port);
+        if (is_heard) on_read(link.tag, port, channel);
       }
     }
   }
@@ -236,7 +245,8 @@ void Sampler::read_updates(std::size_t number, const std::vector<std::size_t>& p
 std::vector<TagOnAir> Sampler::heard_in(std::size_t number, const Turn& turn,
                                         const std::vector<std::size_t>& places,
                                         HoldingLinks& holding) const {
-  const std::size_t carrier = carrier_at(number, turn.port, turn.carrier_s);
+  const std::size_t carrier =
+      sampled_carrier(turn.port, channel_on(number, turn.port, turn.carrier_s));
   std::vector<TagOnAir> heard;
   for (const Link& link : holding.at(0.5 * (turn.begin_s + turn.end_s))) {
     if (link.link->states->margin_db(places[link.tag], carrier) < request_.less_db) continue;
@@ -260,9 +270,10 @@ std::size_t Sampler::pairs_heard(const std::vector<std::size_t>& places) const {
 }
 
 /// The inventories themselves, slot by slot, from change to change of who sends and who is heard;
-/// until nothing is left that would be read for the first time. `on_read` tells whether one was.
+/// until nothing is left that would be read for the first time, unless all reads are counted.
+/// `on_read` tells whether one was.
 void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>& places,
-                              const std::function<bool(std::size_t, std::size_t)>& on_read) const {
+                              const OnRead& on_read) const {
   TagMemories memories;
   std::vector<std::unique_ptr<Inventory>> inventories(request_.ports.size());
   std::vector<HoldingLinks> holding;
@@ -276,8 +287,10 @@ void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>
     inventories[port] =
         std::make_unique<Inventory>(gen2.link, gen2.inventory, memories, seeds(), key);
   }
-  std::size_t left = pairs_heard(places);
+  std::size_t left =
+      request_.counts_reads ? std::numeric_limits<std::size_t>::max() : pairs_heard(places);
   std::vector<Time> sends_until(request_.ports.size(), Time::min());
+  std::vector<std::size_t> channel(request_.ports.size(), 0);
   std::vector<Singulation> read;
   auto turn = turns_.begin();
   for (std::size_t i = 0; i + 1 < changes_.size() && left > 0; ++i) {
@@ -294,18 +307,22 @@ void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>
       inventories[begun->port]->set_field(now,
                                           heard_in(number, *begun, places, holding[begun->port]));
       inventories[begun->port]->start(now);
+      channel[begun->port] = channel_on(number, begun->port, begun->carrier_s);
     }
-    for (std::size_t port = 0; port < inventories.size(); ++port) {
-      if (!inventories[port] || !inventories[port]->on()) continue;
-      read.clear();
-      inventories[port]->run_until(changes_[i + 1], read);
-      for (const Singulation& one : read) left -= on_read(one.tag, port) ? 1U : 0U;
+    for (Time until = now; until < changes_[i + 1];) {
+      until = std::min(changes_[i + 1], until + kReadersSideBySide);
+      for (std::size_t port = 0; port < inventories.size(); ++port) {
+        if (!inventories[port] || !inventories[port]->on()) continue;
+        read.clear();
+        inventories[port]->run_until(until, read);
+        for (const Singulation& one : read) left -= on_read(one.tag, port, channel[port]) ? 1U : 0U;
+      }
     }
   }
 }
 
 void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
-                     std::vector<std::vector<float>>& by_port) const {
+                     std::vector<std::vector<CountedReads>>& by_port) const {
   const std::size_t number = first + place;
   const std::size_t count = request_.tags.size();
   RandomStream stream(request_.seed, Purpose::kForecast, number);
@@ -315,11 +332,18 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
         static_cast<std::size_t>(uniform(stream) * static_cast<double>(kFadingPlaces));
     places[tag] = request_.tags[tag].place.value_or(drawn);
   }
-  const auto on_read = [&](std::size_t tag, std::size_t port) {
-    const bool is_first = by_port[tag][port] == 0.0F;
+  const auto on_read = [&](std::size_t tag, std::size_t port, std::size_t channel) {
+    CountedReads& counted = by_port[tag][port];
+    const bool is_first = counted.reads == 0.0;
     forecast.read[place][tag] = 1;
     forecast.read_by_group[place][group_of_[port]][tag] = 1;
-    by_port[tag][port] = 1.0F;
+    counted.reads += 1.0;
+    if (const RadioModel* const model = physical(request_.ports[port].antenna)) {
+      const std::vector<double>& carriers_hz = model->plan.carriers_hz;
+      const double off_hz = carriers_hz[channel] - carriers_hz.front();
+      counted.sum_hz += off_hz;
+      counted.squares_hz += off_hz * off_hz;
+    }
     return is_first;
   };
   run_inventories(number, places, on_read);
@@ -365,6 +389,10 @@ double LinkStates::best_db() const {
   return best == steps_.end() || *best == kNoLink ? kNothing_db : kStep_db * *best;
 }
 
+double CountedReads::spread() const {
+  return reads > 0.0 ? std::max(0.0, squares_hz - sum_hz * sum_hz / reads) : 0.0;
+}
+
 Forecasted range_of(const std::vector<double>& samples, double most) {
   const auto count = static_cast<double>(samples.size());
   Forecasted range;
@@ -397,11 +425,11 @@ Forecast forecast(const ForecastRequest& request) {
       request.samples,
       std::vector<std::vector<char>>(result.groups.size(), std::vector<char>(tags, 0)));
   // Sums in the order of the samples, so that they don't depend on the threads.
-  std::vector<std::vector<std::vector<float>>> by_port(request.samples);
+  std::vector<std::vector<std::vector<CountedReads>>> by_port(request.samples);
   parallel_for(request.samples, request.threads, [&](std::size_t sample) {
     by_port[sample].resize(tags);
     for (std::size_t tag = 0; tag < tags; ++tag) {
-      if (!request.tags[tag].links.empty()) by_port[sample][tag].assign(request.ports.size(), 0.0F);
+      if (!request.tags[tag].links.empty()) by_port[sample][tag].resize(request.ports.size());
     }
     sampler.sample(request.first_sample, sample, result, by_port[sample]);
   });
@@ -414,14 +442,15 @@ Forecast forecast(const ForecastRequest& request) {
       const double read = result.read[sample][tag] != 0 ? 1.0 : 0.0;
       counts[sample] += read;
       result.probability[tag] += weight * read;
-      const std::vector<float>& ports = by_port[sample][tag];
+      const std::vector<CountedReads>& ports = by_port[sample][tag];
       if (!ports.empty()) result.by_port[tag].resize(request.ports.size(), 0.0);
       for (std::size_t port = 0; port < ports.size(); ++port) {
-        result.by_port[tag][port] += weight * static_cast<double>(ports[port]);
+        result.by_port[tag][port] += ports[port].reads > 0.0 ? weight : 0.0;
       }
     }
   }
   result.tags_read = range_of(counts, static_cast<double>(tags));
+  if (request.counts_reads) result.reads = std::move(by_port);
   return result;
 }
 

@@ -69,6 +69,18 @@ struct ForecastRequest {
   std::size_t first_sample = 0;  ///< Samples of other numbers are other draws.
   std::uint64_t seed = 1;
   int threads = 1;  ///< The result does not depend on it.
+  /// Each read is counted, where otherwise inventories end when nothing new can be read.
+  bool counts_reads = false;
+};
+
+/// A tag's reads by one port, with what their carriers f come to [Hz] beside the plan's first.
+struct CountedReads {
+  double reads = 0.0;
+  double sum_hz = 0.0;      ///< Σ f
+  double squares_hz = 0.0;  ///< Σ f² [Hz²]
+
+  /// Σ (f − f̄)² [Hz²].
+  [[nodiscard]] double spread() const;
 };
 
 /// A number with the range that it lies in with 95 % confidence, in a run yet to be made.
@@ -84,6 +96,8 @@ struct Forecast {
   std::vector<std::vector<char>> read;       ///< By sample, then tag.
   std::vector<std::vector<std::vector<char>>> read_by_group;  ///< By sample, group, tag.
   std::vector<std::string> groups;                            ///< Distinct, in the ports' order.
+  /// Where reads are counted: by sample, tag, port; empty of no links.
+  std::vector<std::vector<std::vector<CountedReads>>> reads;
   Forecasted tags_read;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tagfield/files/csv.h"
@@ -31,11 +32,15 @@ PlanJson plan_json(const PlannedAntenna& antenna) {
 }
 
 PlanJson plan_json(const PlannedLayout& layout) {
-  PlanJson json = {
-      {"antennas", PlanJson::array()}, {"readers", layout.readers},
-      {"cost", layout.cost},           {"score", layout.score},
-      {"bound", layout.bound},         {"gap", std::max(0.0, layout.bound - layout.score)},
-      {"exact", layout.is_exact},      {"read", plan_json(layout.read)}};
+  PlanJson json = {{"antennas", PlanJson::array()},
+                   {"readers", layout.readers},
+                   {"cost", layout.cost},
+                   {"score", layout.score},
+                   {"share", layout.share},
+                   {"bound", layout.bound},
+                   {"gap", std::max(0.0, layout.bound - layout.score)},
+                   {"exact", layout.is_exact},
+                   {"read", plan_json(layout.read)}};
   if (layout.zones.size() > 1) json["cross"] = plan_json(layout.cross);
   for (const PlannedAntenna& antenna : layout.antennas) {
     json["antennas"].push_back(plan_json(antenna));
@@ -75,13 +80,26 @@ double worst_cross(const PlannedLayout& layout) {
 
 }  // namespace
 
+std::string words_for(const PlannedAim& aim) {
+  switch (aim.kind) {
+    case PlannedAim::Kind::kReadProbability:
+      return "read";
+    case PlannedAim::Kind::kReads:
+      return fmt::format("read at least {:g} times", aim.value);
+    case PlannedAim::Kind::kPosition:
+      return fmt::format("locatable to within {:g} m", aim.value);
+  }
+  return "";
+}
+
 std::string plan_layouts_to_csv(const AntennaPlan& plan) {
-  std::string text = "antennas,readers,cost,score,bound,read_mean,read_low,read_high,cross_worst\n";
+  std::string text =
+      "antennas,readers,cost,score,share,bound,read_mean,read_low,read_high,cross_worst\n";
   for (const PlannedLayout& layout : plan.layouts) {
-    text +=
-        fmt::format("{},{},{:g},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.5f}\n",
-                    layout.antennas.size(), layout.readers, layout.cost, layout.score, layout.bound,
-                    layout.read.mean, layout.read.low, layout.read.high, worst_cross(layout));
+    text += fmt::format("{},{},{:g},{:.6f},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.5f}\n",
+                        layout.antennas.size(), layout.readers, layout.cost, layout.score,
+                        layout.share, layout.bound, layout.read.mean, layout.read.low,
+                        layout.read.high, worst_cross(layout));
   }
   return text;
 }
@@ -109,6 +127,9 @@ std::string plan_places_to_csv(const AntennaPlan& plan) {
   for (const PlannedLayout& layout : plan.layouts) {
     text += fmt::format(",p_{}", layout.antennas.size());
   }
+  for (const PlannedLayout& layout : plan.layouts) {
+    if (!layout.errors_m.empty()) text += fmt::format(",error_m_{}", layout.antennas.size());
+  }
   text += '\n';
   for (std::size_t i = 0; i < plan.places.size(); ++i) {
     const PlannedPlace& place = plan.places[i];
@@ -117,6 +138,10 @@ std::string plan_places_to_csv(const AntennaPlan& plan) {
     for (const PlannedLayout& layout : plan.layouts) {
       text += fmt::format(",{:.4f}", layout.places[i]);
     }
+    for (const PlannedLayout& layout : plan.layouts) {
+      if (layout.errors_m.empty()) continue;
+      text += std::isfinite(layout.errors_m[i]) ? fmt::format(",{:.4f}", layout.errors_m[i]) : ",";
+    }
     text += '\n';
   }
   return text;
@@ -124,10 +149,17 @@ std::string plan_places_to_csv(const AntennaPlan& plan) {
 
 std::string plan_to_json(const AntennaPlan& plan) {
   PlanJson json = {
-      {"scenario", plan.scenario},     {"dwell_s", plan.dwell_s},         {"tags", plan.tags},
-      {"places", plan.places.size()},  {"options", plan.options},         {"limits", plan.limits},
-      {"stopped_by", plan.stopped_by}, {"aim_read_probability", plan.aim}};
-  json["aim_share"] = plan.aim_share ? PlanJson(*plan.aim_share) : PlanJson(nullptr);
+      {"scenario", plan.scenario},    {"dwell_s", plan.dwell_s}, {"tags", plan.tags},
+      {"places", plan.places.size()}, {"options", plan.options}, {"limits", plan.limits},
+      {"stopped_by", plan.stopped_by}};
+  using Kind = PlannedAim::Kind;
+  const auto aim = [&](Kind kind) {
+    return plan.aim.kind == kind ? PlanJson(plan.aim.value) : PlanJson(nullptr);
+  };
+  json["aim_read_probability"] = aim(Kind::kReadProbability);
+  json["aim_dwell_reads"] = aim(Kind::kReads);
+  json["aim_position_error_m"] = aim(Kind::kPosition);
+  json["aim_share"] = plan.aim.share ? PlanJson(*plan.aim.share) : PlanJson(nullptr);
   json["reaches_aim"] = plan.reaches_aim;
   json["cross_limit"] = plan.cross_limit ? PlanJson(*plan.cross_limit) : PlanJson(nullptr);
   json["guaranteed_share_of_best"] =

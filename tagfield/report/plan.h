@@ -29,24 +29,47 @@ struct PlannedAntenna {
 struct PlannedZone {
   std::string zone;
   std::size_t tags = 0;
-  ExpectedCount read;   ///< Tags, by anyone.
+  ExpectedCount read;   ///< Tags, by anyone, as PlannedLayout::read counts them.
   ExpectedCount cross;  ///< Tags that a reader of another zone reads.
 };
+
+/// What each tag is to have.
+struct PlannedAim {
+  enum class Kind { kReadProbability, kReads, kPosition };
+  Kind kind = Kind::kReadProbability;
+  /// Beyond which more is worth nothing: a probability, reads in the time, or a bound on the error
+  /// of its place [m].
+  double value = 1.0;
+  std::optional<double> share;  ///< Of it that is enough, over all tags.
+};
+
+/// "read", "read at least 5 times", "locatable to within 0.3 m": tags that have what is aimed at.
+std::string words_for(const PlannedAim& aim);
 
 /// The best layout found of so many antennas.
 struct PlannedLayout {
   std::vector<PlannedAntenna> antennas;
   std::size_t readers = 0;
   double cost = 0.0;
-  double score = 0.0;     ///< Mean of min(P, aim)/aim over all tags, without contention for slots.
+  double score = 0.0;  ///< What the choice maximizes (SelectionProblem), before contention.
+  /// To be held against PlannedAim::share: of a probability the score, else the share of tags that
+  /// have what is aimed at, as forecast.
+  double share = 0.0;
   double bound = 1.0;     ///< No layout of as many antennas within the limits has more.
   bool is_exact = false;  ///< The bound is of an integer program.
-  ExpectedCount read;     ///< Tags that the inventory reads in the time, slots and hops included.
+  /// Tags that have in the time what is aimed at, if that is not a mere probability; else that are
+  /// read. Slots and hops included, as in all counts.
+  ExpectedCount read;
   /// Tags that a reader of another zone reads, with links as they are, `plan.margin_db` not taken
   /// off.
   ExpectedCount cross;
   std::vector<PlannedZone> zones;
-  std::vector<double> places;  ///< For AntennaPlan::places, the probability to be read.
+  /// For AntennaPlan::places, the probability to be read, or the share of orientations and fading
+  /// states in which the aim is met.
+  std::vector<double> places;
+  /// Where positions are aimed at, for each place the bound on its error [m], root mean square over
+  /// the plane; infinite where too few antennas read it, or from one direction.
+  std::vector<double> errors_m;
 };
 
 /// A place where tags can be.
@@ -89,8 +112,7 @@ struct AntennaPlan {
   double dwell_s = 0.0;
   std::size_t tags = 0;     ///< That are there in the time.
   std::size_t options = 0;  ///< Ways to mount an antenna, powers included.
-  double aim = 1.0;         ///< Probability beyond which more is worth nothing.
-  std::optional<double> aim_share;
+  PlannedAim aim;
   std::optional<double> cross_limit;
   std::string limits;                  ///< For people.
   std::string stopped_by;              ///< What keeps more antennas out; "" for nothing.
@@ -105,12 +127,14 @@ struct AntennaPlan {
   std::vector<std::string> warnings;
 };
 
-/// `antennas,readers,cost,score,bound,read_mean,read_low,read_high,cross_worst`, a row a layout.
+/// `antennas,readers,cost,score,share,bound,read_mean,read_low,read_high,cross_worst`, a row a
+/// layout.
 std::string plan_layouts_to_csv(const AntennaPlan& plan);
 /// `antennas,antenna,mount,reader,zone,x_m,y_m,z_m,boresight_x,…,power_dbm,cost`, a row an antenna
 /// of each layout.
 std::string plan_antennas_to_csv(const AntennaPlan& plan);
-/// `group,zone,x_m,y_m,z_m,p_1,p_2,…`: read probability by number of antennas, a row a place.
+/// `group,zone,x_m,y_m,z_m,p_1,p_2,…`: by number of antennas what PlannedLayout::places has, and
+/// `error_m_1,…` where positions are aimed at, empty for infinite; a row a place.
 std::string plan_places_to_csv(const AntennaPlan& plan);
 /// All but the places as JSON text.
 std::string plan_to_json(const AntennaPlan& plan);

@@ -67,6 +67,14 @@ Extent extent_of_plan(const AntennaPlan& plan) {
   return {extent.min() - rim, extent.max() + rim};
 }
 
+/// Of a place, where positions are aimed at.
+std::string error_text(const PlannedLayout& layout, std::size_t place) {
+  if (layout.errors_m.empty()) return "";
+  return std::isfinite(layout.errors_m[place])
+             ? fmt::format(", error {:.2f} m at best", layout.errors_m[place])
+             : ", read by too few antennas";
+}
+
 void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size_t place,
                 double radius) {
   const ColorBands bands = probability_bands();
@@ -75,7 +83,8 @@ void draw_place(Svg& svg, const MapView& map, const AntennaPlan& plan, std::size
   Look look = filled(color.empty() ? "#8a949e" : color, 1.0);
   look.attributes += fmt::format(" class=\"place\" data-place=\"{}\"", place);
   add_circle(svg, on_map(map, plan.places[place].p_W), radius, look,
-             fmt::format("{}: {:.0f} %", clean_text(plan.places[place].group), 100.0 * p));
+             fmt::format("{}: {:.0f} %{}", clean_text(plan.places[place].group), 100.0 * p,
+                         error_text(plan.layouts[plan.chosen], place)));
 }
 
 /// A wedge that opens to where the antenna looks, or a ring where that is up or down.
@@ -163,13 +172,18 @@ Figure curve_figure(const AntennaPlan& plan) {
   Figure figure{"plan_curve", "", "What each antenna adds", "", {}, ""};
   const auto most = static_cast<double>(plan.layouts.size());
   const auto tags = static_cast<double>(std::max<std::size_t>(plan.tags, 1));
-  Axes axes{tight_scale(0.0, std::max(most, 1.0) + 0.5, 8), tight_scale(0.0, 100.0, 5)};
+  Axes axes{tight_scale(0.0, std::max(most, 1.0) + 0.5, std::clamp(static_cast<int>(most), 1, 8)),
+            tight_scale(0.0, 100.0, 5)};
   axes.x.from = 52.0;
   axes.x.to = kDrawingWidth - 24.0;
   axes.y.from = 300.0;
   axes.y.to = 34.0;
   figure.svg.height = 348.0;
-  draw_axes(figure.svg, axes, "antennas", "tags read [%]");
+  draw_axes(figure.svg, axes, "antennas", fmt::format("tags {} [%]", words_for(plan.aim)));
+  using Kind = PlannedAim::Kind;
+  const double most_likely = plan.aim.kind == Kind::kReadProbability ? plan.aim.value : 1.0;
+  // What is told of places, and so maximized, bounds no number of them.
+  const bool has_bounds = plan.aim.kind != Kind::kPosition;
   std::vector<Place> means;
   std::vector<Place> bounds;
   for (const PlannedLayout& layout : plan.layouts) {
@@ -178,11 +192,11 @@ Figure curve_figure(const AntennaPlan& plan) {
     add_line(figure.svg, {x, place_on(axes.y, 100.0 * layout.read.low / tags)},
              {x, place_on(axes.y, 100.0 * layout.read.high / tags)}, styled("whisker"));
     means.push_back(place_in(axes, count, 100.0 * layout.read.mean / tags));
-    bounds.push_back(place_in(axes, count, 100.0 * layout.bound * plan.aim));
+    bounds.push_back(place_in(axes, count, 100.0 * layout.bound * most_likely));
   }
   Look dashed = styled("rule");
   dashed.attributes += " fill=\"none\"";
-  add_polyline(figure.svg, bounds, dashed);
+  if (has_bounds) add_polyline(figure.svg, bounds, dashed);
   add_polyline(figure.svg, means, styled("curve"));
   for (std::size_t i = 0; i < means.size(); ++i) {
     const PlannedLayout& layout = plan.layouts[i];
@@ -190,10 +204,13 @@ Figure curve_figure(const AntennaPlan& plan) {
                fmt::format("{} antennas: {:.1f} of {} tags, cost {:g}", layout.antennas.size(),
                            layout.read.mean, plan.tags, layout.cost));
   }
-  figure.caption =
-      "Tags read in the time, with the range of 95 % of runs. Dashed: no layout of as many "
-      "antennas "
-      "within the limits has more, before contention for slots. The large dot is the chosen one.";
+  figure.caption = fmt::format(
+      "Tags {} in the time, with the range of 95 % of runs.{} The large "
+      "dot is the chosen one.",
+      words_for(plan.aim),
+      has_bounds ? " Dashed: no layout of as many antennas within the "
+                   "limits has more, before contention for slots."
+                 : "");
   return figure;
 }
 
@@ -224,8 +241,9 @@ std::string plan_numbers(const AntennaPlan& plan) {
   std::string html = "<dl class=\"numbers\">\n";
   html += planned_number("Antennas", fmt::format("{}", layout.antennas.size()), "antennas");
   html += planned_number("Readers", fmt::format("{}", layout.readers), "readers");
-  html += planned_number(fmt::format("Of {} tags read in {:g} s", grouped(plan.tags), plan.dwell_s),
-                         read_text(layout), "read", true);
+  html += planned_number(
+      fmt::format("Of {} tags {} in {:g} s", grouped(plan.tags), words_for(plan.aim), plan.dwell_s),
+      read_text(layout), "read", true);
   html += planned_number("With 95 % confidence", range_text(layout), "range");
   if (layout.zones.size() > 1) {
     html += planned_number("Cross-read in the worst zone", cross_text(layout), "cross");
@@ -302,7 +320,9 @@ std::string controls(const AntennaPlan& plan) {
     const double to = i < bands.edges.size() ? bands.edges[i] : 1.0;
     colors.emplace_back(
         bands.colors[i].empty() ? "#8a949e" : bands.colors[i],
-        i == 0 ? fmt::format("read by under {:.0f} %", 100.0 * to)
+        i == 0 ? fmt::format("{} under {:.0f} %",
+                             plan.aim.kind == PlannedAim::Kind::kReadProbability ? "read by" : "in",
+                             100.0 * to)
         : i + 1 == bands.colors.size()
             ? fmt::format("{:.0f} %{}", 100.0 * from, from >= 0.995 ? "" : " and more")
             : fmt::format("{:.0f} to {:.0f} %", 100.0 * from, 100.0 * to));
@@ -315,6 +335,12 @@ std::string controls(const AntennaPlan& plan) {
                           {kGainColors[3], "better"},
                           {kGainColors[4], "better by over 20 points"}},
                          true);
+}
+
+/// The words at the head of a column.
+std::string capital(std::string words) {
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] += 'A' - 'a';
+  return words;
 }
 
 std::string table_begin(const std::string& id, const std::vector<std::string>& columns) {
@@ -341,9 +367,10 @@ std::string count_range(const ExpectedCount& count) {
 }
 
 std::string layouts_table(const AntennaPlan& plan) {
-  std::string html = "<h2>By number of antennas</h2>\n" +
-                     table_begin("", {"Antennas", "Readers", "Cost", "Tags read", "95 % of runs",
-                                      "Score", "Bound", "Cross reads,<br>worst zone"});
+  std::string html =
+      "<h2>By number of antennas</h2>\n" +
+      table_begin("", {"Antennas", "Readers", "Cost", "Tags " + words_for(plan.aim), "95 % of runs",
+                       "Score", "Bound", "Cross reads,<br>worst zone"});
   for (const PlannedLayout& layout : plan.layouts) {
     html += plan_row(fmt::format("{}", layout.antennas.size()),
                      {fmt::format("{}", layout.readers), fmt::format("{:g}", layout.cost),
@@ -358,9 +385,9 @@ std::string layouts_table(const AntennaPlan& plan) {
 std::string zones_of_plan(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   if (layout.zones.size() < 2) return "";
-  std::string html =
-      "<h2>By zone, as chosen</h2>\n" +
-      table_begin("", {"Zone", "Tags", "Read", "95 % of runs", "Cross-read", "95 % of runs"});
+  std::string html = "<h2>By zone, as chosen</h2>\n" +
+                     table_begin("", {"Zone", "Tags", capital(words_for(plan.aim)), "95 % of runs",
+                                      "Cross-read", "95 % of runs"});
   for (const PlannedZone& zone : layout.zones) {
     html += plan_row(zone.zone, {grouped(zone.tags), fmt::format("{:.1f}", zone.read.mean),
                                  count_range(zone.read), fmt::format("{:.1f}", zone.cross.mean),
@@ -390,9 +417,13 @@ std::string antennas_table(const AntennaPlan& plan) {
 }
 
 std::string hard_table(const AntennaPlan& plan) {
-  if (plan.hard.empty()) return "<h2>Hard tags</h2>\n<p>Every place is read by 90 % or more.</p>\n";
+  if (plan.hard.empty()) {
+    return fmt::format("<h2>Hard tags</h2>\n<p>At every place tags are {} in 90 % and more.</p>\n",
+                       words_for(plan.aim));
+  }
   std::string html = "<h2>Hard tags, as chosen</h2>\n" +
-                     table_begin("", {"Place", "Read [%]", "Best antenna", "Distance [m]", "Why"});
+                     table_begin("", {"Place", capital(words_for(plan.aim)) + " [%]",
+                                      "Best antenna", "Distance [m]", "Why"});
   for (const HardPlace& hard : plan.hard) {
     const PlannedPlace& place = plan.places[hard.place];
     html += plan_row(fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) m", clean_text(place.group),
@@ -406,8 +437,9 @@ std::string hard_table(const AntennaPlan& plan) {
 }
 
 std::string sensitivity_table(const AntennaPlan& plan) {
-  std::string html = "<h2>Where something is otherwise</h2>\n" +
-                     table_begin("", {"The chosen layout", "Tags read", "95 % of runs", "Lost"});
+  std::string html =
+      "<h2>Where something is otherwise</h2>\n" +
+      table_begin("", {"The chosen layout", "Tags " + words_for(plan.aim), "95 % of runs", "Lost"});
   for (const PlanVariant& variant : plan.sensitivity) {
     html += plan_row(
         variant.what,
@@ -428,12 +460,12 @@ std::string check_text(const AntennaPlan& plan) {
   const double mean = mean_of(plan.check->read);
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   std::string text = fmt::format(
-      "<div class=\"note\"><p><strong>Checked.</strong> {} with other tags and seeds read {:.1f} "
-      "tags in the mean; {:.1f} were forecast, and {} of {} lie within the stated range of {:.0f} "
-      "to "
-      "{:.0f}.",
-      counted(plan.check->read.size(), "full simulation"), mean, layout.read.mean,
-      plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
+      "<div class=\"note\"><p><strong>Checked.</strong> In {} with other tags and seeds {:.1f} "
+      "tags "
+      "were {} in the mean; {:.1f} were forecast, and {} of {} lie within the stated range of "
+      "{:.0f} to {:.0f}.",
+      counted(plan.check->read.size(), "full simulation"), mean, words_for(plan.aim),
+      layout.read.mean, plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
       std::floor(layout.read.high));
   if (!plan.check->cross.empty()) {
     text += fmt::format(
@@ -459,12 +491,34 @@ std::string plan_fact(const std::string& name, const std::string& value) {
 }
 
 std::string aim_text(const AntennaPlan& plan) {
-  std::string text = plan.aim < 1.0 ? fmt::format("each tag read with {:g} % in {:g} s",
-                                                  100.0 * plan.aim, plan.dwell_s)
-                                    : fmt::format("most tags read in {:g} s", plan.dwell_s);
-  if (plan.aim_share) {
-    text += fmt::format(", to {:g} %: {}", 100.0 * *plan.aim_share,
+  const PlannedAim& aim = plan.aim;
+  std::string text;
+  if (aim.kind != PlannedAim::Kind::kReadProbability) {
+    text = fmt::format("each tag {} in {:g} s", words_for(aim), plan.dwell_s);
+  } else if (aim.value < 1.0) {
+    text = fmt::format("each tag read with {:g} % in {:g} s", 100.0 * aim.value, plan.dwell_s);
+  } else {
+    text = fmt::format("most tags read in {:g} s", plan.dwell_s);
+  }
+  if (aim.share) {
+    text += fmt::format(", to {:g} %: {}", 100.0 * *aim.share,
                         plan.reaches_aim ? "reached" : "not reached");
+  }
+  return text;
+}
+
+/// What the dots are.
+std::string dots_text(const PlannedAim& aim) {
+  const std::string over = "over orientations and fading, before contention for slots";
+  if (aim.kind == PlannedAim::Kind::kReadProbability) {
+    return "with the probability that one there is read, " + over;
+  }
+  std::string text =
+      fmt::format("with the share in which one there is {}, {}", words_for(aim), over);
+  if (aim.kind == PlannedAim::Kind::kPosition) {
+    text +=
+        ": by the Cramér-Rao bound of the direct path, which no estimator undercuts, and with "
+        "reflections hardly any reaches";
   }
   return text;
 }
@@ -508,8 +562,7 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
     html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
           plan_warnings(plan) + "<h2>The hall from above</h2>\n" +
-          "<p>Each dot is a place where tags can be, with the probability that one there is read, "
-          "over orientations and fading, before contention for slots.</p>\n" +
+          "<p>Each dot is a place where tags can be, " + dots_text(plan.aim) + ".</p>\n" +
           controls(plan) + maps + layouts_table(plan) + zones_of_plan(plan) + antennas_table(plan) +
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
           data_link("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +

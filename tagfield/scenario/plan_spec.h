@@ -51,11 +51,18 @@ struct PlanLimits {
   std::optional<double> cross;  ///< Most share of a zone's tags that other zones' readers read.
 };
 
+/// What is aimed at, for each tag: one of three.
 struct PlanAim {
-  /// Probability of a tag to be read beyond which more is worth nothing.
+  /// Probability to be read, beyond which more is worth nothing.
   double read_probability = 1.0;
-  /// Mean of min(P, read_probability)/read_probability over all tags that is enough: the smallest
-  /// layout that has it is taken. None: the best that the limits allow.
+  /// Reads in the dwell time, beyond which more are worth nothing; at least 1.
+  std::optional<double> dwell_reads;
+  /// Bound on the error of its place in the plane, root mean square [m], below which less is worth
+  /// nothing.
+  std::optional<double> position_error_m;
+  /// Of read_probability, the mean over all tags of what they have of it; else the share of tags
+  /// that have it, as forecast, that is enough: the smallest layout that has it is taken. None: the
+  /// best that the limits allow.
   std::optional<double> share;
 };
 

@@ -67,6 +67,28 @@ def a_plan_is_a_folder_and_its_layout_runs(context):
 
 
 @case
+def aims_at_reads_and_at_places(context):
+    path = context.write("store.yaml", STORE)
+    out = context.folder / "plan"
+    said = context.run_well("plan", path, "--samples", "8", "--out", out, "--set", "plan.aim={dwell_reads: 4}").out
+    check_in("tags counted are those read at least 4 times in", said, "what is said")
+    plan = read_json(out / "plan.json")
+    check_equal((plan["aim_dwell_reads"], plan["aim_read_probability"]), (4, None), "aims")
+    chosen = plan["layouts"][plan["chosen_antennas"] - 1]
+    check(abs(chosen["share"] - chosen["read"]["mean"] / plan["tags"]) < 1e-9, "share of the tags")
+    context.run_well("plan", context.shipped("plan/room"), "--samples", "8", "--check", "2", "--out",
+                     context.folder / "room")
+    plan = read_json(context.folder / "room/plan.json")
+    check_equal((plan["chosen_antennas"], plan["reaches_aim"], plan["check"]["inside"]), (3, True, 2), "room")
+    places = read_csv(context.folder / "room/plan_places.csv")
+    # Two antennas leave two places for each tag.
+    check(all(place["error_m_2"] == "" for place in places), "errors by two antennas")
+    check(all(0.0 < float(place["error_m_3"]) < 0.03 for place in places), "errors by three")
+    page = (context.folder / "room/plan.html").read_text(encoding="utf-8")
+    check_in("locatable to within 0.03 m", page, "page")
+
+
+@case
 def scripts_run_by_their_hash(context):
     path = context.write("store.yaml", STORE)
     out = context.folder / "plan"
@@ -162,6 +184,9 @@ def bad_plans(context):
         check_in(says, result.err, f"stderr of {change}")
     path = context.write("store.yaml", STORE)
     for arguments, says in ((["--samples", "1"], "samples"), (["--exact", "0"], "exact"),
+                            (["--set", "plan.aim={dwell_reads: 2, position_error_m: 1}"], "expected one of them"),
+                            (["--set", "plan.aim.dwell_reads=0.5"], "must be at least 1"),
+                            (["--exact", "1", "--set", "plan.aim.position_error_m=1"], "no exact solution"),
                             (["--set", "plan.mounts.roof.cost=1"], "no element 'roof'")):
         result = context.run("plan", path, *arguments, "--out", out)
         check_equal(result.code, 2, f"exit code of {arguments}")

@@ -56,7 +56,9 @@ class Program {
   [[nodiscard]] std::size_t columns() const {
     return problem_.options.size() + problem_.elements.size() + zones_.size();
   }
+  void add_terms(std::size_t option);
   void add_limits();
+  void add_first_bounds();
   void add_tangent(std::size_t element, double at);
   bool add_cross_cut(const OptionSet& choice);
   std::size_t add_tangents(const OptionSet& choice, const std::vector<double>& worth);
@@ -71,22 +73,44 @@ class Program {
 
   const SelectionProblem& problem_;
   OptionSet best_;
-  std::vector<std::vector<Term>> logs_;  ///< By element, over options.
+  std::vector<std::vector<Term>> sums_;  ///< By element, over options: of −ln p, or of reads.
   std::vector<std::size_t> zones_;       ///< That options have; kNoZone is one.
   std::vector<Row> rows_;
 };
 
 Program::Program(const SelectionProblem& problem, const OptionSet& begin)
-    : problem_(problem), best_(begin), logs_(problem.elements.size()) {
+    : problem_(problem), best_(begin), sums_(problem.elements.size()) {
   for (std::size_t i = 0; i < problem.options.size(); ++i) {
-    for (const Miss& miss : problem.options[i].misses) {
-      logs_[miss.element].push_back({option_column(i), log_of(miss)});
-    }
+    add_terms(i);
     const std::size_t zone = problem.options[i].zone;
     if (std::find(zones_.begin(), zones_.end(), zone) == zones_.end()) zones_.push_back(zone);
   }
   add_limits();
-  for (std::size_t element = 0; element < logs_.size(); ++element) {
+  add_first_bounds();
+}
+
+void Program::add_terms(std::size_t option) {
+  const SelectionOption& of = problem_.options[option];
+  if (problem_.worth == Worth::kReads) {
+    for (const ReadsOf& one : of.reads) {
+      sums_[one.element].push_back({option_column(option), static_cast<double>(one.reads)});
+    }
+    return;
+  }
+  for (const Miss& miss : of.misses) {
+    sums_[miss.element].push_back({option_column(option), log_of(miss)});
+  }
+}
+
+/// Reads are their sum, up to the cap; probabilities a curve of it.
+void Program::add_first_bounds() {
+  for (std::size_t element = 0; element < sums_.size(); ++element) {
+    if (problem_.worth == Worth::kReads) {
+      Row row{{{element_column(element), 1.0}}, 0.0};
+      for (const Term& term : sums_[element]) row.terms.push_back({term.column, -term.value});
+      rows_.push_back(std::move(row));
+      continue;
+    }
     for (const double at : {0.0, 0.7, 2.0, 4.5}) add_tangent(element, at);
   }
 }
@@ -126,7 +150,7 @@ void Program::add_limits() {
 void Program::add_tangent(std::size_t element, double at) {
   const double slope = std::exp(-at);
   Row row{{{element_column(element), 1.0}}, 1.0 - slope - slope * at};
-  for (const Term& term : logs_[element]) row.terms.push_back({term.column, -slope * term.value});
+  for (const Term& term : sums_[element]) row.terms.push_back({term.column, -slope * term.value});
   rows_.push_back(std::move(row));
 }
 
@@ -153,6 +177,7 @@ bool Program::add_cross_cut(const OptionSet& choice) {
 
 /// Tangents where the program promises an element more than the choice gives it; how many.
 std::size_t Program::add_tangents(const OptionSet& choice, const std::vector<double>& worth) {
+  if (problem_.worth == Worth::kReads) return 0;
   std::vector<double> log(problem_.elements.size(), 0.0);
   for (const std::size_t option : choice) {
     for (const Miss& miss : problem_.options[option].misses) log[miss.element] += log_of(miss);
@@ -258,6 +283,11 @@ ExactChoice Program::solve(double seconds) {
 bool has_exact_solver() { return true; }
 
 ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds) {
+  if (problem.worth == Worth::kPlace) {
+    throw Error(
+        "plan.aim.position_error_m has no exact solution, as it is no integer program: leave out "
+        "--exact");
+  }
   return Program(problem, begin).solve(seconds);
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tagfield/base/parallel.h"
+#include "tagfield/layout/internal/link_reads.h"
 #include "tagfield/planning/local_link.h"
 
 namespace tagfield {
@@ -68,6 +69,32 @@ std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) cons
   return ports;
 }
 
+std::size_t LayoutForecast::first_row_of(const PlanTag& tag) const {
+  const std::size_t orientations = plan_.tags[tag.group].orientations.size();
+  return first_rows_[tag.group][tag.place * orientations + tag.orientation];
+}
+
+bool LayoutForecast::has_enough(const std::vector<CountedReads>& reads, const OptionSet& choice,
+                                const std::vector<std::vector<LinkStates>>& states, std::size_t row,
+                                double less_db) const {
+  if (plan_.aim.dwell_reads) {
+    double sum = 0.0;
+    for (const CountedReads& of_port : reads) sum += of_port.reads;
+    return sum >= *plan_.aim.dwell_reads;
+  }
+  const Eigen::Vector3d p_WT = matrix_.rows[row].X_WT.translation;
+  std::vector<Told> told;
+  for (std::size_t port = 0; port < reads.size(); ++port) {
+    const LinkColumn& column = matrix_.columns[problem_.options[choice[port]].column];
+    const PlanMount& mount = plan_.mounts[column.mount];
+    const Eigen::Vector3d p_WA = mount.X_WA[column.look].translation;
+    const RangeTold range =
+        range_told(*physical(mount.antenna), states[port][row], less_db, (p_WT - p_WA).norm());
+    told.push_back(told_by(range, reads[port].reads, reads[port].spread(), p_WA, p_WT));
+  }
+  return error_bound_m(told) <= *plan_.aim.position_error_m;
+}
+
 // NOLINTNEXTLINE(readability-function-size): what all samples share is gathered once.
 std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& choice,
                                                             double less_db) const {
@@ -86,6 +113,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
   std::vector<Sample> samples(tags_.size());
   parallel_for(tags_.size(), request_.threads, [&](std::size_t number) {
     ForecastRequest request;
+    request.counts_reads = plan_.aim.dwell_reads || plan_.aim.position_error_m;
     request.ports = ports;
     request.duration_s = duration_s_;
     request.less_db = less_db;
@@ -94,9 +122,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
     request.seed = request_.seed;
     for (const PlanTag& tag : tags_[number]) {
       ForecastTag& of_tag = request.tags.emplace_back();
-      const std::size_t first =
-          first_rows_[tag.group]
-                     [tag.place * plan_.tags[tag.group].orientations.size() + tag.orientation];
+      const std::size_t first = first_row_of(tag);
       const std::vector<PlanStop>& stops = stops_[tag.group];
       for (std::size_t port = 0; port < ports.size(); ++port) {
         for (std::size_t stop = 0; stop < stops.size(); ++stop) {
@@ -113,6 +139,11 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
     const Forecast made = forecast(request);
     Sample& sample = samples[number];
     sample.read = made.read.front();
+    for (std::size_t tag = 0; request.counts_reads && tag < sample.read.size(); ++tag) {
+      const std::vector<CountedReads>& reads = made.reads.front()[tag];
+      sample.read[tag] =
+          has_enough(reads, choice, states, first_row_of(tags_[number][tag]), less_db) ? 1 : 0;
+    }
     sample.crossed.assign(sample.read.size(), 0);
     for (std::size_t group = 0; group < made.groups.size(); ++group) {
       const std::string& zone = zone_of_reader[made.groups[group]];

@@ -16,19 +16,24 @@ class LayoutForecast {
   LayoutForecast(const PlanSpec& plan, const LinkMatrix& matrix, const PlanProblem& problem,
                  const PlanRequest& request);
 
-  /// Tags read, and zone for zone.
+  /// Tags that have what is aimed at, and zone for zone.
   void fill(const OptionSet& choice, PlannedLayout& layout) const;
-  /// Tags read where all links have `less_db` less than planned with.
+  /// The same of all zones where all links have `less_db` less than planned with.
   [[nodiscard]] ExpectedCount read(const OptionSet& choice, double less_db) const;
 
  private:
   struct Sample {
-    std::vector<char> read;
+    std::vector<char> read;  ///< And what else is aimed at.
     std::vector<char> crossed;
   };
   /// With all links as much weaker than they are.
   [[nodiscard]] std::vector<Sample> samples(const OptionSet& choice, double less_db) const;
   [[nodiscard]] std::vector<ForecastPort> ports_of(const OptionSet& choice) const;
+  [[nodiscard]] std::size_t first_row_of(const PlanTag& tag) const;
+  /// Whether a tag with so many reads by port has what is aimed at; `states` by port and row.
+  [[nodiscard]] bool has_enough(const std::vector<CountedReads>& reads, const OptionSet& choice,
+                                const std::vector<std::vector<LinkStates>>& states, std::size_t row,
+                                double less_db) const;
 
   const PlanSpec& plan_;
   const LinkMatrix& matrix_;

@@ -12,8 +12,9 @@ constexpr double kEnough_s = 60.0;
 
 TEST(ExactSelection, IsWhatTryingAllSays) {
   if (!has_exact_solver()) GTEST_SKIP() << "built without CBC";
-  for (std::uint64_t number = 0; number < 30; ++number) {
-    const SelectionProblem problem = random_problem(number, 10, 12);
+  for (std::uint64_t number = 0; number < 60; ++number) {
+    const Worth worth = number % 2 == 0 ? Worth::kProbability : Worth::kReads;
+    const SelectionProblem problem = random_problem(number / 2, 10, 12, worth);
     const double best = score_of(problem, best_by_trying(problem));
     const ExactChoice exact = best_exactly(problem, {}, kEnough_s);
     EXPECT_EQ(broken_limit(problem, exact.choice), Limit::kNone) << number;
@@ -29,6 +30,11 @@ TEST(ExactSelection, HasABoundWhereTimeIsUp) {
   const ExactChoice none = best_exactly(problem, {}, 0.0);
   EXPECT_TRUE(none.choice.empty());
   EXPECT_GE(none.bound, score_of(problem, best_by_trying(problem)));
+}
+
+TEST(ExactSelection, KnowsNoPlaces) {
+  if (!has_exact_solver()) GTEST_SKIP() << "built without CBC";
+  EXPECT_THROW(best_exactly(random_problem(1, 10, 12, Worth::kPlace), {}, kEnough_s), Error);
 }
 
 TEST(ExactSelection, IsRefusedWithoutASolver) {

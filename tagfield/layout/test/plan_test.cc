@@ -114,6 +114,66 @@ TEST(AntennaPlan, IsWithinItsRangeOfFullSimulations) {
   EXPECT_GE(check.inside, 16U);
 }
 
+TEST(AntennaPlan, AimsAtReads) {
+  std::string text = small_store();
+  text.replace(text.find("powers_dbm"), 0, "inventory: gen2\n      ");
+  const PlannedLayout once = planned(text).plan.layouts.back();
+  const Planned all = planned(text + "  aim: {dwell_reads: 10}\n");
+  const PlannedLayout& layout = all.plan.layouts[all.plan.chosen];
+  for (const PlannedLayout& other : all.plan.layouts) EXPECT_LE(other.share, layout.share);
+  EXPECT_GT(layout.read.mean, 0.0);
+  EXPECT_LT(layout.read.mean, once.read.mean);
+  EXPECT_DOUBLE_EQ(layout.share, layout.read.mean / 60.0);
+  const PlanCheck check = check_plan(all.to_plan, layout, 1, 20, {});
+  EXPECT_GE(check.inside, 16U);
+}
+
+/// A room with mounts at its corners and in the middle of its walls, and a reader that hops far.
+std::string room_to_locate_in(const std::string& aim) {
+  return "name: room\nmodel: link_budget\nduration_s: 10\n"
+         "plan:\n"
+         "  tags:\n"
+         "    - {name: shelf, box: [1, 1, 0.9, 3, 3, 0.9], spacing_m: [1, 1, 1], count: 9}\n"
+         "  mounts:\n"
+         "    - {name: south, line: [[0, 0, 1.2], [4, 0, 1.2]], spacing_m: 2,\n"
+         "       rpy_deg: [[0, 0, 90]], profiles: [speedway_r420, panel_6dbi], channel_plan: fcc}\n"
+         "    - {name: north, line: [[0, 4, 1.2], [4, 4, 1.2]], spacing_m: 2,\n"
+         "       rpy_deg: [[0, 0, -90]], profiles: [speedway_r420, panel_6dbi], channel_plan: "
+         "fcc}\n"
+         "  limits: {antennas: 4, readers: 1, ports: 4}\n" +
+         aim;
+}
+
+TEST(AntennaPlan, AimsAtPlaces) {
+  const Planned all = planned(room_to_locate_in("  aim: {position_error_m: 0.03, share: 1}\n"));
+  const AntennaPlan& plan = all.plan;
+  const PlannedLayout& layout = plan.layouts[plan.chosen];
+  // Two distances leave two places.
+  ASSERT_GE(layout.antennas.size(), 3U);
+  EXPECT_DOUBLE_EQ(plan.layouts[1].read.mean, 0.0);
+  EXPECT_DOUBLE_EQ(layout.read.mean, 9.0);
+  EXPECT_TRUE(plan.reaches_aim);
+  ASSERT_EQ(layout.errors_m.size(), plan.places.size());
+  for (const double error_m : layout.errors_m) EXPECT_LT(error_m, 0.03);
+  const PlanCheck check = check_plan(all.to_plan, layout, 1, 5, {});
+  EXPECT_EQ(check.read, std::vector<double>(5, 9.0));
+  // What no antenna can tell is not claimed.
+  const AntennaPlan never =
+      planned(room_to_locate_in("  aim: {position_error_m: 0.001, share: 1}\n")).plan;
+  EXPECT_FALSE(never.reaches_aim);
+  EXPECT_DOUBLE_EQ(never.layouts.back().read.mean, 0.0);
+}
+
+TEST(AntennaPlan, BadAimsAreErrors) {
+  EXPECT_NE(complaint_of(small_store("  aim: {dwell_reads: 2, read_probability: 0.9}\n"))
+                .find("stands beside 'read_probability', expected one of them"),
+            std::string::npos);
+  EXPECT_NE(complaint_of(small_store("  aim: {dwell_reads: 0.5}\n")).find("must be at least 1"),
+            std::string::npos);
+  EXPECT_NE(complaint_of(small_store("  aim: {position_error_m: 0}\n")).find("position_error_m"),
+            std::string::npos);
+}
+
 /// An antenna that reads a near shelf of its own zone and, 3 m away with some 2 dB left, another's.
 std::string two_zones(const std::string& limits) {
   return "name: zones\nmodel: link_budget\nduration_s: 2\n"

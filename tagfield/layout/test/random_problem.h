@@ -3,9 +3,11 @@
 /// Small problems of selection, drawn at random.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "tagfield/base/random.h"
+#include "tagfield/base/units.h"
 #include "tagfield/layout/selection.h"
 
 namespace tagfield {
@@ -52,6 +54,30 @@ inline SelectionProblem random_problem(std::uint64_t number, std::size_t options
   problem.limits.cost = 14.0;
   problem.limits.cross = 0.25;
   problem.cap = number % 2 == 0 ? 1.0 : 0.8;
+  return problem;
+}
+
+/// The same where reads or places count: each option that may read an element does so a few times,
+/// or tells of it in some direction.
+inline SelectionProblem random_problem(std::uint64_t number, std::size_t options,
+                                       std::size_t elements, Worth worth) {
+  SelectionProblem problem = random_problem(number, options, elements);
+  problem.worth = worth;
+  if (worth == Worth::kProbability) return problem;
+  RandomStream stream(number, Purpose::kPlaces, 1);
+  for (SelectionOption& option : problem.options) {
+    for (const Miss& miss : option.misses) {
+      option.reads.push_back({miss.element, static_cast<float>(4.0 * uniform(stream))});
+      const double turn = kTwoPi * uniform(stream);
+      const double told = 50.0 * uniform(stream);
+      option.told.push_back({miss.element, static_cast<float>(told * std::pow(std::cos(turn), 2)),
+                             static_cast<float>(told * std::cos(turn) * std::sin(turn)),
+                             static_cast<float>(told * std::pow(std::sin(turn), 2))});
+    }
+  }
+  problem.cap = worth == Worth::kReads ? 5.0 : 1.0;
+  problem.error_m = 0.4;
+  problem.spread_m = 2.0;
   return problem;
 }
 

@@ -79,9 +79,49 @@ TEST(Selection, CountsWhatOtherZonesRead) {
   EXPECT_EQ(broken_limit(problem, {0, 2}), Limit::kNone);
 }
 
+TEST(Selection, CountsReadsUpToTheCap) {
+  SelectionProblem problem = three_options();
+  problem.worth = Worth::kReads;
+  problem.cap = 4.0;
+  problem.options[0].reads = {{0, 1.0F}};
+  problem.options[1].reads = {{0, 5.0F}};
+  problem.options[2].reads = {{1, 2.0F}};
+  EXPECT_DOUBLE_EQ(score_of(problem, {0}), 0.125);
+  EXPECT_DOUBLE_EQ(score_of(problem, {0, 1, 2}), 0.5 + 0.25);
+  EXPECT_EQ(greedy_order(problem), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{true, false}));
+}
+
+TEST(Selection, CountsWhatIsToldOfPlaces) {
+  // Distances along x, y and the diagonal, known to 0.1, 0.2 and 0.1 m.
+  SelectionProblem problem = three_options();
+  problem.worth = Worth::kPlace;
+  problem.spread_m = 1.0;
+  problem.error_m = 0.2;
+  problem.options[0].told = {{0, 100.0F, 0.0F, 0.0F}};
+  problem.options[1].told = {{0, 0.0F, 0.0F, 25.0F}};
+  problem.options[2].told = {{0, 50.0F, 50.0F, 50.0F}};
+  // ½ of ln det J/J₀ over that of an error of 0.1 m: 1/200 m² along each axis.
+  EXPECT_NEAR(score_of(problem, {0}), 0.5 * std::log(101.0) / (2.0 * std::log(200.0)), 1e-12);
+  EXPECT_NEAR(score_of(problem, {0, 1}), 0.5 * std::log(101.0 * 26.0) / (2.0 * std::log(200.0)),
+              1e-12);
+  // Two distances leave two places; of three, √tr J⁻¹ with J = [150 50; 50 75].
+  const SelectionOption* const all = problem.options.data();
+  EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[1].told[0]})));
+  EXPECT_NEAR(error_bound_m({all[0].told[0], all[1].told[0], all[2].told[0]}),
+              std::sqrt(225.0 / (150.0 * 75.0 - 2500.0)), 1e-9);
+  // Three antennas one behind the other tell one direction.
+  EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[0].told[0], all[0].told[0]})));
+  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{true, false}));
+  problem.error_m = 0.15;
+  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{false, false}));
+}
+
+constexpr Worth kAllWorths[] = {Worth::kProbability, Worth::kReads, Worth::kPlace};
+
 TEST(Selection, GreedIsWithinItsBoundsOfTheBest) {
-  for (std::uint64_t number = 0; number < kCases; ++number) {
-    const SelectionProblem problem = random_problem(number, 12, 24);
+  for (std::uint64_t number = 0; number < 3 * kCases; ++number) {
+    const SelectionProblem problem = random_problem(number / 3, 12, 24, kAllWorths[number % 3]);
     const double best = score_of(problem, best_by_trying(problem));
     const OptionSet greedy = sorted(greedy_order(problem));
     const double score = score_of(problem, greedy);
@@ -123,8 +163,8 @@ std::vector<std::size_t> plainly_greedy(const SelectionProblem& problem) {
 }
 
 TEST(Selection, LazinessChangesNothing) {
-  for (std::uint64_t number = 0; number < kCases; ++number) {
-    const SelectionProblem problem = random_problem(number, 20, 40);
+  for (std::uint64_t number = 0; number < 3 * kCases; ++number) {
+    const SelectionProblem problem = random_problem(number / 3, 20, 40, kAllWorths[number % 3]);
     EXPECT_EQ(greedy_order(problem), plainly_greedy(problem)) << number;
   }
 }
@@ -132,7 +172,8 @@ TEST(Selection, LazinessChangesNothing) {
 /// Submodular: an option adds no more to a choice than to a part of it.
 RC_GTEST_PROP(Selection, GainsOnlyShrink, ()) {
   const auto number = *rc::gen::inRange<std::uint64_t>(0, 1000);
-  const SelectionProblem problem = random_problem(number, 10, 16);
+  const Worth worth = kAllWorths[*rc::gen::inRange<std::size_t>(0, 3)];
+  const SelectionProblem problem = random_problem(number, 10, 16, worth);
   const auto size = *rc::gen::inRange<std::size_t>(0, 8);
   OptionSet whole;
   for (std::size_t i = 0; i < size; ++i) whole.push_back(i);

@@ -298,11 +298,35 @@ PlanLimits limits_of(YamlMap map) {
 
 PlanAim aim_of(YamlMap map) {
   PlanAim aim;
+  std::string of_tags;
+  for (const char* const key : {"read_probability", "dwell_reads", "position_error_m"}) {
+    if (!map.has(key)) continue;
+    if (!of_tags.empty()) {
+      map.at(key).fail(fmt::format("stands beside '{}', expected one of them", of_tags));
+    }
+    of_tags = key;
+  }
   if (map.has("read_probability"))
     aim.read_probability = share_of(map.at("read_probability"), false);
+  if (map.has("dwell_reads")) {
+    aim.dwell_reads = map.at("dwell_reads").number(kPositive);
+    if (*aim.dwell_reads < 1.0) map.at("dwell_reads").fail("must be at least 1");
+  }
+  if (map.has("position_error_m")) {
+    aim.position_error_m = map.at("position_error_m").number(kPositive);
+  }
   if (map.has("share")) aim.share = share_of(map.at("share"), false);
   map.finish();
   return aim;
+}
+
+/// A place is that of a tag at rest.
+void require_rest(const YamlValue& aim, const std::vector<PlanTags>& tags) {
+  for (const PlanTags& group : tags) {
+    if (group.path.empty()) continue;
+    aim.fail(
+        fmt::format("has 'position_error_m', but the tags '{}' move along a path", group.name));
+  }
 }
 
 void require_unique_names(const std::vector<PlanMount>& mounts) {
@@ -332,6 +356,7 @@ PlanSpec plan_of(YamlMap map, const RadioDefaults& radio, double duration_s,
   require_unique_names(plan.mounts);
   if (map.has("limits")) plan.limits = limits_of(YamlMap(map.at("limits")));
   if (map.has("aim")) plan.aim = aim_of(YamlMap(map.at("aim")));
+  if (plan.aim.position_error_m) require_rest(map.at("aim"), plan.tags);
   map.finish();
   return plan;
 }
