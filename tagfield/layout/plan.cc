@@ -145,15 +145,17 @@ std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matr
   const std::vector<LinkElement> elements = elements_of(matrix);
   std::vector<std::vector<Told>> told(places);
   for (const std::size_t option : choice) {
-    for (Told one : problem.selection.options[option].told) {
+    std::vector<Told> of_option(places);
+    for (const Told& one : problem.selection.options[option].told) {
       const LinkRow& row = matrix.rows[elements[one.element / kFadingPlaces].first_row];
       const auto ways =
           static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPlaces);
-      one.xx /= ways;
-      one.xy /= ways;
-      one.yy /= ways;
-      told[first_place[row.group] + row.place].push_back(one);
+      Told& sum = of_option[first_place[row.group] + row.place];
+      sum.xx += one.xx / ways;
+      sum.xy += one.xy / ways;
+      sum.yy += one.yy / ways;
     }
+    for (std::size_t place = 0; place < places; ++place) told[place].push_back(of_option[place]);
   }
   std::vector<double> errors(places);
   std::transform(told.begin(), told.end(), errors.begin(), error_bound_m);

@@ -150,6 +150,8 @@ class Sampler {
                                                HoldingLinks& holding) const;
   void run_inventories(std::size_t number, const std::vector<std::size_t>& places,
                        const OnRead& on_read) const;
+  [[nodiscard]] std::vector<std::unique_ptr<Inventory>> inventories_of(std::size_t number,
+                                                                       TagMemories& memories) const;
   [[nodiscard]] std::size_t pairs_heard(const std::vector<std::size_t>& places) const;
   void read_updates(std::size_t number, const std::vector<std::size_t>& places,
                     const OnRead& on_read) const;
@@ -269,16 +271,11 @@ std::size_t Sampler::pairs_heard(const std::vector<std::size_t>& places) const {
   return pairs.size();
 }
 
-/// The inventories themselves, slot by slot, from change to change of who sends and who is heard;
-/// until nothing is left that would be read for the first time, unless all reads are counted.
-/// `on_read` tells whether one was.
-void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>& places,
-                              const OnRead& on_read) const {
-  TagMemories memories;
+/// An inventory for each port that takes turns and hears anything; null for the others.
+std::vector<std::unique_ptr<Inventory>> Sampler::inventories_of(std::size_t number,
+                                                                TagMemories& memories) const {
   std::vector<std::unique_ptr<Inventory>> inventories(request_.ports.size());
-  std::vector<HoldingLinks> holding;
   for (std::size_t port = 0; port < request_.ports.size(); ++port) {
-    holding.emplace_back(links_[port]);
     if (!takes_turns(request_.ports[port]) || links_[port].empty()) continue;
     const AntennaParameters& antenna = request_.ports[port].antenna;
     const Gen2Reader& gen2 = *physical(antenna)->gen2;
@@ -287,6 +284,19 @@ void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>
     inventories[port] =
         std::make_unique<Inventory>(gen2.link, gen2.inventory, memories, seeds(), key);
   }
+  return inventories;
+}
+
+/// The inventories themselves, slot by slot, from change to change of who sends and who is heard;
+/// until nothing is left that would be read for the first time, unless all reads are counted.
+/// `on_read` tells whether one was.
+void Sampler::run_inventories(std::size_t number, const std::vector<std::size_t>& places,
+                              const OnRead& on_read) const {
+  TagMemories memories;
+  const std::vector<std::unique_ptr<Inventory>> inventories = inventories_of(number, memories);
+  std::vector<HoldingLinks> holding;
+  holding.reserve(links_.size());
+  for (const std::vector<Link>& links : links_) holding.emplace_back(links);
   std::size_t left =
       request_.counts_reads ? std::numeric_limits<std::size_t>::max() : pairs_heard(places);
   std::vector<Time> sends_until(request_.ports.size(), Time::min());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/layout/layout_scenario.h"
@@ -155,6 +156,7 @@ TEST(AntennaPlan, AimsAtPlaces) {
   EXPECT_TRUE(plan.reaches_aim);
   ASSERT_EQ(layout.errors_m.size(), plan.places.size());
   for (const double error_m : layout.errors_m) EXPECT_LT(error_m, 0.03);
+  for (const double error_m : plan.layouts[1].errors_m) EXPECT_TRUE(std::isinf(error_m));
   const PlanCheck check = check_plan(all.to_plan, layout, 1, 5, {});
   EXPECT_EQ(check.read, std::vector<double>(5, 9.0));
   // What no antenna can tell is not claimed.
