@@ -229,7 +229,7 @@ class Api::Impl {
   };
   static const std::vector<Route>& all_routes();
 
-  static Json status_json(const LiveWorld& world) {
+  [[nodiscard]] Json status_json(const LiveWorld& world) const {
     return {{"name", world.scenario().name},
             {"mode", "live"},
             {"time", to_seconds(world.now())},
@@ -239,9 +239,10 @@ class Api::Impl {
             {"tags", world.tags().size()},
             {"antennas", world.antennas().size()},
             {"readers", world.readers()},
-            {"duration", nullptr}};
+            {"duration", nullptr},
+            {"plan", !plan.empty()}};
   }
-  static ApiAnswer done(const LiveWorld& world) {
+  [[nodiscard]] ApiAnswer done(const LiveWorld& world) const {
     return ApiResponse{200, json_text(status_json(world))};
   }
   static std::string name_in(const Call& call) { return call.target.parts[2]; }
@@ -258,6 +259,10 @@ class Api::Impl {
   ApiAnswer located(Call& /*call*/) {
     if (!estimates) throw Error("tags are not located here; 'tagfield serve --locate' does");
     return ApiResponse{200, json_text(estimates_json(*estimates))};
+  }
+  ApiAnswer planned(Call& /*call*/) {
+    if (plan.empty()) throw Error("there is no plan here; 'tagfield serve --plan DIR' shows one");
+    return ApiResponse{200, plan};
   }
   ApiAnswer explain(Call& call) {
     return ApiResponse{200, json_text(to_json(call.world.explain(word_in(call.target, "antenna"),
@@ -373,6 +378,7 @@ class Api::Impl {
   Json paths;
   std::uint64_t seed;
   std::shared_ptr<const LiveEstimates> estimates;
+  std::string plan;  ///< JSON; "" for none.
 };
 
 const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
@@ -382,6 +388,7 @@ const std::vector<Api::Impl::Route>& Api::Impl::all_routes() {
       {"GET", "/api/antennas", &Impl::antennas},
       {"GET", "/api/tags", &Impl::tags},
       {"GET", "/api/estimates", &Impl::located},
+      {"GET", "/api/plan", &Impl::planned},
       {"GET", "/api/explain", &Impl::explain},
       {"GET", "/api/coverage", &Impl::coverage},
       {"POST", "/api/pause", &Impl::pause},
@@ -412,6 +419,8 @@ Api& Api::operator=(Api&&) noexcept = default;
 void Api::add(std::shared_ptr<const LiveEstimates> estimates) {
   impl_->estimates = std::move(estimates);
 }
+
+void Api::add_plan(std::string json) { impl_->plan = std::move(json); }
 
 std::vector<std::string> Api::routes() {
   std::vector<std::string> all;

@@ -44,6 +44,8 @@ class Api {
 
   /// Where tags are, as far as reads say; before it answers.
   void add(std::shared_ptr<const LiveEstimates> estimates);
+  /// Where antennas were planned (plan_layer_to_json()); before it answers.
+  void add_plan(std::string json);
 
   /// For the thread that runs `world`. Never throws: what is wrong is a response of its own, 4xx
   /// with {"error": "one line"}. `stop` ends what is being worked out.

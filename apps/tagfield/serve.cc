@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/live/live_estimates.h"
 #include "tagfield/planning/moment.h"
+#include "tagfield/report/plan_layer.h"
 
 namespace tagfield {
 namespace {
@@ -32,6 +34,7 @@ struct ServeArguments {
   bool locates = false;
   std::string method;  ///< As the scenario says where empty.
   double window_s = 120.0;
+  std::string plan;  ///< Folder; "" for the scenario's, if it is the layout of a plan.
   std::string listen = "127.0.0.1";
   std::string token;
   std::string speed = "1";
@@ -127,6 +130,20 @@ void end_estimates(LiveEstimates* estimates) {
   std::_Exit(kExitOk);
 }
 
+/// The plan to show, as JSON; "" for none.
+std::string plan_of(const ServeArguments& arguments, Diagnostics& diagnostics) {
+  if (!arguments.plan.empty()) return plan_layer_to_json(arguments.plan);
+  const std::filesystem::path scenario(arguments.of_scenario.scenario);
+  const std::string folder = (scenario.has_parent_path() ? scenario.parent_path() : ".").string();
+  if (scenario.filename() != "layout.yaml" || !is_plan_folder(folder)) return "";
+  try {
+    return plan_layer_to_json(folder);
+  } catch (const Error& error) {
+    diagnostics.warn(fmt::format("the plan beside the layout is not shown: {}", error.what()));
+    return "";
+  }
+}
+
 void print_addresses(const llrp::LlrpServer& server) {
   for (const llrp::LlrpAddress& reader : server.addresses()) {
     fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
@@ -145,6 +162,7 @@ int serve(ServeArguments arguments) {
   const ScenarioWithWorld loaded = load(arguments.of_scenario, diagnostics);
   const Scenario scenario = as_planned(loaded.scenario, diagnostics);
   const std::uint64_t seed = arguments.of_scenario.seed.value_or(scenario.seed);
+  std::string plan = plan_of(arguments, diagnostics);
   print_warnings(diagnostics);
   require_token(arguments);
 
@@ -169,6 +187,7 @@ int serve(ServeArguments arguments) {
     api.add(estimates);
     feed->add(estimates);
   }
+  api.add_plan(std::move(plan));
   if (arguments.http) {
     feed->add(std::make_unique<http::LaserView>(loaded.scene, scenario, seed));
   }
@@ -219,6 +238,9 @@ void add_serve_command(CLI::App& app, Action& chosen) {
                    "For how long a read counts for that [s] (default 120)")
       ->check(CLI::Range(0.1, 1e6))
       ->needs("--locate");
+  command->add_option("--plan", arguments->plan,
+                      "Folder of a plan: the page shows its places and antennas, with a slider "
+                      "(default: that of the scenario, if it is a plan's layout.yaml)");
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "
                       "machine alone)");

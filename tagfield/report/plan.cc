@@ -159,6 +159,7 @@ std::string plan_to_json(const AntennaPlan& plan) {
   json["aim_read_probability"] = aim(Kind::kReadProbability);
   json["aim_dwell_reads"] = aim(Kind::kReads);
   json["aim_position_error_m"] = aim(Kind::kPosition);
+  json["counts"] = words_for(plan.aim);
   json["aim_share"] = plan.aim.share ? PlanJson(*plan.aim.share) : PlanJson(nullptr);
   json["reaches_aim"] = plan.reaches_aim;
   json["cross_limit"] = plan.cross_limit ? PlanJson(*plan.cross_limit) : PlanJson(nullptr);

@@ -20,7 +20,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
 from common import (Skip, case, check, check_between, check_equal, check_in,  # noqa: E402
-                    check_near, main, read_csv, run)
+                    check_near, main, read_csv, read_json, run)
 from served import served  # noqa: E402
 
 try:
@@ -100,6 +100,7 @@ def all_that_openapi_describes_is_so(context):
         for path in ("status", "scene", "antennas", "tags", "explain", "coverage"):
             ask("GET", f"/api/{path}")
         ask("GET", "/api/estimates", expected=400)  # without --locate
+        ask("GET", "/api/plan", expected=400)  # without a plan
         ask("POST", "/api/speed", {"speed": 2})
         ask("POST", "/api/pause")
         ask("POST", "/api/step", {"seconds": 0.25})
@@ -245,6 +246,31 @@ def tags_are_located_while_reads_come_in(context):
         check_equal(set(rows), set(truth), "tags with an estimate in the frame")
         for one in answer["estimates"]:
             check_near(rows[one["id"]][0], one["candidates"][0]["position"][0], 0.05, "x of an estimate")
+
+
+@case
+def a_plan_is_shown_beside_its_layout(context):
+    out = context.folder / "plan"
+    context.run_well("plan", context.shipped("plan/room"), "--samples", "8", "--out", out)
+    written = read_json(out / "plan.json")
+    with served(context, out / "layout.yaml", "--allow-outside") as server:
+        contract = Contract(server)
+        check(server.get("/api/status")["plan"], "the status has no plan")
+        plan = server.get("/api/plan")
+        contract.check("GET", "/api/plan", 200, plan)
+        check_equal(len(plan["layouts"][plan["chosen"]]["antennas"]), written["chosen_antennas"], "antennas")
+        rows = read_csv(out / "plan_places.csv")
+        check_equal(len(plan["places"]), len(rows), "places")
+        check_equal(plan["percent"][2], [round(100 * float(row["p_3"])) for row in rows], "percent with three antennas")
+    # Of another scenario it is there when it is asked for, and what is no plan is said at once.
+    with served(context, context.shipped(PORTAL), "--plan", out) as server:
+        check_equal(server.get("/api/plan")["scenario"], "room", "scenario of the plan")
+    result = context.run("serve", context.shipped(PORTAL), "--http", "0", "--plan", context.folder)
+    check_equal((result.code, result.err.count("\n")), (2, 1), "code and lines without a plan")
+    check_in("plan.json", result.err, "stderr without a plan")
+    (out / "plan.json").write_text("{}", encoding="utf-8")
+    with served(context, out / "layout.yaml", "--allow-outside") as server:
+        check(not server.get("/api/status")["plan"], "a plan that is not whole is shown")
 
 
 def turned(q, v):

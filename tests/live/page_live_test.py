@@ -573,6 +573,43 @@ def bodies_walk_and_come_and_go(context):
 
 
 @case
+def real_plan_is_drawn_in_place_of_the_tags(context):
+    shared = shared_of(context)
+    out = context.folder / "plan"
+    context.run_well("plan", context.shipped("plan/store"), "--samples", "8", "--out", out)
+    one = shared.chromium
+    one.screen()
+    with served(context, out / "layout.yaml", "--allow-outside") as server:
+        plan = server.get("/api/plan")
+        one.open(server.addresses["http"])
+        one.wait("world.tags.length === 600 && at.lists.querySelector('[data-tab=plan]')", "there is a plan")
+        server.post("/api/pause")
+        one.wait("world.paused", "it stands still")
+        one.do("view.lists.show('plan'); view.look('top')")
+        last = len(plan["layouts"]) - 1
+        worst = min(range(len(plan["places"])), key=lambda i: plan["percent"][0][i])
+        seen = []
+        for layout in (0, last):
+            one.do("const count = at.lists.querySelector('#plan-layout'); count.value = String(arguments[0]); "
+                   "count.dispatchEvent(new Event('input'))", layout)
+            check_in(f"{layout + 1} antenna", one.text("lists"), "what is said of the layout")
+            one.still()
+            px, py = one.project(plan["places"][worst])
+            seen.append(mean_color(one.pixels(px - 1, py - 1, 3, 3)))
+        # A place that one antenna hardly reads, grey, and all of them do, yellow.
+        check(max(seen[0]) - min(seen[0]) < 60, f"with one antenna it is {seen[0]}")
+        check(seen[1][0] - seen[1][2] > 90, f"with {last + 1} antennas it is {seen[1]}")
+        check(not one.ask("view.drawing.tags.meshes[0].visible"), "tags are drawn over it")
+        one.do("at.lists.querySelector('#plan-tags').click()")
+        check(one.ask("view.drawing.tags.meshes[0].visible"), "tags were asked for, too")
+        one.do("view.lists.show('tags')")
+        check(not one.ask("view.drawing.plan.cubes.visible"), "the plan stays when its tab is left")
+        keep_screenshot(one, "plan")
+        complaints = one.complaints()
+        check(not complaints, f"console: {complaints[:3]}")
+
+
+@case
 def real_server_is_shown(context):
     shared = shared_of(context)
     if context.run("serve", "--help").code != 0:

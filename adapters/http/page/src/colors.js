@@ -70,3 +70,10 @@ export function marginColor(margin) {
     if (margin >= MARGINS[i][0]) return MARGINS[i][1];
   return MARGINS[0][1];
 }
+
+// Which of the bands between rising edges a value is in.
+export function bandOf(edges, value) {
+  let band = 0;
+  while (band < edges.length && value >= edges[band]) ++band;
+  return band;
+}

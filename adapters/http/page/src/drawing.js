@@ -9,6 +9,7 @@ import {Estimates} from "./layers/estimates.js";
 import {Flashes} from "./layers/flashes.js";
 import {Ground} from "./layers/ground.js";
 import {Link} from "./layers/link.js";
+import {PlanLayer} from "./layers/plan.js";
 import {Robots} from "./layers/robots.js";
 import {Solids} from "./layers/solids.js";
 import {Tags} from "./layers/tags.js";
@@ -29,6 +30,7 @@ export class Drawing {
     this.estimates = new Estimates(this.stage, world);
     this.link = new Link(this.stage);
     this.coverage = new Coverage(this.stage);
+    this.plan = new PlanLayer(this.stage);
     this.picking = new Picking(this.stage, world, this.solids);
     this.stage.layers.push(this.solids, this.tags, this.flashes);
     this.filled = new Box3();  // What stands in the world, without the floor round it.
@@ -37,7 +39,7 @@ export class Drawing {
 
   setTheme(colors) {
     this.stage.setBackground(colors.background);
-    for (const layer of [this.solids, this.ground, this.tags, this.estimates, this.link])
+    for (const layer of [this.solids, this.ground, this.tags, this.estimates, this.link, this.plan])
       layer.setTheme(colors);
     this.world.touch("theme");
   }
@@ -47,6 +49,13 @@ export class Drawing {
     if (changed.has("time")) this.solids.place();
     for (const layer of [this.tags, this.antennas, this.robots, this.estimates])
       layer.update(changed);
+  }
+
+  // A layout of a plan in place of the tags, or beside them; with null the tags alone.
+  showPlan(plan, layout, withTags) {
+    this.plan.show(plan, layout);
+    for (const layer of [this.tags, this.flashes]) layer.setVisible(layout === null || withTags);
+    this.stage.invalidate();
   }
 
   // Forgets cells beyond what stands in the world.

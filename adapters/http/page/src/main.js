@@ -14,6 +14,7 @@ import {Detail} from "./ui/detail.js";
 import {buildFrame} from "./ui/frame.js";
 import {Legend} from "./ui/legend.js";
 import {Lists} from "./ui/lists.js";
+import {PlanPanel} from "./ui/plan.js";
 import {TimeBar} from "./ui/time.js";
 import {World} from "./world.js";
 
@@ -258,7 +259,15 @@ class View {
     this.world.touch("time");
   }
 
-  showLive() {
+  // Where antennas were planned, as a tab and a layer of its own.
+  showPlan(plan) {
+    const panel = new PlanPanel(
+      plan, (layout, withTags) => this.drawing?.showPlan(plan, layout, withTags));
+    this.lists.addTab("plan", "Plan", panel.element, (isOpen) => panel.setOpen(isOpen));
+  }
+
+  showLive(status) {
+    if (status.plan) get("plan").then((plan) => this.showPlan(plan), () => {});
     const live = new Live(this.world, (state, word) => this.say(state, word));
     const command = (method, path, body) => live.send(method, path, body);
     this.changes = new Changes(this.world, command, (word) => this.pickPlace(word));
@@ -279,10 +288,11 @@ class View {
     }
     this.say("connecting", "connecting …");
     try {
-      if ((await get("status")).mode === "recorded")
+      const status = await get("status");
+      if (status.mode === "recorded")
         this.showRecording(await get("run"));
       else
-        this.showLive();
+        this.showLive(status);
     } catch {
       this.say("away", "The server does not answer; trying again");
       setTimeout(() => this.start(), AGAIN_MS);

@@ -32,6 +32,7 @@ export class Flashes {
     this.world = world;
     this.next = 0;
     this.until = 0;
+    this.shown = true;
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
     const make = (size) =>
       new BufferAttribute(new Float32Array(2 * LINES * size), size).setUsage(DynamicDrawUsage);
@@ -56,6 +57,10 @@ export class Flashes {
     stage.scene.add(this.lines);
   }
 
+  setVisible(visible) {
+    this.shown = visible;
+  }
+
   #color(k) {
     this.rgb[k] ??= new Color().setStyle(antennaColor(k), "").toArray();
     return this.rgb[k];
@@ -73,7 +78,7 @@ export class Flashes {
     }
     newReads.length = 0;
     this.uniforms.uNow.value = now;
-    this.lines.visible = now < this.until;
+    this.lines.visible = this.shown && now < this.until;
     return this.lines.visible;
   }
 

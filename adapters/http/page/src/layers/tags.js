@@ -110,6 +110,10 @@ export class Tags {
     this.uniforms.uInk.value.setStyle(ink, "");
   }
 
+  setVisible(visible) {
+    for (const mesh of this.meshes) mesh.visible = visible;
+  }
+
   #allot(n) {
     if (n <= this.capacity) return;
     this.capacity = Math.max(64, 2 * n);

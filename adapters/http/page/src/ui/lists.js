@@ -26,6 +26,7 @@ export class Lists {
     this.list = h("ul", {class: "list"});
     this.tabs = h("div", {class: "tabs", role: "tablist", "aria-label": "Lists"});
     this.listing = [h("div", {class: "search"}, this.search, this.sort), this.count, this.list];
+    this.onshown = new Map();
     this.panels = new Map([["tags", this.listing], ["antennas", this.listing]]);
     at.lists.append(this.tabs, ...this.listing);
     this.host = at.lists;
@@ -41,8 +42,10 @@ export class Lists {
     this.#mark();
   }
 
-  addTab(name, text, element) {
+  // onshown(whether): called when the tab is taken and left.
+  addTab(name, text, element, onshown = () => {}) {
     this.panels.set(name, [element]);
+    this.onshown.set(name, onshown);
     element.hidden = true;
     this.host.append(element);
     this.#tab(name, text);
@@ -68,6 +71,10 @@ export class Lists {
   }
 
   show(name) {
+    if (name !== this.shown) {
+      this.onshown.get(this.shown)?.(false);
+      this.onshown.get(name)?.(true);
+    }
     this.shown = name;
     for (const elements of this.panels.values())
       for (const element of elements) element.hidden = true;

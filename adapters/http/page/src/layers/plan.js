@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plan of antennas: cubes where tags can be, coloured by how many have there what is aimed at, and
+// frames where its antennas would hang, with a line to where they look.
+
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, InstancedMesh, LineBasicMaterial,
+  LineSegments, Matrix4, MeshBasicMaterial, Vector3
+} from "three";
+
+import {bandOf} from "../colors.js";
+
+const CUBE_M = 0.14;
+const PLATE_M = 0.16;  // Half of a side.
+const LOOK_M = 0.9;
+const NEVER = "#8a949e";
+
+// A square across the line of sight, and a line along it.
+function pushAntenna(points, {position, boresight}) {
+  const at = new Vector3(...position);
+  const along = new Vector3(...boresight).normalize();
+  const up = Math.abs(along.z) > 0.95 ? new Vector3(1, 0, 0) : new Vector3(0, 0, 1);
+  const right = new Vector3().crossVectors(along, up).normalize().multiplyScalar(PLATE_M);
+  const top = new Vector3().crossVectors(right, along).normalize().multiplyScalar(PLATE_M);
+  const corner = (i, j) => at.clone().addScaledVector(right, i).addScaledVector(top, j);
+  const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+  const line = (from, to) => points.push(...from.toArray(), ...to.toArray());
+  corners.forEach((one, i) => line(one, corners[(i + 1) % 4]));
+  line(at, at.clone().addScaledVector(along, LOOK_M));
+}
+
+export class PlanLayer {
+  constructor(stage) {
+    this.stage = stage;
+    this.lines = new LineSegments(
+      new BufferGeometry(), new LineBasicMaterial({depthTest: false, transparent: true}));
+    this.lines.frustumCulled = false;
+    this.lines.renderOrder = 24;
+    this.lines.visible = false;
+    stage.scene.add(this.lines);
+  }
+
+  setTheme({ink}) {
+    this.lines.material.color.set(ink);
+  }
+
+  // The layout of that number, or nothing where that is null.
+  show(plan, layout) {
+    if (this.plan !== plan) this.#place(plan);
+    const visible = layout !== null;
+    this.cubes.visible = this.lines.visible = visible;
+    if (visible) {
+      const colors = plan.colors.map((one) => new Color(one || NEVER));
+      plan.percent[layout].forEach(
+        (percent, i) => this.cubes.setColorAt(i, colors[bandOf(plan.edges, percent / 100)]));
+      if (this.cubes.instanceColor) this.cubes.instanceColor.needsUpdate = true;
+      const points = [];
+      for (const antenna of plan.layouts[layout].antennas) pushAntenna(points, antenna);
+      this.lines.geometry.dispose();
+      this.lines.geometry = new BufferGeometry().setAttribute(
+        "position", new BufferAttribute(new Float32Array(points), 3));
+    }
+    this.stage.invalidate();
+  }
+
+  #place(plan) {
+    this.plan = plan;
+    this.cubes?.removeFromParent();
+    this.cubes?.dispose();
+    this.cubes = new InstancedMesh(
+      new BoxGeometry(CUBE_M, CUBE_M, CUBE_M),
+      new MeshBasicMaterial({transparent: true, opacity: 0.95}), plan.places.length);
+    this.cubes.frustumCulled = false;
+    plan.places.forEach(
+      (place, i) => this.cubes.setMatrixAt(i, new Matrix4().makeTranslation(...place)));
+    this.stage.scene.add(this.cubes);
+  }
+}
