@@ -15,6 +15,7 @@
 #include "apps/tagfield/localize_known.h"
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/odd_tables.h"
+#include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
@@ -253,6 +254,15 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
 
 }  // namespace
 
+LocalizationResult located_with_progress(const RecordingToLocalize& recording,
+                                         LocalizationOptions options, Diagnostics& diagnostics) {
+  StageBars bars;
+  options.on_locating = [&bars](const std::string& what, double share) {
+    bars.show("locating " + what, share);
+  };
+  return locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+}
+
 int localize(const LocalizeArguments& arguments) {
   refuse_unknown_method(arguments.method);
   Diagnostics diagnostics;
@@ -279,8 +289,7 @@ int localize(const LocalizeArguments& arguments) {
   const std::string out = folder_of(arguments);
   try_folder(out);
   const std::vector<std::string> order = order_of(loaded);
-  LocalizationResult result =
-      locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+  LocalizationResult result = located_with_progress(recording, options, diagnostics);
   result.estimates = with_all_tags(std::move(result.estimates), recording.truth, order);
   Summary summary = summary_of(arguments, recording, loaded, options, result);
   summary.compared_pose = compared(

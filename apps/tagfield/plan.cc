@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "apps/tagfield/command_line.h"
@@ -46,24 +45,6 @@ struct PlanArguments {
   bool as_json = false;
   WorldOptions world{};
   std::string out;
-};
-
-/// A bar a stage.
-class StageBars {
- public:
-  void show(const std::string& stage, double share) {
-    const std::lock_guard lock(mutex_);
-    if (stage != stage_) {
-      bar_.emplace(stage);
-      stage_ = stage;
-    }
-    bar_->show(share);
-  }
-
- private:
-  std::mutex mutex_;
-  std::string stage_;
-  std::optional<ProgressBar> bar_;
 };
 
 AntennaPlan with_progress(const ScenarioToPlan& to_plan, PlanQuestion question,

@@ -29,10 +29,23 @@ ProgressBar::~ProgressBar() {
   if (on_terminal_ && !shown_.empty()) fmt::print(stderr, "\r\033[K");
 }
 
+/// A line of a log: "tagfield: simulating: 40 %, 30 s left".
+void ProgressBar::say(double share, double so_far_s) {
+  constexpr double kLong_s = 20.0;
+  const int tenths = static_cast<int>(10.0 * share);
+  const std::lock_guard lock(mutex_);
+  if (so_far_s < kLong_s || tenths <= tenths_ || tenths >= 10) return;
+  tenths_ = tenths;
+  fmt::print(stderr, "tagfield: {}: {} %{}\n", label_, 10 * tenths, time_left(so_far_s, share));
+}
+
 void ProgressBar::show(double share) {
-  if (!on_terminal_) return;
   share = std::clamp(share, 0.0, 1.0);
   const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - begin_;
+  if (!on_terminal_) {
+    say(share, so_far.count());
+    return;
+  }
   const int percent = static_cast<int>(100.0 * share);
   constexpr int kWidth = 40;
   const int full = percent * kWidth / 100;
@@ -43,6 +56,15 @@ void ProgressBar::show(double share) {
   shown_ = text;
   fmt::print(stderr, "\r{}\033[K", text);
   std::fflush(stderr);
+}
+
+void StageBars::show(const std::string& stage, double share) {
+  const std::lock_guard lock(mutex_);
+  if (stage != stage_) {
+    bar_.emplace(stage);
+    stage_ = stage;
+  }
+  bar_->show(share);
 }
 
 }  // namespace tagfield

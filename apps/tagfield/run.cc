@@ -114,12 +114,17 @@ std::vector<SeedRun> run_with_progress(const RunArguments& arguments,
   RunControl control;
   const RunOutlets outlets = attach_outlets(arguments.outlets, loaded, control);
   if (outlets.driving) control.remote = &*outlets.driving;
-  ProgressBar bar(arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating");
+  StageBars bars;
+  const std::string first =
+      arguments.seeds > 1 ? fmt::format("{} seeds", arguments.seeds) : "simulating";
   control.keeps_recording = !arguments.record_only;
   attach(std::make_shared<CsvOutlet>(folder), control.outlets);
   control.threads = arguments.threads;
   control.stop = &interrupted();
-  control.on_progress = [&bar](double share) { bar.show(share); };
+  control.on_progress = [&](double share) { bars.show(first, share); };
+  control.on_stage = [&bars](const std::string& what, double share) {
+    bars.show("locating " + what, share);
+  };
   const std::uint64_t seed = arguments.seed.value_or(scenario.seed);
   std::vector<SeedRun> runs =
       arguments.record_only

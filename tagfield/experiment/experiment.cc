@@ -235,7 +235,8 @@ SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl&
   return run;
 }
 
-void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics) {
+void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics,
+              const OnLocating& on_locating) {
   const std::string why_not = why_inventory_alone(scenario);
   if (!why_not.empty() || all_antennas_rest(scenario)) {
     run.inventory = inventory_of(scenario, run.recording.reads, run.simulated_s);
@@ -245,6 +246,7 @@ void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& 
     return;
   }
   LocalizationOptions options = localization_options(scenario, threads);
+  options.on_locating = on_locating;
   options.known.map_error = map_error_of(scenario, run);
   const Recording& recording = run.recording;
   LocalizationResult result =
@@ -275,6 +277,7 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
   RunControl of_one = control;
   if (count > 1) {
     of_one.on_progress = nullptr;
+    of_one.on_stage = nullptr;
     of_one.threads = 1;
   }
   const int threads_inside = count > 1 ? 1 : control.threads;
@@ -285,11 +288,13 @@ std::vector<SeedRun> run_seeds(const Scenario& scenario, std::uint64_t first, st
       runs[i] = another_seed(scenario, first + i, of_one, world, store, warnings[i]);
     } else {
       runs[i] = simulate(scenario, first, of_one, world);
-      localize(scenario, runs[i], threads_inside, warnings[i]);
+      localize(scenario, runs[i], threads_inside, warnings[i], of_one.on_stage);
     }
     const std::lock_guard lock(progress_mutex);
     finished += 1.0;
-    if (control.on_progress) control.on_progress(finished / static_cast<double>(count));
+    if (control.on_progress && count > 1) {
+      control.on_progress(finished / static_cast<double>(count));
+    }
   });
   std::vector<SeedRun> kept;
   for (std::size_t i = 0; i < count; ++i) {

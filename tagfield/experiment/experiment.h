@@ -54,7 +54,8 @@ std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& ru
 
 /// Locates the tags from the run's reads and believed poses, unless nothing can be or shall be
 /// located (why_inventory_alone()), and fills in all that comes of it.
-void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics);
+void localize(const Scenario& scenario, SeedRun& run, int threads, Diagnostics& diagnostics,
+              const OnLocating& on_locating = {});
 
 class RunStore;  // of store/run_store.h
 

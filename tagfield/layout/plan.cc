@@ -164,9 +164,11 @@ std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matr
 
 PlannedAim planned_aim(const PlanAim& aim) {
   using Kind = PlannedAim::Kind;
-  if (aim.dwell_reads) return {Kind::kReads, *aim.dwell_reads, aim.share};
-  if (aim.position_error_m) return {Kind::kPosition, *aim.position_error_m, aim.share};
-  return {Kind::kReadProbability, aim.read_probability, aim.share};
+  PlannedAim planned{Kind::kReadProbability, aim.read_probability, aim.share};
+  if (aim.dwell_reads) planned = {Kind::kReads, *aim.dwell_reads, aim.share};
+  if (aim.position_error_m) planned = {Kind::kPosition, *aim.position_error_m, aim.share};
+  planned.is_for_least_cost = aim.least == PlanAim::Least::kCost;
+  return planned;
 }
 
 }  // namespace
@@ -241,11 +243,12 @@ class Planner {
     plan.cross_limit = to_plan_.plan.limits.cross;
     plan.guaranteed = guaranteed_share(selection);
     for (const PlanTags& tags : to_plan_.plan.tags) {
-      plan.tags += tags.count;
+      tags_ += tags.count;
       for (const Eigen::Vector3d& p : tags.places) {
         plan.places.push_back({tags.name, tags.zone, middle_of(tags) + p});
       }
     }
+    plan.tags = tags_;
     add_layouts(plan);
     choose(plan);
     add_hard(plan);
@@ -274,12 +277,13 @@ class Planner {
     for (std::size_t count = 1; count <= most; ++count) {
       const OptionSet choice = layout_of(problem_, orders, count);
       if (!choices_.empty() && choice.size() <= choices_.back().size()) continue;
-      add_layout(choice, plan);
+      choices_.push_back(choice);
+      plan.layouts.push_back(layout_with(choice));
       told(0.7 * static_cast<double>(count) / static_cast<double>(most));
     }
   }
 
-  void add_layout(const OptionSet& choice, AntennaPlan& plan) {
+  [[nodiscard]] PlannedLayout layout_with(const OptionSet& choice) const {
     PlannedLayout layout;
     SelectionProblem of_count = problem_.selection;
     of_count.limits.antennas = choice.size();
@@ -291,13 +295,12 @@ class Planner {
     forecast_.fill(choice, layout);
     layout.share = of_count.worth == Worth::kProbability
                        ? layout.score
-                       : layout.read.mean / static_cast<double>(plan.tags);
+                       : layout.read.mean / static_cast<double>(tags_);
     layout.places = met_by_place(to_plan_.plan, matrix_, problem_, choice);
     if (of_count.worth == Worth::kPlace) {
       layout.errors_m = errors_by_place(to_plan_.plan, matrix_, problem_, choice);
     }
-    choices_.push_back(choice);
-    plan.layouts.push_back(std::move(layout));
+    return layout;
   }
 
   /// The smallest that is enough, or the best. More antennas can be worse, as ports of a reader
@@ -316,26 +319,63 @@ class Planner {
       plan.chosen = i;
       break;
     }
+    const bool is_reached = share && plan.layouts[plan.chosen].share >= *share;
+    if (is_reached && to_plan_.plan.aim.least == PlanAim::Least::kCost) choose_cheapest(plan);
     if (request_.exact_s > 0.0) solve_exactly(plan);
     plan.reaches_aim = !share || plan.layouts[plan.chosen].share >= *share;
     SelectionProblem of_all = problem_.selection;
     plan.stopped_by = holding_limit(of_all, choices_[plan.chosen]);
   }
 
+  /// The cheapest that is found to be enough: of the layouts, and from there on with less and less
+  /// to spend, as long as that is enough.
+  void choose_cheapest(AntennaPlan& plan) {
+    const double share = *to_plan_.plan.aim.share;
+    for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+      const PlannedLayout& layout = plan.layouts[i];
+      if (layout.share >= share && layout.cost < plan.layouts[plan.chosen].cost) plan.chosen = i;
+    }
+    constexpr int kMostSteps = 200;
+    constexpr double kLess = 1e-6;
+    for (int step = 0; step < kMostSteps; ++step) {
+      PlanProblem cheaper = problem_;
+      cheaper.selection.limits.cost = plan.layouts[plan.chosen].cost * (1.0 - kLess);
+      const std::vector<std::vector<std::size_t>> orders = {greedy_order(cheaper.selection),
+                                                            greedy_order(cheaper.selection, true)};
+      const OptionSet choice = layout_of(cheaper, orders, cheaper.selection.limits.antennas);
+      if (choice.empty()) return;
+      const PlannedLayout layout = layout_with(choice);
+      if (layout.share < share || layout.cost >= plan.layouts[plan.chosen].cost) return;
+      take(choice, layout, plan);
+      told(0.7);
+    }
+  }
+
+  /// Chooses a layout in the place of the one of as many antennas, or among the others.
+  void take(const OptionSet& choice, const PlannedLayout& layout, AntennaPlan& plan) {
+    const auto after = std::find_if(choices_.begin(), choices_.end(), [&](const OptionSet& other) {
+      return other.size() >= choice.size();
+    });
+    plan.chosen = static_cast<std::size_t>(after - choices_.begin());
+    const auto at = plan.layouts.begin() + (after - choices_.begin());
+    if (after != choices_.end() && after->size() == choice.size()) {
+      *after = choice;
+      *at = layout;
+      return;
+    }
+    choices_.insert(after, choice);
+    plan.layouts.insert(at, layout);
+  }
+
   void solve_exactly(AntennaPlan& plan) {
     SelectionProblem of_count = problem_.selection;
     of_count.limits.antennas = choices_[plan.chosen].size();
+    if (to_plan_.plan.aim.least == PlanAim::Least::kCost) {
+      of_count.limits.cost = plan.layouts[plan.chosen].cost;
+    }
     const ExactChoice exact = best_exactly(of_count, choices_[plan.chosen], request_.exact_s);
     const double bound = std::min(exact.bound, plan.layouts[plan.chosen].bound);
-    if (exact.choice != choices_[plan.chosen]) {
-      AntennaPlan scratch;
-      std::vector<OptionSet> before = std::move(choices_);
-      choices_.clear();
-      add_layout(exact.choice, scratch);
-      before[plan.chosen] = exact.choice;
-      choices_ = std::move(before);
-      plan.layouts[plan.chosen] = std::move(scratch.layouts.front());
-    }
+    if (exact.choice != choices_[plan.chosen]) take(exact.choice, layout_with(exact.choice), plan);
     plan.layouts[plan.chosen].bound = std::max(bound, plan.layouts[plan.chosen].score);
     plan.layouts[plan.chosen].is_exact = true;
   }
@@ -399,6 +439,7 @@ class Planner {
   PlanProblem problem_;
   LayoutForecast forecast_;
   std::vector<OptionSet> choices_;  ///< Of the layouts.
+  std::size_t tags_ = 0;
 };
 
 }  // namespace

@@ -144,7 +144,8 @@ LocalizationResult locate_tags(const std::vector<TagRead>& reads,
                                const std::vector<AntennaPose>& poses,
                                const LocalizationOptions& options, Diagnostics& diagnostics) {
   const Method method = configured(find_method(options.methods, options.method), options.settings);
-  const LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
+  LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
+  problem.on_locating = options.on_locating;
   return locate_problem(method, problem, options.threads, diagnostics);
 }
 

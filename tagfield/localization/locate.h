@@ -28,6 +28,7 @@ struct LocalizationOptions {
   KnownBeforehand known;
   int threads = 1;
   std::vector<Method> methods = built_in_methods();  ///< To which one's own can be added.
+  OnLocating on_locating{};                          ///< Or null.
 };
 
 /// Runs a method and holds what it says against the phases once more: places that chance explains

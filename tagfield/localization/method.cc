@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/spelling.h"
@@ -74,6 +75,10 @@ TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_
   return estimate;
 }
 
+void tell(const LocalizationProblem& problem, const std::string& what, double share) {
+  if (problem.on_locating) problem.on_locating(what, share);
+}
+
 std::vector<TagEstimate> locate_each(
     const LocalizationProblem& problem, int threads,
     const std::function<TagEstimate(const std::string& tag, const SamplesOfTag& samples)>& locate) {
@@ -81,11 +86,13 @@ std::vector<TagEstimate> locate_each(
   tags.reserve(problem.samples.size());
   for (const auto& entry : problem.samples) tags.push_back(&entry);
   std::vector<TagEstimate> estimates(tags.size());
+  std::atomic<std::size_t> done{0};
   parallel_for(tags.size(), threads, [&](std::size_t i) {
     const auto& [tag, samples] = *tags[i];
     const auto known = problem.reference_tags.find(tag);
     estimates[i] = known == problem.reference_tags.end() ? locate(tag, samples)
                                                          : reference_estimate(tag, known->second);
+    tell(problem, "tags", static_cast<double>(++done) / static_cast<double>(tags.size()));
   });
   return estimates;
 }

@@ -61,6 +61,9 @@ Method find_method(const std::vector<Method>& methods, const std::string& name);
 /// Estimate of a reference tag: the place that was given.
 TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_WT);
 
+/// Tells the problem's on_locating, if it has one.
+void tell(const LocalizationProblem& problem, const std::string& what, double share);
+
 /// Runs `locate` on each tag that is not a reference tag, in parallel; reference tags get their
 /// known place. For methods that take one tag at a time.
 std::vector<TagEstimate> locate_each(

@@ -175,6 +175,9 @@ using TraceReplies =
     std::function<TracedReplies(const std::string& tag, const Eigen::Vector3d& p_WT,
                                 const std::map<std::string, TracedFrom>& antennas)>;
 
+/// Called now and then, from any thread, with what is being done and how much of that is, 0 to 1.
+using OnLocating = std::function<void(const std::string& what, double share)>;
+
 /// All that the methods share. Phases in `samples` have the known offsets taken out.
 struct LocalizationProblem {
   SamplesByTag samples;                         ///< In order; see join_reads_with_poses().
@@ -193,6 +196,7 @@ struct LocalizationProblem {
   EstimateLimits limits;
   TraceReplies trace;          ///< Through the world, where that is known; else null.
   double world_sigma_m = 0.0;  ///< How far its surfaces may be from where they are said to be.
+  OnLocating on_locating;      ///< Or null.
 
   /// By which phases and carriers in `samples` were multiplied.
   [[nodiscard]] double multiple() const { return half_turns ? 2.0 : 1.0; }

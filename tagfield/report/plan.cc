@@ -161,6 +161,7 @@ std::string plan_to_json(const AntennaPlan& plan) {
   json["aim_position_error_m"] = aim(Kind::kPosition);
   json["counts"] = words_for(plan.aim);
   json["aim_share"] = plan.aim.share ? PlanJson(*plan.aim.share) : PlanJson(nullptr);
+  json["aim_least"] = plan.aim.is_for_least_cost ? "cost" : "antennas";
   json["reaches_aim"] = plan.reaches_aim;
   json["cross_limit"] = plan.cross_limit ? PlanJson(*plan.cross_limit) : PlanJson(nullptr);
   json["guaranteed_share_of_best"] =

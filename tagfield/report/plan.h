@@ -40,7 +40,8 @@ struct PlannedAim {
   /// Beyond which more is worth nothing: a probability, reads in the time, or a bound on the error
   /// of its place [m].
   double value = 1.0;
-  std::optional<double> share;  ///< Of it that is enough, over all tags.
+  std::optional<double> share{};   ///< Of it that is enough, over all tags,
+  bool is_for_least_cost = false;  ///< for the least cost, instead of antennas.
 };
 
 /// "read", "read at least 5 times", "locatable to within 0.3 m": tags that have what is aimed at.

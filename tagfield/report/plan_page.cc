@@ -501,7 +501,8 @@ std::string aim_text(const AntennaPlan& plan) {
     text = fmt::format("most tags read in {:g} s", plan.dwell_s);
   }
   if (aim.share) {
-    text += fmt::format(", to {:g} %: {}", 100.0 * *aim.share,
+    text += fmt::format(", to {:g} %{}: {}", 100.0 * *aim.share,
+                        aim.is_for_least_cost ? " at the least cost" : "",
                         plan.reaches_aim ? "reached" : "not reached");
   }
   return text;

@@ -61,9 +61,12 @@ struct PlanAim {
   /// nothing.
   std::optional<double> position_error_m;
   /// Of read_probability, the mean over all tags of what they have of it; else the share of tags
-  /// that have it, as forecast, that is enough: the smallest layout that has it is taken. None: the
-  /// best that the limits allow.
+  /// that have it, as forecast, that is enough: the layout that has it with the least is taken.
+  /// None: the best that the limits allow.
   std::optional<double> share;
+  /// Of what there is to be least of where the share is reached.
+  enum class Least { kAntennas, kCost };
+  Least least = Least::kAntennas;
 };
 
 struct PlanSpec {

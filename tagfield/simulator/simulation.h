@@ -32,8 +32,10 @@ struct SelfDriving;
 /// Threads, progress, and an early end.
 struct RunControl {
   int threads = 1;
-  const std::atomic<bool>* stop = nullptr;         ///< Set by others to end early.
-  std::function<void(double share)> on_progress;   ///< Called now and then with 0 … 1, or empty.
+  const std::atomic<bool>* stop = nullptr;        ///< Set by others to end early.
+  std::function<void(double share)> on_progress;  ///< Called now and then with 0 … 1, or empty.
+  /// Likewise by what comes after the simulation, from any thread, with what it is.
+  std::function<void(const std::string& stage, double share)> on_stage;
   Outlets outlets;                                 ///< Told of the first seed's run, as it goes.
   std::shared_ptr<NavigationListener> navigation;  ///< Of that run, too; or null.
   const RemoteDriving* remote = nullptr;           ///< Who drives a robot from outside, if anybody.

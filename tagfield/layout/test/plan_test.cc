@@ -79,6 +79,35 @@ TEST(AntennaPlan, StopsWhereTheAimIsReached) {
   EXPECT_FALSE(planned(small_store("  aim: {share: 1}\n")).plan.reaches_aim);
 }
 
+TEST(AntennaPlan, ChoosesTheCheapestThatIsEnough) {
+  // One good mount that costs more than two poor ones.
+  const std::string text =
+      "name: row\nmodel: link_budget\nduration_s: 2\n"
+      "plan:\n"
+      "  tags:\n"
+      "    - {name: row, box: [0, 0, 1, 4, 0, 1], spacing_m: [0.5, 1, 1]}\n"
+      "  mounts:\n"
+      "    - {name: far, points: [[2, 3, 1]], rpy_deg: [[0, 0, -90]], cost: 500,\n"
+      "       profiles: [speedway_r420, panel_6dbi], powers_dbm: [30]}\n"
+      "    - {name: near, points: [[1, 1, 1], [3, 1, 1]], rpy_deg: [[0, 0, -90]], cost: 100,\n"
+      "       profiles: [speedway_r420, panel_6dbi], powers_dbm: [24]}\n"
+      "  limits: {antennas: 3, readers: 1, ports: 4}\n";
+  const AntennaPlan few = planned(text + "  aim: {share: 0.95}\n").plan;
+  ASSERT_EQ(few.layouts[few.chosen].antennas.size(), 1U);
+  EXPECT_DOUBLE_EQ(few.layouts[few.chosen].cost, 500.0);
+  const AntennaPlan cheap = planned(text + "  aim: {share: 0.95, least: cost}\n").plan;
+  const PlannedLayout& layout = cheap.layouts[cheap.chosen];
+  EXPECT_DOUBLE_EQ(layout.cost, 200.0);
+  EXPECT_EQ(layout.antennas.size(), 2U);
+  EXPECT_TRUE(cheap.reaches_aim);
+  EXPECT_GE(layout.score, 0.95);
+  for (std::size_t i = 0; i + 1 < cheap.layouts.size(); ++i) {
+    EXPECT_LT(cheap.layouts[i].antennas.size(), cheap.layouts[i + 1].antennas.size());
+  }
+  EXPECT_NE(complaint_of(text + "  aim: {least: cost}\n").find("no effect without 'share'"),
+            std::string::npos);
+}
+
 TEST(AntennaPlan, SaysWhichLimitIsAtFault) {
   const auto with_limits = [](const std::string& limits) {
     std::string text = small_store();

@@ -2,6 +2,7 @@
 #include "tagfield/localization/joint/multipath.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/localization/holograms/robust.h"
@@ -90,6 +91,7 @@ WorldFit begin(const LocalizationProblem& problem, const std::vector<TagEstimate
   fit.given.resize(numbers.size());
   fit.starts.resize(numbers.size());
   fit.looked_about.resize(numbers.size());
+  std::atomic<std::size_t> done{0};
   parallel_for(numbers.size(), threads, [&](std::size_t k) {
     const TagEstimate& estimate = estimates[numbers[k]];
     const SamplesOfTag& samples = problem.samples.at(estimate.tag);
@@ -101,6 +103,8 @@ WorldFit begin(const LocalizationProblem& problem, const std::vector<TagEstimate
                      ? problem.reference_tags.at(estimate.tag)
                      : likeliest_place({problem, sight, options.least_directness, noise_rad},
                                        estimate, kNear)};
+    tell(problem, "tags in the known world",
+         static_cast<double>(++done) / static_cast<double>(numbers.size()));
   });
   fit.state = begin_at(problem, placed);
   return fit;

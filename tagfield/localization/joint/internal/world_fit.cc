@@ -196,6 +196,7 @@ void fit_through_world(WorldFit& fit, const MultipathOptions& options, int threa
   std::vector<Vector3d> fitted = places_of(state);
   for (int round = 0; round < options.rounds; ++round) {
     const std::vector<Vector3d> before = places_of(state);
+    tell(*state.problem, "the known world", static_cast<double>(round) / options.rounds);
     straighten_all(fit, options, threads);
     fit_unwrapped_jointly(state, threads);
     fitted = places_of(state);
