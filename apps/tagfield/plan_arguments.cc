@@ -130,9 +130,7 @@ std::string chosen_text(const AntennaPlan& plan) {
 
 void require_exact(const PlanQuestion& question, const PlanSpec& plan) {
   if (question.exact_s <= 0.0) return;
-  SelectionProblem asked;
-  if (plan.aim.position_error_m) asked.worth = Worth::kPlace;
-  if (!has_exact_solver() || plan.aim.position_error_m) best_exactly(asked, {}, question.exact_s);
+  require_exact_solver(plan.aim.position_error_m ? Worth::kPlace : Worth::kProbability);
 }
 
 AntennaPlan plan_antennas(const ScenarioToPlan& to_plan, const PlanQuestion& question,

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any, Callable, Mapping, Sequence
 
 from . import _core
 from ._scenario import Scenario, _flat, _value_text, load, threads_of
+from ._tables import frame_of
 
 __all__ = ["Bench", "bench"]
 
@@ -31,21 +31,15 @@ class Bench:
 
     def to_pandas(self):
         """A row for each condition and method: located, mean_m, ratio_rms, nees_mean, …"""
-        return _frame(self._parts["csv"])
+        return frame_of(self._parts["csv"])
 
     def tags(self):
         """A row for each condition, method, seed and tag, as a pandas.DataFrame."""
-        return _frame(self._parts["tags_csv"])
+        return frame_of(self._parts["tags_csv"])
 
     def save_page(self, path: str | os.PathLike) -> None:
         """Writes the page with all figures (HTML, self-contained)."""
         Path(path).write_text(self._parts["html"], encoding="utf-8")
-
-
-def _frame(text: str):
-    import pandas
-
-    return pandas.read_csv(io.StringIO(text), keep_default_na=False, na_values=[""])
 
 
 def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any, Callable, Mapping
 
 from . import _core
 from ._scenario import Scenario, _changes, _Source, threads_of
+from ._tables import frame_of
 
 __all__ = ["Plan", "plan"]
 
@@ -50,15 +50,15 @@ class Plan:
 
     def layouts(self):
         """A row for each number of antennas, as a pandas.DataFrame."""
-        return _frame(self._parts["layouts_csv"])
+        return frame_of(self._parts["layouts_csv"])
 
     def antennas(self):
         """A row for each antenna of each layout, as a pandas.DataFrame."""
-        return _frame(self._parts["antennas_csv"])
+        return frame_of(self._parts["antennas_csv"])
 
     def places(self):
         """A row for each place of tags, p_N by number of antennas, as a pandas.DataFrame."""
-        return _frame(self._parts["places_csv"])
+        return frame_of(self._parts["places_csv"])
 
     def save_page(self, path: str | os.PathLike) -> None:
         """Writes the page with all layouts from above (HTML, self-contained)."""
@@ -67,12 +67,6 @@ class Plan:
     def save_layout(self, path: str | os.PathLike) -> None:
         """Writes the chosen layout as a scenario's file."""
         Path(path).write_text(self.layout, encoding="utf-8")
-
-
-def _frame(text: str):
-    import pandas
-
-    return pandas.read_csv(io.StringIO(text), keep_default_na=False, na_values=[""])
 
 
 def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int | None = None,

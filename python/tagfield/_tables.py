@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 
 __all__ = ["Table"]
@@ -116,3 +118,10 @@ def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:
     flat = values.reshape(len(values), -1)
     return {f"{column}_{'_'.join(map(str, index))}": flat[:, i]
             for i, index in enumerate(np.ndindex(*values.shape[1:]))}
+
+
+def frame_of(csv: str):
+    """A table of the command's, as CSV text, as a pandas.DataFrame."""
+    import pandas
+
+    return pandas.read_csv(io.StringIO(csv), keep_default_na=False, na_values=[""])

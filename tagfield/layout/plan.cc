@@ -10,6 +10,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/layout/internal/hard_link.h"
 #include "tagfield/layout/internal/layout_forecast.h"
+#include "tagfield/layout/internal/layout_places.h"
 #include "tagfield/planning/local_link.h"
 
 namespace tagfield {
@@ -71,9 +72,8 @@ std::string holding_limit(const SelectionProblem& problem, const OptionSet& choi
 }
 
 /// The best found of `count` antennas at most.
-OptionSet layout_of(const PlanProblem& problem, const std::vector<std::vector<std::size_t>>& orders,
+OptionSet layout_of(SelectionProblem of_count, const std::vector<std::vector<std::size_t>>& orders,
                     std::size_t count) {
-  SelectionProblem of_count = problem.selection;
   of_count.limits.antennas = count;
   OptionSet best;
   double most = -1.0;
@@ -88,78 +88,6 @@ OptionSet layout_of(const PlanProblem& problem, const std::vector<std::vector<st
     best = choice;
   }
   return best;
-}
-
-/// By element (with its fading places) how much it has of what is aimed at: the probability to be
-/// read, or whether there are enough reads, or its place is known.
-std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& choice) {
-  std::vector<double> met(problem.elements.size(), 1.0);
-  if (problem.worth != Worth::kProbability) {
-    const std::vector<bool> satisfied = satisfied_by(problem, choice);
-    std::transform(satisfied.begin(), satisfied.end(), met.begin(),
-                   [](bool is_met) { return is_met ? 1.0 : 0.0; });
-    return met;
-  }
-  for (const std::size_t option : choice) {
-    for (const Miss& one : problem.options[option].misses) {
-      met[one.element] *= static_cast<double>(one.probability);
-    }
-  }
-  for (double& of_element : met) of_element = 1.0 - of_element;
-  return met;
-}
-
-/// Where each group's places begin among all, and how many there are.
-std::pair<std::vector<std::size_t>, std::size_t> first_places(const PlanSpec& plan) {
-  std::vector<std::size_t> first(plan.tags.size(), 0);
-  std::size_t places = 0;
-  for (std::size_t group = 0; group < plan.tags.size(); ++group) {
-    first[group] = places;
-    places += plan.tags[group].places.size();
-  }
-  return {first, places};
-}
-
-/// The mean of that over the orientations and fading of each place.
-std::vector<double> met_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
-                                 const PlanProblem& problem, const OptionSet& choice) {
-  const std::vector<double> met = met_by(problem.selection, choice);
-  const auto [first_place, places] = first_places(plan);
-  std::vector<double> by_place(places, 0.0);
-  const std::vector<LinkElement> elements = elements_of(matrix);
-  for (std::size_t number = 0; number < elements.size(); ++number) {
-    const LinkRow& row = matrix.rows[elements[number].first_row];
-    const auto ways = static_cast<double>(plan.tags[row.group].orientations.size() * kFadingPlaces);
-    for (std::size_t fade = 0; fade < kFadingPlaces; ++fade) {
-      by_place[first_place[row.group] + row.place] += met[number * kFadingPlaces + fade] / ways;
-    }
-  }
-  return by_place;
-}
-
-/// Bounds on the error of each place [m], by what is told in the mean over its orientations and
-/// fading.
-std::vector<double> errors_by_place(const PlanSpec& plan, const LinkMatrix& matrix,
-                                    const PlanProblem& problem, const OptionSet& choice) {
-  const auto [first_place, places] = first_places(plan);
-  const std::vector<LinkElement> elements = elements_of(matrix);
-  std::vector<std::vector<Told>> told(places);
-  for (const std::size_t option : choice) {
-    std::vector<Told> of_option(places);
-    for (const Told& one : problem.selection.options[option].told) {
-      const LinkRow& row = matrix.rows[elements[one.element / kFadingPlaces].first_row];
-      const auto ways =
-          static_cast<float>(plan.tags[row.group].orientations.size() * kFadingPlaces);
-      Told& sum = of_option[first_place[row.group] + row.place];
-      sum.xx += one.xx / ways;
-      sum.xy += one.xy / ways;
-      sum.yy += one.yy / ways;
-    }
-    for (std::size_t place = 0; place < places; ++place) told[place].push_back(of_option[place]);
-  }
-  std::vector<double> errors(places);
-  std::transform(told.begin(), told.end(), errors.begin(), error_bound_m);
-  return errors;
 }
 
 PlannedAim planned_aim(const PlanAim& aim) {
@@ -275,7 +203,7 @@ class Planner {
     for (const auto& order : orders) most = std::max(most, order.size());
     if (most == 0) fail_without_layout(to_plan_, selection);
     for (std::size_t count = 1; count <= most; ++count) {
-      const OptionSet choice = layout_of(problem_, orders, count);
+      const OptionSet choice = layout_of(selection, orders, count);
       if (!choices_.empty() && choice.size() <= choices_.back().size()) continue;
       choices_.push_back(choice);
       plan.layouts.push_back(layout_with(choice));
@@ -337,12 +265,11 @@ class Planner {
     }
     constexpr int kMostSteps = 200;
     constexpr double kLess = 1e-6;
+    SelectionProblem cheaper = problem_.selection;
     for (int step = 0; step < kMostSteps; ++step) {
-      PlanProblem cheaper = problem_;
-      cheaper.selection.limits.cost = plan.layouts[plan.chosen].cost * (1.0 - kLess);
-      const std::vector<std::vector<std::size_t>> orders = {greedy_order(cheaper.selection),
-                                                            greedy_order(cheaper.selection, true)};
-      const OptionSet choice = layout_of(cheaper, orders, cheaper.selection.limits.antennas);
+      cheaper.limits.cost = plan.layouts[plan.chosen].cost * (1.0 - kLess);
+      const OptionSet choice = layout_of(
+          cheaper, {greedy_order(cheaper), greedy_order(cheaper, true)}, cheaper.limits.antennas);
       if (choice.empty()) return;
       const PlannedLayout layout = layout_with(choice);
       if (layout.share < share || layout.cost >= plan.layouts[plan.chosen].cost) return;

@@ -13,8 +13,6 @@
 namespace tagfield {
 namespace {
 
-/// Where a port's dwell is not told [s], as Gen2Reader has it.
-constexpr double kDwell_s = 0.2;
 constexpr double kSure = 1e-6;  ///< Misses that are less likely are none.
 
 /// Probability that none of `looks` looks on different carriers hears a tag that is heard on
@@ -36,8 +34,7 @@ std::size_t ports_in_turn(const PlanSpec& plan) {
 
 /// How often an antenna has its turn in a second.
 double looks_a_second(const PlanSpec& plan, const RadioModel& model) {
-  const double dwell_s = model.gen2 ? model.gen2->port_dwell_s : kDwell_s;
-  return 1.0 / (dwell_s * static_cast<double>(ports_in_turn(plan)));
+  return 1.0 / (port_dwell_s(model) * static_cast<double>(ports_in_turn(plan)));
 }
 
 /// How far places are from their mean, along one axis, root mean square [m]; more than what is
@@ -168,12 +165,12 @@ class Builder {
     const LinkColumn& of_column = matrix_.columns[column];
     const PlanMount& mount = plan_.mounts[of_column.mount];
     const RadioModel& model = *physical(mount.antenna);
+    const double looks = looks_a_second(plan_, model);
     const double a_second =
-        looks_a_second(plan_, model) *
-        reads_a_turn_.of(model, mount.antenna.rate_hz, tags_heard(column, less_db));
+        looks * reads_a_turn_.of(model, mount.antenna.rate_hz, tags_heard(column, less_db));
     // Of its turns, and of the hops in the time.
-    const double visited = std::min(looks_a_second(plan_, model) * plan_.dwell_s,
-                                    std::floor(plan_.dwell_s / model.plan.dwell_s) + 1.0);
+    const double visited =
+        std::min(looks * plan_.dwell_s, std::floor(plan_.dwell_s / model.plan.dwell_s) + 1.0);
     for (std::size_t number = 0; number < elements_.size(); ++number) {
       const LinkElement& element = elements_[number];
       const std::vector<PlanStop>& stops =

@@ -4,162 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <queue>
 #include <set>
+
+#include "tagfield/layout/internal/tally.h"
 
 namespace tagfield {
 namespace {
 
 constexpr double kLeastGain = 1e-12;
-
-/// What each element has of some options, and what that is worth.
-class Tally {
- public:
-  explicit Tally(const SelectionProblem& problem) : problem_(problem) {
-    const std::size_t elements = problem.elements.size();
-    switch (problem.worth) {
-      case Worth::kProbability:
-        miss_.assign(elements, 1.0);
-        break;
-      case Worth::kReads:
-        reads_.assign(elements, 0.0);
-        break;
-      case Worth::kPlace:
-        told_.resize(elements);
-        break;
-    }
-  }
-  Tally(const SelectionProblem& problem, const OptionSet& choice) : Tally(problem) {
-    for (const std::size_t option : choice) take(option);
-  }
-
-  void take(std::size_t option) {
-    const SelectionOption& taken = problem_.options[option];
-    switch (problem_.worth) {
-      case Worth::kProbability:
-        for (const Miss& one : taken.misses) {
-          miss_[one.element] *= static_cast<double>(one.probability);
-        }
-        break;
-      case Worth::kReads:
-        for (const ReadsOf& one : taken.reads) {
-          reads_[one.element] += static_cast<double>(one.reads);
-        }
-        break;
-      case Worth::kPlace:
-        for (const Told& one : taken.told) told_[one.element] = sum(told_[one.element], one);
-        break;
-    }
-  }
-
-  /// Of one option more.
-  [[nodiscard]] double gain(std::size_t option) const {
-    const SelectionOption& other = problem_.options[option];
-    double gain = 0.0;
-    const auto add = [&](std::uint32_t element, double after, double before) {
-      gain +=
-          problem_.elements[element].weight * after - problem_.elements[element].weight * before;
-    };
-    switch (problem_.worth) {
-      case Worth::kProbability:
-        for (const Miss& one : other.misses) {
-          const double before = miss_[one.element];
-          const double after = before * static_cast<double>(one.probability);
-          gain += worth_of_miss(one.element, after) - worth_of_miss(one.element, before);
-        }
-        break;
-      case Worth::kReads:
-        for (const ReadsOf& one : other.reads) {
-          const double before = reads_[one.element];
-          add(one.element, worth_of_reads(before + static_cast<double>(one.reads)),
-              worth_of_reads(before));
-        }
-        break;
-      case Worth::kPlace:
-        for (const Told& one : other.told) {
-          const Sum& before = told_[one.element];
-          add(one.element, worth_of_place(sum(before, one)), worth_of_place(before));
-        }
-        break;
-    }
-    return gain;
-  }
-
-  [[nodiscard]] double score() const {
-    double score = 0.0;
-    for (std::size_t i = 0; i < problem_.elements.size(); ++i) {
-      switch (problem_.worth) {
-        case Worth::kProbability:
-          score += worth_of_miss(i, miss_[i]);
-          break;
-        case Worth::kReads:
-          score += problem_.elements[i].weight * worth_of_reads(reads_[i]);
-          break;
-        case Worth::kPlace:
-          score += problem_.elements[i].weight * worth_of_place(told_[i]);
-          break;
-      }
-    }
-    return score;
-  }
-
-  [[nodiscard]] bool is_satisfied(std::size_t element) const {
-    constexpr double kRounding = 1e-9;
-    switch (problem_.worth) {
-      case Worth::kProbability:
-        return 1.0 - miss_[element] >= problem_.cap - kRounding;
-      case Worth::kReads:
-        return reads_[element] >= problem_.cap - kRounding;
-      case Worth::kPlace:
-        return error_of(told_[element]) <= problem_.error_m;
-    }
-    return false;
-  }
-
-  /// Of doubles, as what a few antennas tell can be far apart.
-  struct Sum {
-    double xx = 0.0;
-    double xy = 0.0;
-    double yy = 0.0;
-    std::size_t antennas = 0;
-  };
-  static double error_of(const Sum& told) {
-    if (told.antennas < kFewestForPlace) return std::numeric_limits<double>::infinity();
-    const double determinant = told.xx * told.yy - told.xy * told.xy;
-    const double trace = told.xx + told.yy;
-    // Of one direction alone only rounding is left of the determinant.
-    if (!(determinant > 1e-12 * trace * trace)) return std::numeric_limits<double>::infinity();
-    return std::sqrt(trace / determinant);
-  }
-  static Sum sum(const Sum& a, const Told& b) {
-    return {a.xx + static_cast<double>(b.xx), a.xy + static_cast<double>(b.xy),
-            a.yy + static_cast<double>(b.yy), a.antennas + (b.xx + b.yy > 0.0F ? 1 : 0)};
-  }
-
- private:
-  [[nodiscard]] double worth_of_miss(std::size_t element, double miss) const {
-    return problem_.elements[element].weight * std::min(1.0 - miss, problem_.cap) / problem_.cap;
-  }
-  [[nodiscard]] double worth_of_reads(double reads) const {
-    return std::min(reads, problem_.cap) / problem_.cap;
-  }
-  [[nodiscard]] double worth_of_place(const Sum& told) const {
-    const double before = 1.0 / (problem_.spread_m * problem_.spread_m);
-    const double aim = 8.0 / (problem_.error_m * problem_.error_m);
-    const double xx = told.xx + before;
-    const double yy = told.yy + before;
-    const double gained = std::log((xx * yy - told.xy * told.xy) / (before * before));
-    return std::min(1.0, gained / (2.0 * std::log(aim / before)));
-  }
-
-  const SelectionProblem& problem_;
-  // Of the three, by element, the one that the problem asks for.
-  std::vector<double> miss_;
-  std::vector<double> reads_;
-  std::vector<Sum> told_;
-};
 
 OptionSet with(OptionSet choice, std::size_t option) {
   choice.insert(std::upper_bound(choice.begin(), choice.end(), option), option);
@@ -212,17 +66,17 @@ double score_of(const SelectionProblem& problem, const OptionSet& choice) {
   return Tally(problem, choice).score();
 }
 
-std::vector<bool> satisfied_by(const SelectionProblem& problem, const OptionSet& choice) {
+std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& choice) {
   const Tally tally(problem, choice);
-  std::vector<bool> satisfied(problem.elements.size());
-  for (std::size_t i = 0; i < satisfied.size(); ++i) satisfied[i] = tally.is_satisfied(i);
-  return satisfied;
+  std::vector<double> met(problem.elements.size());
+  for (std::size_t i = 0; i < met.size(); ++i) met[i] = tally.met(i);
+  return met;
 }
 
 double error_bound_m(const std::vector<Told>& told) {
-  Tally::Sum sum;
-  for (const Told& one : told) sum = Tally::sum(sum, one);
-  return Tally::error_of(sum);
+  ToldSum sum;
+  for (const Told& one : told) sum = sum.with(one);
+  return sum.error_m();
 }
 
 std::size_t readers_of(const SelectionProblem& problem, const OptionSet& choice) {

@@ -89,9 +89,10 @@ using OptionSet = std::vector<std::size_t>;  ///< Numbers of options, rising.
 /// Σ w·worth over the elements: monotone and submodular in the choice.
 double score_of(const SelectionProblem& problem, const OptionSet& choice);
 
-/// By element, whether the choice gives it all that is aimed at: where places count, a bound on its
-/// error, error_bound_m(), of error_m at most.
-std::vector<bool> satisfied_by(const SelectionProblem& problem, const OptionSet& choice);
+/// By element, what the choice gives it of what is aimed at: the probability to be read; else 1 or
+/// 0, whether it has its reads, or the bound on its place's error, error_bound_m(), is error_m at
+/// most.
+std::vector<double> met_by(const SelectionProblem& problem, const OptionSet& choice);
 
 /// Two distances leave two places: so many antennas must tell something.
 inline constexpr std::size_t kFewestForPlace = 3;
@@ -140,10 +141,12 @@ struct ExactChoice {
 /// Whether this was built with a solver of integer programs.
 bool has_exact_solver();
 
+/// Throws Error without a solver, and where places count, which are no integer program.
+void require_exact_solver(Worth worth);
+
 /// By an integer program: elements' probabilities are bounded by tangents of 1 − e^−L, of which
 /// more are added where the solution is not on the curve, reads by their sum, and by cuts where it
-/// crosses zones too much. `begin` is a choice that fits. Throws Error without a solver, and where
-/// places count, which are no such program.
+/// crosses zones too much. `begin` is a choice that fits. Throws Error as require_exact_solver().
 ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds);
 
 }  // namespace tagfield

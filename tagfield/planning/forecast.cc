@@ -21,18 +21,9 @@
 namespace tagfield {
 namespace {
 
-constexpr double kStep_db = 0.25;
-constexpr int kMostSteps = 126;
-constexpr std::int8_t kNoLink = -128;
 constexpr double kReply_dbm = -50.0;
 /// Who is heard, and by which reader first, is looked at no less often than this.
 constexpr double kPiece_s = 0.25;
-
-std::int8_t step_of(double margin_db) {
-  if (margin_db < -0.5 * kMostSteps) return kNoLink;
-  return static_cast<std::int8_t>(
-      std::clamp<long>(std::lround(std::floor(margin_db / kStep_db)), -kMostSteps, kMostSteps));
-}
 
 /// A stretch of time in which one antenna sends, and who has power does not change.
 struct Turn {
@@ -361,43 +352,6 @@ void Sampler::sample(std::size_t first, std::size_t place, Forecast& forecast,
 }
 
 }  // namespace
-
-LinkStates::LinkStates(const std::vector<double>& margins_db) {
-  bool any = false;
-  steps_.reserve(margins_db.size());
-  for (const double margin_db : margins_db) {
-    steps_.push_back(step_of(margin_db));
-    any = any || steps_.back() != kNoLink;
-  }
-  if (!any) steps_.clear();
-}
-
-std::size_t LinkStates::carriers() const { return steps_.size() / kFadingPlaces; }
-
-double LinkStates::margin_db(std::size_t place, std::size_t carrier) const {
-  const std::int8_t step = steps_[place * carriers() + carrier];
-  return step == kNoLink ? kNothing_db : kStep_db * step;
-}
-
-double LinkStates::share_heard(std::size_t place, double less_db) const {
-  if (is_empty()) return 0.0;
-  std::size_t heard = 0;
-  for (std::size_t carrier = 0; carrier < carriers(); ++carrier) {
-    if (margin_db(place, carrier) >= less_db) ++heard;
-  }
-  return static_cast<double>(heard) / static_cast<double>(carriers());
-}
-
-double LinkStates::share_heard(double less_db) const {
-  double sum = 0.0;
-  for (std::size_t place = 0; place < kFadingPlaces; ++place) sum += share_heard(place, less_db);
-  return sum / static_cast<double>(kFadingPlaces);
-}
-
-double LinkStates::best_db() const {
-  const auto best = std::max_element(steps_.begin(), steps_.end());
-  return best == steps_.end() || *best == kNoLink ? kNothing_db : kStep_db * *best;
-}
 
 double CountedReads::spread() const {
   return reads > 0.0 ? std::max(0.0, squares_hz - sum_hz * sum_hz / reads) : 0.0;

@@ -282,12 +282,15 @@ ExactChoice Program::solve(double seconds) {
 
 bool has_exact_solver() { return true; }
 
+void require_exact_solver(Worth worth) {
+  if (worth != Worth::kPlace) return;
+  throw Error(
+      "plan.aim.position_error_m has no exact solution, as it is no integer program: leave out "
+      "--exact");
+}
+
 ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& begin, double seconds) {
-  if (problem.worth == Worth::kPlace) {
-    throw Error(
-        "plan.aim.position_error_m has no exact solution, as it is no integer program: leave out "
-        "--exact");
-  }
+  require_exact_solver(problem.worth);
   return Program(problem, begin).solve(seconds);
 }
 

@@ -6,11 +6,16 @@ namespace tagfield {
 
 bool has_exact_solver() { return false; }
 
-ExactChoice best_exactly(const SelectionProblem& /*problem*/, const OptionSet& /*begin*/,
-                         double /*seconds*/) {
+void require_exact_solver(Worth /*worth*/) {
   throw Error(
       "--exact needs CBC, which Tagfield was built without: install coinor-libcbc-dev and build "
       "again");
+}
+
+ExactChoice best_exactly(const SelectionProblem& problem, const OptionSet& /*begin*/,
+                         double /*seconds*/) {
+  require_exact_solver(problem.worth);
+  return {};
 }
 
 }  // namespace tagfield

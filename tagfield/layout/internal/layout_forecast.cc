@@ -59,9 +59,7 @@ std::vector<ForecastPort> LayoutForecast::ports_of(const OptionSet& choice) cons
   const std::vector<PlannedAntenna> antennas = antennas_of(plan_, matrix_, problem_, choice);
   std::vector<ForecastPort> ports;
   for (std::size_t i = 0; i < choice.size(); ++i) {
-    const PlanMount& mount =
-        plan_.mounts[matrix_.columns[problem_.options[choice[i]].column].mount];
-    ForecastPort port{mount.antenna, antennas[i].reader};
+    ForecastPort port{mount_of(choice[i]).antenna, antennas[i].reader};
     port.antenna.name = antennas[i].name;
     port.antenna.reader = antennas[i].reader;
     ports.push_back(std::move(port));
@@ -74,23 +72,44 @@ std::size_t LayoutForecast::first_row_of(const PlanTag& tag) const {
   return first_rows_[tag.group][tag.place * orientations + tag.orientation];
 }
 
+std::vector<std::vector<RangeTold>> LayoutForecast::ranges_of(
+    const OptionSet& choice, const std::vector<std::vector<LinkStates>>& states,
+    double less_db) const {
+  if (!plan_.aim.position_error_m) return {};
+  std::vector<std::vector<RangeTold>> ranges(choice.size());
+  parallel_for(choice.size(), request_.threads, [&](std::size_t port) {
+    const PlanMount& mount = mount_of(choice[port]);
+    const Eigen::Vector3d p_WA = place_of(choice[port]);
+    for (std::size_t row = 0; row < matrix_.rows.size(); ++row) {
+      const double distance_m = (matrix_.rows[row].X_WT.translation - p_WA).norm();
+      ranges[port].push_back(
+          range_told(*physical(mount.antenna), states[port][row], less_db, distance_m));
+    }
+  });
+  return ranges;
+}
+
+const PlanMount& LayoutForecast::mount_of(std::size_t option) const {
+  return plan_.mounts[matrix_.columns[problem_.options[option].column].mount];
+}
+
+Eigen::Vector3d LayoutForecast::place_of(std::size_t option) const {
+  const LinkColumn& column = matrix_.columns[problem_.options[option].column];
+  return plan_.mounts[column.mount].X_WA[column.look].translation;
+}
+
 bool LayoutForecast::has_enough(const std::vector<CountedReads>& reads, const OptionSet& choice,
-                                const std::vector<std::vector<LinkStates>>& states, std::size_t row,
-                                double less_db) const {
+                                const std::vector<std::vector<RangeTold>>& ranges,
+                                std::size_t row) const {
   if (plan_.aim.dwell_reads) {
     double sum = 0.0;
     for (const CountedReads& of_port : reads) sum += of_port.reads;
     return sum >= *plan_.aim.dwell_reads;
   }
-  const Eigen::Vector3d p_WT = matrix_.rows[row].X_WT.translation;
   std::vector<Told> told;
   for (std::size_t port = 0; port < reads.size(); ++port) {
-    const LinkColumn& column = matrix_.columns[problem_.options[choice[port]].column];
-    const PlanMount& mount = plan_.mounts[column.mount];
-    const Eigen::Vector3d p_WA = mount.X_WA[column.look].translation;
-    const RangeTold range =
-        range_told(*physical(mount.antenna), states[port][row], less_db, (p_WT - p_WA).norm());
-    told.push_back(told_by(range, reads[port].reads, reads[port].spread(), p_WA, p_WT));
+    told.push_back(told_by(ranges[port][row], reads[port].reads, reads[port].spread(),
+                           place_of(choice[port]), matrix_.rows[row].X_WT.translation));
   }
   return error_bound_m(told) <= *plan_.aim.position_error_m;
 }
@@ -110,6 +129,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
   const std::vector<PlannedAntenna> antennas = antennas_of(plan_, matrix_, problem_, choice);
   std::map<std::string, std::string> zone_of_reader;
   for (const PlannedAntenna& antenna : antennas) zone_of_reader[antenna.reader] = antenna.zone;
+  const std::vector<std::vector<RangeTold>> ranges = ranges_of(choice, states, less_db);
   std::vector<Sample> samples(tags_.size());
   parallel_for(tags_.size(), request_.threads, [&](std::size_t number) {
     ForecastRequest request;
@@ -142,7 +162,7 @@ std::vector<LayoutForecast::Sample> LayoutForecast::samples(const OptionSet& cho
     for (std::size_t tag = 0; request.counts_reads && tag < sample.read.size(); ++tag) {
       const std::vector<CountedReads>& reads = made.reads.front()[tag];
       sample.read[tag] =
-          has_enough(reads, choice, states, first_row_of(tags_[number][tag]), less_db) ? 1 : 0;
+          has_enough(reads, choice, ranges, first_row_of(tags_[number][tag])) ? 1 : 0;
     }
     sample.crossed.assign(sample.read.size(), 0);
     for (std::size_t group = 0; group < made.groups.size(); ++group) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "tagfield/layout/internal/link_reads.h"
 #include "tagfield/layout/plan.h"
 #include "tagfield/planning/forecast.h"
 
@@ -30,10 +31,17 @@ class LayoutForecast {
   [[nodiscard]] std::vector<Sample> samples(const OptionSet& choice, double less_db) const;
   [[nodiscard]] std::vector<ForecastPort> ports_of(const OptionSet& choice) const;
   [[nodiscard]] std::size_t first_row_of(const PlanTag& tag) const;
-  /// Whether a tag with so many reads by port has what is aimed at; `states` by port and row.
+  [[nodiscard]] const PlanMount& mount_of(std::size_t option) const;
+  /// Of an option's antenna [m].
+  [[nodiscard]] Eigen::Vector3d place_of(std::size_t option) const;
+  /// By port and row, where positions are aimed at; `states` likewise.
+  [[nodiscard]] std::vector<std::vector<RangeTold>> ranges_of(
+      const OptionSet& choice, const std::vector<std::vector<LinkStates>>& states,
+      double less_db) const;
+  /// Whether a tag with so many reads by port has what is aimed at.
   [[nodiscard]] bool has_enough(const std::vector<CountedReads>& reads, const OptionSet& choice,
-                                const std::vector<std::vector<LinkStates>>& states, std::size_t row,
-                                double less_db) const;
+                                const std::vector<std::vector<RangeTold>>& ranges,
+                                std::size_t row) const;
 
   const PlanSpec& plan_;
   const LinkMatrix& matrix_;

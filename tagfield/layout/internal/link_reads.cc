@@ -32,9 +32,13 @@ double spread_of(const RadioModel& model) {
 
 }  // namespace
 
+double port_dwell_s(const RadioModel& model) {
+  return model.gen2 ? model.gen2->port_dwell_s : Gen2Reader{}.port_dwell_s;
+}
+
 double reads_a_turn(const RadioModel& model, double rate_hz, std::size_t ports, std::size_t tags) {
   constexpr int kTurns = 20;
-  const double dwell_s = model.gen2 ? model.gen2->port_dwell_s : Gen2Reader{}.port_dwell_s;
+  const double dwell_s = port_dwell_s(model);
   // Without an inventory all ports read at once, each at its updates.
   if (!model.gen2 || !model.effects.inventory) {
     return rate_hz * dwell_s * static_cast<double>(ports);

@@ -14,6 +14,9 @@
 
 namespace tagfield {
 
+/// How long a port has its turn [s]; of one without an inventory as if it had one.
+double port_dwell_s(const RadioModel& model);
+
 /// How often a tag that is heard is read in one of the antenna's turns, where `tags` tags are heard
 /// and all of the reader's `ports` ports take turns: in the mean, by the inventory itself, slot by
 /// slot; without one at each update, `rate_hz`.

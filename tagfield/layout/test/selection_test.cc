@@ -37,6 +37,7 @@ TEST(Selection, ScoresByMissesMultiplied) {
   EXPECT_DOUBLE_EQ(score_of(problem, {0}), 0.25);
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1}), 0.375);
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1, 2}), 0.5);
+  EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{0.75, 0.25}));
   // Beyond the cap more is worth nothing.
   problem.cap = 0.5;
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1}), 0.5);
@@ -89,7 +90,7 @@ TEST(Selection, CountsReadsUpToTheCap) {
   EXPECT_DOUBLE_EQ(score_of(problem, {0}), 0.125);
   EXPECT_DOUBLE_EQ(score_of(problem, {0, 1, 2}), 0.5 + 0.25);
   EXPECT_EQ(greedy_order(problem), (std::vector<std::size_t>{1, 2}));
-  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{true, false}));
+  EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{1.0, 0.0}));
 }
 
 TEST(Selection, CountsWhatIsToldOfPlaces) {
@@ -112,9 +113,9 @@ TEST(Selection, CountsWhatIsToldOfPlaces) {
               std::sqrt(225.0 / (150.0 * 75.0 - 2500.0)), 1e-9);
   // Three antennas one behind the other tell one direction.
   EXPECT_TRUE(std::isinf(error_bound_m({all[0].told[0], all[0].told[0], all[0].told[0]})));
-  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{true, false}));
+  EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{1.0, 0.0}));
   problem.error_m = 0.15;
-  EXPECT_EQ(satisfied_by(problem, {0, 1, 2}), (std::vector<bool>{false, false}));
+  EXPECT_EQ(met_by(problem, {0, 1, 2}), (std::vector<double>{0.0, 0.0}));
 }
 
 constexpr Worth kAllWorths[] = {Worth::kProbability, Worth::kReads, Worth::kPlace};

@@ -77,3 +77,6 @@ export function bandOf(edges, value) {
   while (band < edges.length && value >= edges[band]) ++band;
   return band;
 }
+
+// Of a band that has no colour of its own, as what hardly ever is.
+export const bandColor = (color) => color || "#8a949e";

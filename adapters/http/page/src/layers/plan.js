@@ -7,12 +7,11 @@ import {
   LineSegments, Matrix4, MeshBasicMaterial, Vector3
 } from "three";
 
-import {bandOf} from "../colors.js";
+import {bandColor, bandOf} from "../colors.js";
 
 const CUBE_M = 0.14;
 const PLATE_M = 0.16;  // Half of a side.
 const LOOK_M = 0.9;
-const NEVER = "#8a949e";
 
 // A square across the line of sight, and a line along it.
 function pushAntenna(points, {position, boresight}) {
@@ -45,11 +44,11 @@ export class PlanLayer {
 
   // The layout of that number, or nothing where that is null.
   show(plan, layout) {
-    if (this.plan !== plan) this.#place(plan);
+    this.cubes ??= this.#cubesOf(plan);
     const visible = layout !== null;
     this.cubes.visible = this.lines.visible = visible;
     if (visible) {
-      const colors = plan.colors.map((one) => new Color(one || NEVER));
+      const colors = plan.colors.map((one) => new Color(bandColor(one)));
       plan.percent[layout].forEach(
         (percent, i) => this.cubes.setColorAt(i, colors[bandOf(plan.edges, percent / 100)]));
       if (this.cubes.instanceColor) this.cubes.instanceColor.needsUpdate = true;
@@ -62,16 +61,13 @@ export class PlanLayer {
     this.stage.invalidate();
   }
 
-  #place(plan) {
-    this.plan = plan;
-    this.cubes?.removeFromParent();
-    this.cubes?.dispose();
-    this.cubes = new InstancedMesh(
+  #cubesOf({places}) {
+    const cubes = new InstancedMesh(
       new BoxGeometry(CUBE_M, CUBE_M, CUBE_M),
-      new MeshBasicMaterial({transparent: true, opacity: 0.95}), plan.places.length);
-    this.cubes.frustumCulled = false;
-    plan.places.forEach(
-      (place, i) => this.cubes.setMatrixAt(i, new Matrix4().makeTranslation(...place)));
-    this.stage.scene.add(this.cubes);
+      new MeshBasicMaterial({transparent: true, opacity: 0.95}), places.length);
+    cubes.frustumCulled = false;
+    places.forEach((place, i) => cubes.setMatrixAt(i, new Matrix4().makeTranslation(...place)));
+    this.stage.scene.add(cubes);
+    return cubes;
   }
 }

@@ -2,6 +2,7 @@
 // A plan of antennas beside the world: a slider over their number, what such a layout has, and its
 // antennas.
 
+import {bandColor} from "../colors.js";
 import {fixed, h, setText} from "../dom.js";
 
 const counted = (count, what) => `${count} ${what}${count === 1 ? "" : "s"}`;
@@ -46,7 +47,7 @@ export class PlanPanel {
     const {edges, colors} = this.plan;
     const key = (color, i) => {
       const swatch = h("span", {class: "swatch square"});
-      swatch.style.background = color || "#8a949e";
+      swatch.style.background = bandColor(color);
       return h("span", {class: "key"}, swatch, h("span", {text: bandText(edges, i)}));
     };
     return h(
