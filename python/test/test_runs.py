@@ -179,8 +179,13 @@ def test_other_threads_go_on_and_interrupts_end_it(scenario):
         os.kill(os.getpid(), signal.SIGINT)
 
     ticker = threading.Thread(target=tick)
-    ticker.start()
-    with pytest.raises(KeyboardInterrupt):
-        scenario.run_many(100_000)
-    ticker.join()
+    # What a shell starts in the background has interrupts ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        ticker.start()
+        with pytest.raises(KeyboardInterrupt):
+            scenario.run_many(100_000)
+        ticker.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert len(ticks) == 50
