@@ -165,6 +165,8 @@ void Ros2Outlet::on_tags_placed(Time stamp) {
   if (!message.tags.empty()) moved_tags_.publish(stamp, message);
 }
 
+void Ros2Outlet::expect_robot(const std::string& name) { robot_named(name); }
+
 void Ros2Outlet::mount(const std::string& robot, const std::set<std::string>& antennas,
                        const std::string& base_frame) {
   mount_ = {robot, antennas, base_frame};

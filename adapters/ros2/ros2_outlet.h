@@ -34,6 +34,9 @@ class Ros2Outlet : public ReadListener, public PoseListener, public TruthListene
   /// `tells_clock`: /clock too; not where a simulator's bridge does.
   explicit Ros2Outlet(std::shared_ptr<MessageSink> sink, bool tells_clock = true);
 
+  /// Makes its topic, which comes with its first pose otherwise: too late for that pose to reach
+  /// those who look for topics first, as recorders do.
+  void expect_robot(const std::string& name);
   /// Antennas on a robot whose frames others tell: theirs hang below `base_frame` then, and not
   /// below the map.
   void mount(const std::string& robot, const std::set<std::string>& antennas,

@@ -63,6 +63,7 @@ void Ros2Robot::on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelo
 }
 
 void Ros2Robot::on_scan(const LaserScan& scan) {
+  outlet_->tell_time(scan.stamp);
   scans_.publish(scan.stamp, scan_message(scan, kLaserFrame, laser_.rate_hz));
 }
 

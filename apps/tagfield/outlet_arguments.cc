@@ -30,6 +30,7 @@ std::shared_ptr<ros2::Ros2Outlet> attach_sink(const std::shared_ptr<ros2::Messag
                                               const ScenarioWithWorld& loaded,
                                               RunControl& control) {
   auto outlet = std::make_shared<ros2::Ros2Outlet>(sink);
+  for (const RobotSpec& robot : loaded.scenario.robots) outlet->expect_robot(robot.name);
   attach(outlet, control.outlets);
   attach(std::make_shared<ros2::Ros2Markers>(sink), control.outlets);
   if (loaded.scenario.pose.source == PoseSource::kSlam) {

@@ -163,6 +163,15 @@ TEST(Ros2Outlet, TagsAreLatchedAndMovesAreTold) {
   EXPECT_EQ(moved[0].tags.at(0).epc, "b");
 }
 
+TEST(Ros2Outlet, TheTopicOfARobotIsThereBeforeItsFirstPose) {
+  const auto kept = std::make_shared<Kept>();
+  Ros2Outlet outlet(kept);
+  outlet.expect_robot("cart");
+  EXPECT_EQ(kept->delivery_of("/cart/ground_truth/odom"), Delivery::kReliable);
+  outlet.on_robot_pose({at(1), "cart", {}, std::nullopt});
+  EXPECT_EQ(kept->of<nav_msgs::Odometry>("/cart/ground_truth/odom").size(), 1U);
+}
+
 TEST(Ros2Outlet, OdometryHasTheSpeedInTheRobotsFrame) {
   const auto kept = std::make_shared<Kept>();
   Ros2Outlet outlet(kept);
@@ -247,6 +256,9 @@ TEST(Ros2Navigation, TellsTheMapOnceAndWhereEachScanWasTaken) {
   const auto scans = kept->of<sensor_msgs::LaserScan>("/cart_1/scan");
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_EQ(scans[0].header.frame_id, "cart 1/laser");
+  const auto clock = kept->of<rosgraph_msgs::Clock>("/clock");
+  ASSERT_EQ(clock.size(), 1U) << "both robots look at once";
+  EXPECT_EQ(clock[0].clock.nanosec, 500'000'000U);
   const auto frames = kept->of<tf2_msgs::TFMessage>("/tf");
   ASSERT_EQ(frames.size(), 2U);
   const geometry_msgs::TransformStamped& frame = frames[0].transforms.at(0);
