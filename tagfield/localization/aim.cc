@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/aim.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tagfield/base/units.h"
 #include "tagfield/localization/holograms/stretches.h"
@@ -37,11 +44,20 @@ double independent_along(const LocalizationProblem& problem, const std::vector<A
   return independent_samples(along, wavelength(frequency_hz / problem.multiple()));
 }
 
+/// Two antennas that look where the other is said to look; none where both names are empty.
+using SwappedPair = std::pair<std::string, std::string>;
+
+const std::string& aim_of(const std::string& antenna, const SwappedPair& swapped) {
+  if (antenna == swapped.first) return swapped.second;
+  return antenna == swapped.second ? swapped.first : antenna;
+}
+
 std::vector<AimedSeries> aimed_series(const LocalizationProblem& problem,
-                                      const SamplesOfTag& samples) {
+                                      const SamplesOfTag& samples,
+                                      const SwappedPair& swapped = {}) {
   std::vector<AimedSeries> all;
   for (const auto& [antenna, series] : samples) {
-    const auto track = problem.tracks.find(antenna);
+    const auto track = problem.tracks.find(aim_of(antenna, swapped));
     if (track == problem.tracks.end() || !is_orientation_told(track->second)) continue;
     AimedSeries aimed;
     double frequency_hz = 0.0;
@@ -156,6 +172,71 @@ void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
   estimate.candidates = std::move(kept);
 }
 
+/// Located tags that are asked whether they are in front of the antennas, evenly taken.
+std::vector<const TagEstimate*> asked(const LocalizationProblem& problem,
+                                      const LocalizationResult& result) {
+  constexpr std::size_t kMostTags = 40;
+  std::vector<const TagEstimate*> all;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
+    if (problem.reference_tags.count(estimate.tag) == 0) all.push_back(&estimate);
+  }
+  std::vector<const TagEstimate*> some;
+  const std::size_t stride = all.size() / kMostTags + 1;
+  for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  return some;
+}
+
+/// Scores of these tags together: a standard normal variable for patterns without a front.
+double forward_score(const LocalizationProblem& problem,
+                     const std::vector<const TagEstimate*>& tags, const SwappedPair& swapped) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const TagEstimate* tag : tags) {
+    const std::vector<AimedSeries> all =
+        aimed_series(problem, problem.samples.at(tag->tag), swapped);
+    if (all.empty()) continue;
+    sum += forward_score(all, tag->candidates.front().p_WT);
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / std::sqrt(static_cast<double>(count));
+}
+
+std::vector<SwappedPair> pairs_of_antennas(const std::vector<const TagEstimate*>& tags,
+                                           const LocalizationProblem& problem) {
+  std::set<std::string> antennas;
+  for (const TagEstimate* tag : tags) {
+    for (const auto& [antenna, series] : problem.samples.at(tag->tag)) {
+      if (problem.tracks.count(antenna) > 0) antennas.insert(antenna);
+    }
+  }
+  std::vector<SwappedPair> pairs;
+  for (auto one = antennas.begin(); one != antennas.end(); ++one) {
+    for (auto other = std::next(one); other != antennas.end(); ++other) {
+      pairs.emplace_back(*one, *other);
+    }
+  }
+  return pairs;
+}
+
+bool is_read_by(const SamplesOfTag& samples, const SwappedPair& antennas) {
+  return samples.count(antennas.first) + samples.count(antennas.second) > 0;
+}
+
+void refuse_read_by(const LocalizationProblem& problem, const SwappedPair& antennas,
+                    LocalizationResult& result) {
+  for (TagEstimate& estimate : result.estimates) {
+    const auto samples = problem.samples.find(estimate.tag);
+    if (estimate.verdict != Verdict::kLocated || samples == problem.samples.end()) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    if (!is_read_by(samples->second, antennas)) continue;
+    estimate = not_located(std::move(estimate),
+                           fmt::format("antennas '{}' and '{}' read best what is behind them, as "
+                                       "if they were swapped",
+                                       antennas.first, antennas.second));
+  }
+}
+
 }  // namespace
 
 void drop_places_behind(const LocalizationProblem& problem, LocalizationResult& result) {
@@ -167,6 +248,27 @@ void drop_places_behind(const LocalizationProblem& problem, LocalizationResult& 
     drop_behind(all, estimate);
     judge(problem.limits, estimate);
   }
+}
+
+void refuse_swapped_antennas(const LocalizationProblem& problem, LocalizationResult& result,
+                             Diagnostics& diagnostics) {
+  constexpr double kCertain = 3.72;  // Standard deviations: one case in ten thousand.
+  const std::vector<const TagEstimate*> tags = asked(problem, result);
+  if (forward_score(problem, tags, {}) > -kCertain) return;
+  SwappedPair best;
+  double highest = kCertain;
+  for (const SwappedPair& pair : pairs_of_antennas(tags, problem)) {
+    const double score = forward_score(problem, tags, pair);
+    if (score < highest) continue;
+    highest = score;
+    best = pair;
+  }
+  if (best.first.empty()) return;
+  diagnostics.warn(fmt::format(
+      "antennas '{}' and '{}' read best what is behind them, in front of each other: are their "
+      "ports, names or poses swapped? (Antennas look along their x axis.)",
+      best.first, best.second));
+  refuse_read_by(problem, best, result);
 }
 
 }  // namespace tagfield

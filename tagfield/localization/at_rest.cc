@@ -219,18 +219,17 @@ double distance_of(const Eigen::Vector2d& x, const Eigen::Matrix2d& covariance) 
 constexpr double kCertainOfTwo = 27.6;
 constexpr double kCertainOfOne = 23.9;
 constexpr double kCertainGain = 13.8;
-constexpr double kWorse = 3.0;  ///< Times the expected error.
 
 /// Poses that are off for a while look like a motion. `pose_error_m`: by how much they may be.
 bool has_moved(const DepartureFit& fit, const Candidate& claim, double pose_error_m) {
   return fit.misfit_at_rest_m > pose_error_m &&
-         fit.departure.norm() * fit.duration_s > kWorse * claim.expected_error_m &&
+         fit.departure.norm() * fit.duration_s > kElsewhere * claim.expected_error_m &&
          distance_of(fit.departure, fit.covariance.bottomRightCorner<2, 2>()) > kCertainOfTwo;
 }
 
 bool is_elsewhere(const DepartureFit& fit, const Candidate& claim) {
   const Eigen::Vector2d off = fit.place.head<2>() - claim.p_WT.head<2>();
-  return off.norm() > kWorse * claim.expected_error_m &&
+  return off.norm() > kElsewhere * claim.expected_error_m &&
          fit.departure[0] * fit.departure[0] > kCertainOfOne * fit.covariance(3, 3) &&
          distance_of(off, fit.covariance.topLeftCorner<2, 2>()) > kCertainOfTwo;
 }
@@ -270,19 +269,6 @@ RestPoint best_fit(const Followed& of, const PlaceVector& start) {
     }
   }
   return fitted(of, best.unknowns);
-}
-
-/// Whether what a place leaves of the phases is no noise: a departure leaves slow errors.
-bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
-                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
-  constexpr double kSlow = 3.0;  // Reads that are worth one; noise alone leaves 1 to 1.5.
-  const TagPhases phases = coherent_reads(problem, samples);
-  if (phases.size() < kFewestToJudge) return false;
-  const HeightModel height = height_model(problem, tag, phases);
-  const PlaceVector place = to_unknowns(height, p_WT);
-  const Eigen::ArrayXd errors =
-      residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
-  return correlation_factor(phases.spans, errors) > kSlow;
 }
 
 Followed followed(const LocalizationProblem& problem, const std::string& tag, TagPhases phases,
@@ -365,6 +351,25 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
 
 }  // namespace
 
+bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
+                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
+  constexpr double kSlow = 3.0;  // Reads that are worth one; noise alone leaves 1 to 1.5.
+  const TagPhases phases = coherent_reads(problem, samples);
+  if (phases.size() < kFewestToJudge) return false;
+  const HeightModel height = height_model(problem, tag, phases);
+  const PlaceVector place = to_unknowns(height, p_WT);
+  const Eigen::ArrayXd errors =
+      residuals_of(phases, height, {place, offsets_at(phases, height, place), 0.0});
+  return correlation_factor(phases.spans, errors) > kSlow;
+}
+
+void warn_of_latency(double late_s, Diagnostics& diagnostics) {
+  diagnostics.warn(fmt::format(
+      "most tags' phases fit better with reads stamped {:.2f} s {} against the poses: are their "
+      "clocks the same?",
+      std::abs(late_s), late_s > 0.0 ? "late" : "early"));
+}
+
 std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
                                           const std::string& tag, const SamplesOfTag& samples,
                                           const Eigen::Vector3d& p_WT, Departure departure) {
@@ -415,11 +420,7 @@ void refuse_departures(const LocalizationProblem& problem, int threads, Localiza
     estimate = not_located(std::move(estimate), objections[i].why);
   }
   if (late_s.empty() || 2 * late_s.size() <= located) return;
-  const double usual = median(late_s);
-  diagnostics.warn(fmt::format(
-      "most tags' phases fit better with reads stamped {:.2f} s {} against the poses: are their "
-      "clocks the same?",
-      std::abs(usual), usual > 0.0 ? "late" : "early"));
+  warn_of_latency(median(late_s), diagnostics);
 }
 
 }  // namespace tagfield

@@ -12,6 +12,9 @@
 
 namespace tagfield {
 
+/// A place further off than so many times its expected error is not the same place.
+inline constexpr double kElsewhere = 3.0;
+
 /// What else may be so, besides the tag's place.
 enum class Departure {
   kMotion,   ///< The tag moves at one velocity (x, y) [m/s] about its place at the mean stamp.
@@ -38,6 +41,13 @@ struct DepartureFit {
 std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
                                           const std::string& tag, const SamplesOfTag& samples,
                                           const Eigen::Vector3d& p_WT, Departure departure);
+
+/// Whether what a place leaves of the phases is no noise: a departure leaves slow errors.
+bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
+                        const SamplesOfTag& samples, const Eigen::Vector3d& p_WT);
+
+/// Warns that the stamps of reads seem late (early, if below 0) against those of the poses.
+void warn_of_latency(double late_s, Diagnostics& diagnostics);
 
 /// Refuses tags whose phases show that they moved while they were read, by more than three times
 /// what their places are expected to be off, and those that are elsewhere by as much once reads and

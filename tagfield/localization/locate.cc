@@ -7,6 +7,7 @@
 #include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/automatic.h"
 #include "tagfield/localization/circular_polarization.h"
+#include "tagfield/localization/common_latency.h"
 #include "tagfield/localization/confirmation.h"
 #include "tagfield/localization/fixed/fixed.h"
 #include "tagfield/localization/holograms/dah.h"
@@ -91,6 +92,8 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
     refuse_unconfirmed(problem, threads, result);
     span_line(problem, result);
     refuse_wrong_sign(problem, result, diagnostics);
+    refuse_swapped_antennas(problem, result, diagnostics);
+    refuse_common_latency(problem, threads, result, diagnostics);
   } else if (problem.has_phases) {
     refuse_mixtures_by_phase(problem, result);
     refuse_groups(problem, result);

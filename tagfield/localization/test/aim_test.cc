@@ -89,5 +89,49 @@ TEST(Aim, DoesNothingWithoutOrientationOrStrength) {
   EXPECT_EQ(result.estimates.at(0).candidates.size(), 2U);
 }
 
+/// Both antennas, each with the other's poses if they are `swapped`.
+LocalizationResult held_against_aims(LocalizationProblem problem, bool swapped,
+                                     Diagnostics& diagnostics) {
+  if (swapped) std::swap(problem.tracks.at("left"), problem.tracks.at("right"));
+  TagEstimate estimate;
+  estimate.tag = "t";
+  estimate.verdict = Verdict::kLocated;
+  estimate.candidates = {{{3.0, 2.0, 0.4}, 0.01, 0.02}};
+  LocalizationResult result;
+  result.estimates = {estimate};
+  refuse_swapped_antennas(problem, result, diagnostics);
+  return result;
+}
+
+TEST(Aim, SwappedAntennasReadWithTheirBacks) {
+  Rng rng(5);
+  int refused = 0;
+  for (int i = 0; i < 20; ++i) {
+    const LocalizationProblem problem = problem_of({}, rng);
+    Diagnostics fine;
+    EXPECT_EQ(held_against_aims(problem, false, fine).estimates.at(0).verdict, Verdict::kLocated);
+    EXPECT_TRUE(fine.warnings().empty());
+    Diagnostics wrong;
+    const LocalizationResult result = held_against_aims(problem, true, wrong);
+    if (result.estimates.at(0).verdict == Verdict::kLocated) continue;
+    ++refused;
+    ASSERT_EQ(wrong.warnings().size(), 1U);
+    EXPECT_NE(wrong.warnings().front().find("'left' and 'right'"), std::string::npos);
+  }
+  EXPECT_GE(refused, 15);
+}
+
+TEST(Aim, AntennasWithoutAFrontAreNotCalledSwapped) {
+  Rng rng(6);
+  for (int i = 0; i < 200; ++i) {
+    for (const bool swapped : {false, true}) {
+      Diagnostics diagnostics;
+      held_against_aims(problem_of({.front_to_back_db = 0.0, .other_level_db = 3.0}, rng), swapped,
+                        diagnostics);
+      EXPECT_TRUE(diagnostics.warnings().empty()) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tagfield

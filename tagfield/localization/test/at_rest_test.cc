@@ -28,16 +28,6 @@ made::Hall hall_with(const Eigen::Vector3d& velocity, Rng& rng) {
   return hall;
 }
 
-/// Joined with where the antenna was believed to be at the late stamps.
-void make_late(LocalizationProblem& problem, double late_s) {
-  for (auto& [tag, samples] : problem.samples) {
-    for (PhaseSample& sample : samples["a"]) {
-      sample.stamp += duration_from_seconds(late_s);
-      sample.p_WA = held_pose_at(problem.tracks.at("a").X_WA, sample.stamp).translation;
-    }
-  }
-}
-
 DepartureFit fit_of(const made::Hall& hall, const std::string& tag, Departure departure) {
   const auto fit = fit_departure(hall.problem, tag, hall.problem.samples.at(tag),
                                  hall.truth.at(tag) + Eigen::Vector3d(0.05, -0.05, 0.0), departure);
@@ -79,7 +69,7 @@ TEST(AtRest, TellsHowLateStampsAre) {
   Rng rng(2);
   for (const double late_s : {-0.5, 0.2}) {
     made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
-    make_late(hall.problem, late_s);
+    made::make_late(hall, late_s);
     double squares = 0.0;
     for (const auto& [tag, truth] : hall.truth) {
       const DepartureFit fit = fit_of(hall, tag, Departure::kLateness);
@@ -135,7 +125,7 @@ TEST(AtRest, PosesThatMayBeOffAreNoMotion) {
 TEST(AtRest, SaysThatStampsAreLate) {
   Rng rng(5);
   made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
-  make_late(hall.problem, 1.0);
+  made::make_late(hall, 1.0);
   Diagnostics diagnostics;
   const LocalizationResult result = judged("ml", hall, diagnostics);
   EXPECT_EQ(located_tags(result), 0U);

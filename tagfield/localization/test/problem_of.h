@@ -8,6 +8,7 @@
 
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/test/made_reads.h"
+#include "tagfield/poses/trajectory.h"
 
 namespace tagfield::made {
 
@@ -57,6 +58,19 @@ inline void pause(Hall& hall, double after_s, double pause_s) {
   for (auto& [antenna, track] : hall.problem.tracks) shift(track.X_WA);
   for (auto& [tag, of_tag] : hall.problem.samples) {
     for (auto& [antenna, series] : of_tag) shift(series);
+  }
+}
+
+/// Reads with late stamps, joined with where the antenna was believed to be at those.
+inline void make_late(Hall& hall, double late_s) {
+  for (auto& [tag, of_tag] : hall.problem.samples) {
+    for (auto& [antenna, series] : of_tag) {
+      const Trajectory& track = hall.problem.tracks.at(antenna).X_WA;
+      for (PhaseSample& sample : series) {
+        sample.stamp += duration_from_seconds(late_s);
+        sample.p_WA = held_pose_at(track, sample.stamp).translation;
+      }
+    }
   }
 }
 

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/localization/common_latency.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tagfield/base/parallel.h"
+#include "tagfield/base/units.h"
+#include "tagfield/localization/at_rest.h"
+#include "tagfield/localization/holograms/coherent_reads.h"
+#include "tagfield/localization/holograms/hologram.h"
+#include "tagfield/localization/holograms/stretches.h"
+#include "tagfield/localization/judgement.h"
+#include "tagfield/poses/trajectory.h"
+
+namespace tagfield {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+constexpr std::size_t kReads = 400;  ///< Of a tag.
+constexpr std::size_t kMostTags = 40;
+constexpr double kMostTravel = 1.5;    ///< During the latency [m].
+constexpr double kMostLatency = 10.0;  ///< [s]
+constexpr double kCertain = 9.2;       ///< ln of 10⁴.
+constexpr double kLeastSpeed = 1e-3;   ///< Below, no latency shows [m/s].
+
+/// A located tag that is asked.
+struct Witness {
+  std::size_t estimate = 0;
+  TagPhases phases;
+  StretchedReads layout;  ///< About the place; its antennas are put where a latency has them.
+  Vector3d p_WT = Vector3d::Zero();
+};
+
+/// How far and how long antennas went while they read a tag, but for pauses.
+struct Travelled {
+  double metres = 0.0;
+  double seconds = 0.0;
+};
+
+Travelled travelled(const TagPhases& phases) {
+  constexpr double kPause = 2.0;  // [s]
+  Travelled sum;
+  for (const TagPhases::Span& span : phases.spans) {
+    for (Index i = span.begin + 1; i < span.begin + span.count; ++i) {
+      const double seconds = phases.time_s[i] - phases.time_s[i - 1];
+      if (seconds > kPause) continue;
+      sum.metres += std::hypot(phases.x[i] - phases.x[i - 1], phases.y[i] - phases.y[i - 1]);
+      sum.seconds += seconds;
+    }
+  }
+  return sum;
+}
+
+bool have_tracks(const LocalizationProblem& problem, const TagPhases& phases) {
+  return std::all_of(phases.spans.begin(), phases.spans.end(), [&](const TagPhases::Span& span) {
+    const auto track = problem.tracks.find(span.antenna);
+    return track != problem.tracks.end() && !track->second.X_WA.empty();
+  });
+}
+
+/// Where the antenna of a read was `late_s` before its stamp [m].
+Vector3d antenna_before(const LocalizationProblem& problem, const std::string& antenna, Time stamp,
+                        double late_s) {
+  const Trajectory& track = problem.tracks.at(antenna).X_WA;
+  return held_pose_at(track, stamp - duration_from_seconds(late_s)).translation;
+}
+
+/// Puts the antennas of a layout where they were `late_s` before the reads' stamps.
+void move_antennas(const LocalizationProblem& problem, double late_s, Witness& witness) {
+  for (const TagPhases::Span& span : witness.phases.spans) {
+    for (Index i = span.begin; i < span.begin + span.count; ++i) {
+      const Time stamp = time_from_seconds(witness.phases.time_s[i]);
+      const Vector3d p_TA = antenna_before(problem, span.antenna, stamp, late_s) - witness.p_WT;
+      SearchRead& read = witness.layout.reads.reads[static_cast<std::size_t>(i)];
+      read.x = static_cast<float>(p_TA.x());
+      read.y = static_cast<float>(p_TA.y());
+      read.z = static_cast<float>(p_TA.z());
+    }
+  }
+}
+
+/// Travel of antennas during a latency, to its end, of a tag's reads in one direction.
+struct Travel {
+  Vector3d sum = Vector3d::Zero();  ///< Level [m].
+  std::size_t reads = 0;
+  [[nodiscard]] Vector3d mean() const { return sum / static_cast<double>(reads); }
+};
+
+/// By eighths of a circle: a tag is read on its way there and back.
+std::vector<Travel> travels_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                               double late_s) {
+  constexpr int kDirections = 8;
+  std::vector<Travel> by_direction(kDirections);
+  for (const auto& [antenna, series] : samples) {
+    const auto track = problem.tracks.find(antenna);
+    if (track == problem.tracks.end() || track->second.X_WA.empty()) continue;
+    for (const PhaseSample& sample : series) {
+      Vector3d travel = sample.p_WA - antenna_before(problem, antenna, sample.stamp, late_s);
+      travel.z() = 0.0;
+      const double turns = std::atan2(travel.y(), travel.x()) / kTwoPi + 1.0;
+      Travel& of_direction =
+          by_direction[static_cast<std::size_t>(std::lround(turns * kDirections) % kDirections)];
+      of_direction.sum += travel;
+      ++of_direction.reads;
+    }
+  }
+  return by_direction;
+}
+
+/// Where a latency may move a tag's place to: against the antennas' travel in each direction in
+/// which a tenth of its reads were taken [m].
+std::vector<Vector3d> moves_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                               double late_s) {
+  if (late_s == 0.0) return {Vector3d::Zero()};
+  const std::vector<Travel> travels = travels_of(problem, samples, late_s);
+  std::size_t reads = 0;
+  for (const Travel& travel : travels) reads += travel.reads;
+  std::vector<Vector3d> moves;
+  for (const Travel& travel : travels) {
+    if (travel.reads > 0 && 10 * travel.reads >= reads) moves.emplace_back(-travel.mean());
+  }
+  return moves;
+}
+
+/// How far the antennas went in the mean during a latency, while they read a tag [m].
+double mean_travel(const LocalizationProblem& problem, const SamplesOfTag& samples, double late_s) {
+  double sum = 0.0;
+  std::size_t reads = 0;
+  for (const Travel& travel : travels_of(problem, samples, late_s)) {
+    sum += travel.sum.norm();
+    reads += travel.reads;
+  }
+  return reads == 0 ? 0.0 : sum / static_cast<double>(reads);
+}
+
+struct LikelyMove {
+  Vector3d move = Vector3d::Zero();  ///< From the witness's place [m].
+  double log_likelihood = 0.0;
+};
+
+/// The likeliest of a square of places, so many steps to each side.
+LikelyMove likeliest_about(const Witness& witness, const Vector3d& middle, int steps, double step) {
+  std::vector<Vector3d> moves;
+  for (int i = -steps; i <= steps; ++i) {
+    for (int j = -steps; j <= steps; ++j) moves.emplace_back(middle + step * Vector3d(i, j, 0.0));
+  }
+  const std::vector<double> likelihoods =
+      by_tiles(moves, [&](const Tile& x, const Tile& y, const Tile& z) {
+        return stretch_likelihood(witness.layout, kForPlaces, x, y, z);
+      });
+  const auto best = std::max_element(likelihoods.begin(), likelihoods.end());
+  return {moves[static_cast<std::size_t>(best - likelihoods.begin())], *best};
+}
+
+/// ln of the likelihood of the best place within 0.2 m of where the latency may move a witness's.
+double log_likelihood_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                         double late_s, Witness& witness) {
+  move_antennas(problem, late_s, witness);
+  LikelyMove best{Vector3d::Zero(), -std::numeric_limits<double>::infinity()};
+  for (const Vector3d& move : moves_of(problem, samples, late_s)) {
+    const LikelyMove there = likeliest_about(witness, move, 10, 0.02);
+    if (there.log_likelihood > best.log_likelihood) best = there;
+  }
+  for (const double step : {0.007, 0.0025}) best = likeliest_about(witness, best.move, 3, step);
+  return best.log_likelihood;
+}
+
+std::vector<std::size_t> may_testify(const LocalizationProblem& problem,
+                                     const LocalizationResult& result) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const TagEstimate& estimate = result.estimates[i];
+    if (estimate.verdict != Verdict::kLocated) continue;
+    if (problem.samples.count(estimate.tag) == 0 ||
+        problem.reference_tags.count(estimate.tag) > 0) {
+      continue;
+    }
+    all.push_back(i);
+  }
+  return all;
+}
+
+/// Evenly taken from all that may.
+std::vector<std::size_t> some_of(const std::vector<std::size_t>& all) {
+  const std::size_t stride = (all.size() + kMostTags - 1) / kMostTags;
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(stride, 1)) {
+    some.push_back(all[i]);
+  }
+  return some;
+}
+
+std::optional<Witness> witness_of(const LocalizationProblem& problem,
+                                  const LocalizationResult& result, std::size_t index) {
+  const TagEstimate& estimate = result.estimates[index];
+  const SamplesOfTag& samples = problem.samples.at(estimate.tag);
+  const Vector3d& p_WT = estimate.candidates.front().p_WT;
+  if (!leaves_slow_errors(problem, estimate.tag, samples, p_WT)) return std::nullopt;
+  Witness witness{index, thinned(coherent_reads(problem, samples), kReads), {}, p_WT};
+  if (!have_tracks(problem, witness.phases)) return std::nullopt;
+  const double wavelength = 2.0 * problem.multiple() * longest_cycle(witness.phases);
+  witness.layout = stretched_reads(witness.phases, wavelength, p_WT.z(), p_WT.head<2>());
+  return witness;
+}
+
+std::vector<Witness> witnesses_of(const LocalizationProblem& problem, int threads,
+                                  const LocalizationResult& result) {
+  const std::vector<std::size_t> some = some_of(may_testify(problem, result));
+  std::vector<std::optional<Witness>> found(some.size());
+  parallel_for(some.size(), threads,
+               [&](std::size_t i) { found[i] = witness_of(problem, result, some[i]); });
+  std::vector<Witness> witnesses;
+  for (std::optional<Witness>& one : found) {
+    if (one) witnesses.push_back(std::move(*one));
+  }
+  return witnesses;
+}
+
+/// Latencies to look at, 0 first: antennas travel an eighth of a wavelength from one to the next.
+std::vector<double> latencies_for(const LocalizationProblem& problem,
+                                  const std::vector<Witness>& witnesses) {
+  Travelled sum;
+  double wavelength = 0.0;
+  for (const Witness& witness : witnesses) {
+    const Travelled one = travelled(witness.phases);
+    sum.metres += one.metres;
+    sum.seconds += one.seconds;
+    wavelength = std::max(wavelength, 2.0 * problem.multiple() * longest_cycle(witness.phases));
+  }
+  std::vector<double> all{0.0};
+  const double speed = sum.seconds > 0.0 ? sum.metres / sum.seconds : 0.0;
+  if (!(speed > kLeastSpeed)) return all;
+  const double step = wavelength / 8.0 / speed;
+  const double most = std::min(kMostTravel / speed, kMostLatency);
+  for (int k = 1; k * step <= most; ++k) {
+    all.push_back(k * step);
+    all.push_back(-k * step);
+  }
+  return all;
+}
+
+struct CommonLatency {
+  double late_s = 0.0;
+  double log_gain = 0.0;
+  std::size_t in_favour = 0;  ///< Witnesses.
+};
+
+/// The likeliest of `latencies`, the first of which is 0, by witnesses' log-likelihoods of each.
+CommonLatency likeliest_of(const std::vector<double>& latencies,
+                           const std::vector<std::vector<double>>& of_witnesses) {
+  CommonLatency best;
+  for (std::size_t k = 1; k < latencies.size(); ++k) {
+    CommonLatency one{latencies[k]};
+    for (const std::vector<double>& log_likelihoods : of_witnesses) {
+      const double gain = log_likelihoods[k] - log_likelihoods[0];
+      one.log_gain += gain;
+      if (gain > 0.0) ++one.in_favour;
+    }
+    if (one.log_gain > best.log_gain) best = one;
+  }
+  return best;
+}
+
+void refuse_moved(const LocalizationProblem& problem, double late_s, LocalizationResult& result) {
+  for (const std::size_t i : may_testify(problem, result)) {
+    TagEstimate& estimate = result.estimates[i];
+    const Candidate& claim = estimate.candidates.front();
+    const double moved = mean_travel(problem, problem.samples.at(estimate.tag), late_s);
+    if (moved < kElsewhere * claim.expected_error_m) continue;
+    estimate = not_located(std::move(estimate),
+                           fmt::format("the phases of all tags fit reads stamped {:.2f} s {} "
+                                       "against the poses, which puts it {:.2f} m elsewhere",
+                                       std::abs(late_s), late_s > 0.0 ? "late" : "early", moved));
+  }
+}
+
+}  // namespace
+
+void refuse_common_latency(const LocalizationProblem& problem, int threads,
+                           LocalizationResult& result, Diagnostics& diagnostics) {
+  if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
+  std::vector<Witness> witnesses = witnesses_of(problem, threads, result);
+  const std::vector<double> latencies = latencies_for(problem, witnesses);
+  std::vector<std::vector<double>> log_likelihoods(witnesses.size());
+  parallel_for(witnesses.size(), threads, [&](std::size_t i) {
+    const std::string& tag = result.estimates[witnesses[i].estimate].tag;
+    for (const double late_s : latencies) {
+      log_likelihoods[i].push_back(
+          log_likelihood_of(problem, problem.samples.at(tag), late_s, witnesses[i]));
+    }
+  });
+  const CommonLatency best = likeliest_of(latencies, log_likelihoods);
+  if (best.log_gain < kCertain || 2 * best.in_favour < witnesses.size()) return;
+  warn_of_latency(best.late_s, diagnostics);
+  refuse_moved(problem, best.late_s, result);
+}
+
+}  // namespace tagfield
