@@ -12,6 +12,11 @@
 #include <vector>
 
 #include "adapters/gazebo_common/gz_names.h"
+#if defined(TAGFIELD_GZ_IS_IGNITION)
+#include <ignition/msgs/Factory.hh>
+#else
+#include <gz/msgs/Factory.hh>
+#endif
 
 namespace tagfield {
 namespace {
@@ -139,6 +144,14 @@ TEST(TransportPublisher, KeepsNameSpacesApart) {
   Heard<msgs::TagReads> here("/hall_2/rfid/reads");
   publisher.on_update(antenna, at(5));
   ASSERT_EQ(here.wait_for(1).size(), 1U);
+}
+
+/// `ign topic` and `gz topic` show no message whose descriptor they don't find.
+TEST(TransportPublisher, SendsWhatTheCommandOfGazeboCanShow) {
+  gz_msgs::Factory::LoadDescriptors(TAGFIELD_GZ_DESCRIPTORS);
+  for (const std::string type : {"TagReads", "AntennaTruth", "TagPositions"}) {
+    EXPECT_TRUE(gz_msgs::Factory::New("tagfield.msgs." + type)) << type;
+  }
 }
 
 }  // namespace
