@@ -119,6 +119,8 @@ void TransportPublisher::on_antenna_pose(const AntennaInfo& antenna, const Anten
 }
 
 void TransportPublisher::on_update(const AntennaInfo& antenna, Time stamp) {
+  // Tags at rest are not placed again, and who came late has not heard of them.
+  if (are_tags_due(stamp)) publish_tags(stamp);
   const Update update = std::exchange(updates_[antenna.name], {});
   AntennaTopics& topics = topics_in(antenna.name_space);
   if (topics.reads.HasConnections()) {
@@ -154,6 +156,10 @@ void TransportPublisher::on_tag_moved(const TagPosition& tag) {
   moved_.insert(tag.tag);
 }
 
+bool TransportPublisher::are_tags_due(Time stamp) const {
+  return has_changed_ || told_ == Time::min() || stamp - told_ >= kTagsInterval;
+}
+
 void TransportPublisher::publish_tags(Time stamp) {
   has_changed_ = false;
   told_ = stamp;
@@ -165,7 +171,7 @@ void TransportPublisher::publish_tags(Time stamp) {
 }
 
 void TransportPublisher::on_tags_placed(Time stamp) {
-  if (has_changed_ || told_ == Time::min() || stamp - told_ >= kTagsInterval) publish_tags(stamp);
+  if (are_tags_due(stamp)) publish_tags(stamp);
   const std::set<std::string> moved = std::exchange(moved_, {});
   if (moved.empty() || !topics_->moved.HasConnections()) return;
   msgs::TagPositions message;

@@ -51,6 +51,7 @@ class TransportPublisher final : public ReadListener, public TruthListener {
     std::vector<double> distances_m;
   };
   AntennaTopics& topics_in(const std::string& name_space);
+  [[nodiscard]] bool are_tags_due(Time stamp) const;
   void publish_tags(Time stamp);
 
   std::unique_ptr<Topics> topics_;

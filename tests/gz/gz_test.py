@@ -137,6 +137,46 @@ def a_reset_begins_anew(context):
 
 
 @case
+def time_goes_back_and_reads_go_on(context):
+    """From 3 s to 1 s: antennas are due from there on, tags that came later are still there."""
+    late = context.write("tag.sdf", f'<sdf version="1.8">{tag("late", 3, 0, 1)}</sdf>')
+    said = serve(context, world(antenna("gate", 0, 0, 1), tag("first", 2, 0, 1)),
+                 ["run 2", f"create {late}", "run 1", "seek 1", "run 3"])
+    check_equal(errors(said), [], "errors")
+    folder = context.folder / "located"
+    result = context.run_well("localize", context.folder / "run.mcap", "--tag-height", "1", "--out",
+                              folder)
+    # Of 2 s with the first tag and 1 s with both.
+    repeated = re.search(r"(\d+) reads repeat the stamp, antenna and tag", result.err)
+    check(repeated and 40 <= int(repeated.group(1)) <= 46, f"{result.err!r} tells of no way back")
+    stamps = [float(read["stamp_s"]) for read in read_csv(folder / "reads.csv")
+              if read["tag"] == "late"]
+    check(1.0 <= min(stamps) <= 1.07 and 3.9 <= max(stamps) <= 4.002,
+          f"the tag that came is read from {min(stamps)} s to {max(stamps)} s")
+
+
+@case
+def gazebos_own_topics_and_its_window_are_told(context):
+    """Also who comes late, and of tags that stay where they are."""
+    said = serve(context, world(antenna("gate", 0, 0, 1, "<range>5</range>"), tag("near", 2, 0, 1),
+                                tag("far", 20, 0, 1)),
+                 ["run 1", "hear /rfid/reads", "hear /rfid/truth/antennas", "hear /rfid/truth/tags",
+                  "hear /rfid/truth/tags_moved", "window", "run 3", "pose far 21 0 1 0", "run 1"])
+    heard = {topic: (kind, int(count)) for topic, kind, count in
+             re.findall(r"^heard (\S+) (\S+) (\d+)$", said, re.MULTILINE)}
+    for topic, kind, least, most in (
+            ("/rfid/reads", "TagReads", 59, 61), ("/rfid/truth/antennas", "AntennaTruth", 59, 61),
+            ("/rfid/truth/tags", "TagPositions", 4, 5), ("/rfid/truth/tags_moved", "TagPositions", 1, 1)):
+        found, count = heard.get(topic, ("nothing", 0))
+        check_equal(found, f"tagfield.msgs.{kind}", topic)
+        check(least <= count <= most, f"{count} messages on {topic}")
+    shown = re.findall(r"^marker (\S+) \d+ (\d+)$", said, re.MULTILINE)
+    check_equal(sorted(name for name, _ in shown),
+                ["tagfield_antennas"] * 2 + ["tagfield_tags"] * 2, "markers: arrow, ball, two shades")
+    check_equal({points for name, points in shown if name == "tagfield_tags"}, {"24"}, "points of a tag")
+
+
+@case
 def names_are_those_of_gazebo_11(context):
     """IDs of tags without an EPC, and antennas of one name."""
     two = sensor("left", "rfid_tag") + sensor("right", "rfid_tag", "<epc>E28011</epc>")

@@ -8,13 +8,18 @@
 //   remove MODEL
 //   pose MODEL X Y Z YAW   moves it there
 //   reset                  the world begins anew
+//   seek SECONDS           simulated time goes there
+//   hear TOPIC             from now on its messages are counted
+//   window                 from now on there is one that shows markers
 //
-// Prints the simulated time at the end, and the wall time that `run` took. Exit code 1 if a request
-// is refused.
+// Prints the wall time that `run` took, and what was heard: `heard TOPIC TYPE COUNT` and `marker
+// NAME_SPACE ID POINTS`, of the last state of each. Exit code 1 if a request is refused.
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <string>
 
@@ -22,6 +27,8 @@
 #include <ignition/msgs/boolean.pb.h>
 #include <ignition/msgs/entity.pb.h>
 #include <ignition/msgs/entity_factory.pb.h>
+#include <ignition/msgs/log_playback_control.pb.h>
+#include <ignition/msgs/marker.pb.h>
 #include <ignition/msgs/pose.pb.h>
 #include <ignition/msgs/world_control.pb.h>
 
@@ -36,6 +43,8 @@ namespace common = ignition::common;
 #include <gz/msgs/boolean.pb.h>
 #include <gz/msgs/entity.pb.h>
 #include <gz/msgs/entity_factory.pb.h>
+#include <gz/msgs/log_playback_control.pb.h>
+#include <gz/msgs/marker.pb.h>
 #include <gz/msgs/pose.pb.h>
 #include <gz/msgs/world_control.pb.h>
 
@@ -80,6 +89,15 @@ class Script {
       return ask("remove", request);
     }
     if (what == "pose") return ask("set_pose", pose_in(words));
+    if (what == "seek") {
+      messages::LogPlaybackControl request;
+      std::int64_t seconds = 0;
+      words >> seconds;
+      request.mutable_seek()->set_sec(seconds);
+      return ask("playback/control", request);
+    }
+    if (what == "hear") return hear(words);
+    if (what == "window") return node_.Advertise("/marker", &Script::show, this);
     if (what == "reset") {
       messages::WorldControl request;
       request.set_pause(false);
@@ -90,7 +108,14 @@ class Script {
     return false;
   }
 
-  [[nodiscard]] double wall_s() const { return wall_s_; }
+  void report() {
+    std::cout << "wall " << wall_s_ << "\n";
+    const std::lock_guard lock(mutex_);
+    for (const auto& [what, count] : heard_) std::cout << "heard " << what << " " << count << "\n";
+    for (const auto& [which, points] : shown_) {
+      std::cout << "marker " << which.first << " " << which.second << " " << points << "\n";
+    }
+  }
 
  private:
   static messages::Pose pose_in(std::istream& words) {
@@ -106,6 +131,26 @@ class Script {
     request.mutable_orientation()->set_w(std::cos(0.5 * yaw));
     request.mutable_orientation()->set_z(std::sin(0.5 * yaw));
     return request;
+  }
+
+  bool hear(std::istream& words) {
+    std::string topic;
+    words >> topic;
+    return node_.SubscribeRaw(
+        topic, [this, topic](const char*, std::size_t, const transport::MessageInfo& info) {
+          const std::lock_guard lock(mutex_);
+          ++heard_[topic + " " + info.Type()];
+        });
+  }
+
+  void show(const messages::Marker& marker) {
+    const std::lock_guard lock(mutex_);
+    const std::pair<std::string, std::uint64_t> which(marker.ns(), marker.id());
+    if (marker.action() == messages::Marker::DELETE_MARKER) {
+      shown_.erase(which);
+    } else {
+      shown_[which] = marker.point_size();
+    }
   }
 
   bool run(std::uint64_t steps) {
@@ -128,8 +173,11 @@ class Script {
 
   sim::Server& server_;
   std::string world_;
-  transport::Node node_;
   double wall_s_ = 0.0;
+  std::mutex mutex_;
+  std::map<std::string, int> heard_;                            ///< Messages, by topic and type.
+  std::map<std::pair<std::string, std::uint64_t>, int> shown_;  ///< Points of each marker.
+  transport::Node node_;  // Last, as it calls back until it goes.
 };
 
 }  // namespace
@@ -151,6 +199,6 @@ int main(int argc, char** argv) {
   while (std::getline(lines, line)) {
     if (!line.empty() && !script.act(line)) return 1;
   }
-  std::cout << "wall " << script.wall_s() << "\n";
+  script.report();
   return 0;
 }

@@ -136,6 +136,23 @@ TEST(TransportPublisher, TellsAllTagsAgainAndMovedOnesAtOnce) {
   ASSERT_EQ(changes[0].tags_size(), 1);
 }
 
+TEST(TransportPublisher, TellsWhoComesLateOfTagsAtRest) {
+  TransportPublisher publisher;
+  publisher.on_antenna_added(gate());
+  publisher.on_tag_added({at(0), "a", {1.0, 0.0, 0.0}}, "");
+  publisher.on_tags_placed(at(0));
+  Heard<msgs::TagPositions> late("/rfid/truth/tags");
+  publisher.on_update(gate(), at(500'000'000));
+  publisher.on_update(gate(), at(1'000'000'000));
+  publisher.on_update(gate(), at(1'500'000'000));
+  publisher.on_update(gate(), at(2'000'000'000));
+  const std::vector<msgs::TagPositions> messages = late.wait_for(2);
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(messages[0].stamp().sec(), 1);
+  ASSERT_EQ(messages[1].tags_size(), 1);
+  EXPECT_EQ(messages[1].tags(0).position().x(), 1.0);
+}
+
 TEST(TransportPublisher, KeepsNameSpacesApart) {
   TransportPublisher publisher;
   AntennaInfo antenna = gate();
