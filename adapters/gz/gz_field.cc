@@ -42,7 +42,8 @@ GzField::GzField(Outlets outlets, RadioWorldOptions materials)
               {[](const std::string& warning) { tell_warning("Tagfield: " + warning); },
                [](const std::string& error) { tell_error("Tagfield: " + error); }}) {}
 
-GzField::Cost GzField::cost() const {
+GzField::Cost GzField::finish() {
+  worker_.finish();
   Cost cost = cost_;
   cost.work = worker_.done();
   return cost;

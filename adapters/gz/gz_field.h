@@ -35,7 +35,8 @@ class GzField {
     double step_s = 0.0;       ///< Wall time that gz-sim waited in them.
     WorkDone work;
   };
-  [[nodiscard]] Cost cost() const;
+  /// With all that was still to be told; no step may follow.
+  [[nodiscard]] Cost finish();
 
  private:
   struct TagGroup {

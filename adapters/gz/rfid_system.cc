@@ -102,8 +102,8 @@ class Rfid final : public gz_sim::System,
   Rfid& operator=(const Rfid&) = delete;
   ~Rfid() override {
     if (!field_) return;
-    report_cost(field_->cost());
-    field_.reset();  // With all that was still to be told.
+    report_cost(field_->finish());
+    field_.reset();
     for (const auto& sink : sinks_) attempt("", [&] { sink->finish(); });
   }
 

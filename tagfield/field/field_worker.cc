@@ -22,12 +22,15 @@ double cpu_time_s() {
 FieldWorker::FieldWorker(Outlets outlets, FieldConsole console)
     : field_(std::move(outlets)), console_(std::move(console)), thread_([this] { work(); }) {}
 
-FieldWorker::~FieldWorker() {
+FieldWorker::~FieldWorker() { finish(); }
+
+void FieldWorker::finish() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
   changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
 }
 
 void FieldWorker::post(FieldStep step) {

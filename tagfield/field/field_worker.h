@@ -42,6 +42,9 @@ class FieldWorker {
   /// faster than its reads can be made is held back and loses none.
   void post(FieldStep step);
 
+  /// Waits for all steps that are waiting; nothing may be posted afterwards.
+  void finish();
+
   [[nodiscard]] WorkDone done() const;
 
  private:

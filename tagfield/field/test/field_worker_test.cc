@@ -59,6 +59,14 @@ TEST(FieldWorker, TakesAllStepsInOrderWhileOthersAskHowFarItIs) {
   EXPECT_LE(seen, kSteps);
 }
 
+TEST(FieldWorker, CountsAllReadsOnceItHasFinished) {
+  FieldWorker worker({}, {});
+  const auto antenna = gate();
+  for (int i = 0; i < kSteps; ++i) worker.post(step(antenna, i));
+  worker.finish();
+  EXPECT_EQ(worker.done().reads, kSteps);
+}
+
 TEST(FieldWorker, ComplainsOfAStepAndTakesTheNext) {
   const auto log = std::make_shared<Log>();
   std::vector<std::string> complaints;
