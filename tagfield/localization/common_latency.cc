@@ -25,10 +25,14 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr std::size_t kReads = 400;  ///< Of a tag.
-constexpr std::size_t kMostTags = 40;
-constexpr double kMostTravel = 1.5;    ///< During the latency [m].
+/// Of a tag. Few reads tell a latency that is none now and then, or none where there is one: they
+/// only say whether to look with many.
+constexpr std::size_t kFewReads = 400;
+constexpr std::size_t kManyReads = 3000;
+constexpr std::size_t kMostTags = 20;
+constexpr double kMostTravel = 1.2;    ///< During the latency [m].
 constexpr double kMostLatency = 10.0;  ///< [s]
+constexpr double kSuspicious = 4.6;    ///< ln of 10².
 constexpr double kCertain = 9.2;       ///< ln of 10⁴.
 constexpr double kLeastSpeed = 1e-3;   ///< Below, no latency shows [m/s].
 
@@ -200,12 +204,13 @@ std::vector<std::size_t> some_of(const std::vector<std::size_t>& all) {
 }
 
 std::optional<Witness> witness_of(const LocalizationProblem& problem,
-                                  const LocalizationResult& result, std::size_t index) {
+                                  const LocalizationResult& result, std::size_t index,
+                                  std::size_t reads) {
   const TagEstimate& estimate = result.estimates[index];
   const SamplesOfTag& samples = problem.samples.at(estimate.tag);
   const Vector3d& p_WT = estimate.candidates.front().p_WT;
   if (!leaves_slow_errors(problem, estimate.tag, samples, p_WT)) return std::nullopt;
-  Witness witness{index, thinned(coherent_reads(problem, samples), kReads), {}, p_WT};
+  Witness witness{index, thinned(coherent_reads(problem, samples), reads), {}, p_WT};
   if (!have_tracks(problem, witness.phases)) return std::nullopt;
   const double wavelength = 2.0 * problem.multiple() * longest_cycle(witness.phases);
   witness.layout = stretched_reads(witness.phases, wavelength, p_WT.z(), p_WT.head<2>());
@@ -213,11 +218,11 @@ std::optional<Witness> witness_of(const LocalizationProblem& problem,
 }
 
 std::vector<Witness> witnesses_of(const LocalizationProblem& problem, int threads,
-                                  const LocalizationResult& result) {
+                                  const LocalizationResult& result, std::size_t reads) {
   const std::vector<std::size_t> some = some_of(may_testify(problem, result));
   std::vector<std::optional<Witness>> found(some.size());
   parallel_for(some.size(), threads,
-               [&](std::size_t i) { found[i] = witness_of(problem, result, some[i]); });
+               [&](std::size_t i) { found[i] = witness_of(problem, result, some[i], reads); });
   std::vector<Witness> witnesses;
   for (std::optional<Witness>& one : found) {
     if (one) witnesses.push_back(std::move(*one));
@@ -270,6 +275,26 @@ CommonLatency likeliest_of(const std::vector<double>& latencies,
   return best;
 }
 
+/// The latency that so many reads a tag tell [s]; none that is not likelier than none by
+/// `least_gain`.
+std::optional<double> latency_by(const LocalizationProblem& problem, int threads,
+                                 const LocalizationResult& result, std::size_t reads,
+                                 double least_gain) {
+  std::vector<Witness> witnesses = witnesses_of(problem, threads, result, reads);
+  const std::vector<double> latencies = latencies_for(problem, witnesses);
+  std::vector<std::vector<double>> log_likelihoods(witnesses.size());
+  parallel_for(witnesses.size(), threads, [&](std::size_t i) {
+    const std::string& tag = result.estimates[witnesses[i].estimate].tag;
+    for (const double late_s : latencies) {
+      log_likelihoods[i].push_back(
+          log_likelihood_of(problem, problem.samples.at(tag), late_s, witnesses[i]));
+    }
+  });
+  const CommonLatency best = likeliest_of(latencies, log_likelihoods);
+  if (best.log_gain < least_gain || 2 * best.in_favour < witnesses.size()) return std::nullopt;
+  return best.late_s;
+}
+
 void refuse_moved(const LocalizationProblem& problem, double late_s, LocalizationResult& result) {
   for (const std::size_t i : may_testify(problem, result)) {
     TagEstimate& estimate = result.estimates[i];
@@ -288,20 +313,11 @@ void refuse_moved(const LocalizationProblem& problem, double late_s, Localizatio
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics) {
   if (!result.corrected_poses.empty() && !has_exact_poses(problem)) return;
-  std::vector<Witness> witnesses = witnesses_of(problem, threads, result);
-  const std::vector<double> latencies = latencies_for(problem, witnesses);
-  std::vector<std::vector<double>> log_likelihoods(witnesses.size());
-  parallel_for(witnesses.size(), threads, [&](std::size_t i) {
-    const std::string& tag = result.estimates[witnesses[i].estimate].tag;
-    for (const double late_s : latencies) {
-      log_likelihoods[i].push_back(
-          log_likelihood_of(problem, problem.samples.at(tag), late_s, witnesses[i]));
-    }
-  });
-  const CommonLatency best = likeliest_of(latencies, log_likelihoods);
-  if (best.log_gain < kCertain || 2 * best.in_favour < witnesses.size()) return;
-  warn_of_latency(best.late_s, diagnostics);
-  refuse_moved(problem, best.late_s, result);
+  if (!latency_by(problem, threads, result, kFewReads, kSuspicious)) return;
+  const std::optional<double> late_s = latency_by(problem, threads, result, kManyReads, kCertain);
+  if (!late_s) return;
+  warn_of_latency(*late_s, diagnostics);
+  refuse_moved(problem, *late_s, result);
 }
 
 }  // namespace tagfield

@@ -13,7 +13,7 @@ namespace tagfield {
 /// (stretches.h), summed over the located tags whose phases leave slow errors; it must be likelier
 /// than none by more than chance makes it in one case of ten thousand, and with half of these tags.
 /// Amid reflections one tag's phases hardly tell it (at_rest.h). A warning says what it is.
-/// Latencies over which the antennas travel up to 1.5 m are looked for. Not of methods that correct
+/// Latencies over which the antennas travel up to 1.2 m are looked for. Not of methods that correct
 /// poses.
 void refuse_common_latency(const LocalizationProblem& problem, int threads,
                            LocalizationResult& result, Diagnostics& diagnostics);

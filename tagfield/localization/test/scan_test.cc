@@ -164,7 +164,7 @@ TEST(Scan, WithoutASideBothAreNamed) {
 
 TEST(Scan, NothingOfRandomPhases) {
   Rng rng(5);
-  constexpr int kTags = 200;
+  constexpr int kTags = 60;
   int claims = 0;
   LocalizationProblem problem =
       problem_of(std::vector<Eigen::Vector2d>(kTags, {0.5, 0.7}), 0.0, rng);
