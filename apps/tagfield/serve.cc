@@ -148,6 +148,9 @@ void print_addresses(const llrp::LlrpServer& server) {
   for (const llrp::LlrpAddress& reader : server.addresses()) {
     fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
   }
+  if (!server.addresses().empty()) {
+    fmt::print("Readers are silent until LLRP clients start them.\n");
+  }
 }
 
 int serve(ServeArguments arguments) {

@@ -610,6 +610,16 @@ def real_plan_is_drawn_in_place_of_the_tags(context):
 
 
 @case
+def silent_readers_are_explained(context):
+    one = shared_of(context).chromium
+    one.screen()
+    with served(context, context.shipped("portal"), "--llrp", "0") as server:
+        one.open(server.addresses["http"])
+        one.wait("view.time?.silent.textContent.includes('wait for a client')",
+                 "the page says why nothing is read")
+
+
+@case
 def real_server_is_shown(context):
     shared = shared_of(context)
     if context.run("serve", "--help").code != 0:
@@ -623,6 +633,7 @@ def real_server_is_shown(context):
                 raise Skip("this tagfield was built without its page")
         one.open(address)
         one.wait("view.stage.frames > 10 && world.time > 1", "frames come")
+        check_equal(one.ask("view.time.silent.textContent"), "", "what is said of silent readers")
         one.wait("world.strength.some((one) => one < 0)", "tags are read")
         select(one, "tag", "tag4")
         one.wait("at.detail.querySelectorAll('table').length === 3", "the link budget is there")

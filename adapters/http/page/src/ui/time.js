@@ -13,9 +13,10 @@ export class TimeBar {
     this.pause = h("button", {type: "button", class: "pause", onclick: () => this.toggle()});
     this.clock = h("output", {class: "clock", "aria-label": "Simulated time"});
     this.numbers = h("span", {class: "numbers"});
+    this.silent = h("span", {class: "numbers", role: "status"});
     this.dropped = h("span", {class: "dropped", role: "status"});
     at.time.replaceChildren(
-      this.pause, ...(recording ? this.#recorded() : this.#live()), this.numbers, this.dropped);
+      this.pause, ...(recording ? this.#recorded() : this.#live()), this.numbers, this.silent, this.dropped);
   }
 
   #speeds(choices, change) {
@@ -106,6 +107,9 @@ export class TimeBar {
     const rate = world.antennas.reduce((sum, one) => sum + one.rate, 0);
     const pace = this.recording || world.paused ? "" : ` · ${fixed(world.pace)} × real time`;
     setText(this.numbers, `${fixed(rate, 0)} reads/s${pace}`);
+    const isOff = (antenna) => antenna.on === false || antenna.faulty;
+    const noneIsOn = !this.recording && world.antennas.length > 0 && world.antennas.every(isOff);
+    setText(this.silent, noneIsOn ? "No antenna is on: readers over LLRP wait for a client" : "");
     setText(
       this.dropped, world.dropped ? `${world.dropped} reads not shown: this page is too slow` : "");
     if (!this.recording && this.speed !== this.speed.getRootNode().activeElement)
