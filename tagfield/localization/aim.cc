@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/at_rest.h"
 #include "tagfield/localization/holograms/stretches.h"
 #include "tagfield/localization/judgement.h"
 
@@ -176,14 +177,10 @@ void drop_behind(const std::vector<AimedSeries>& all, TagEstimate& estimate) {
 std::vector<const TagEstimate*> asked(const LocalizationProblem& problem,
                                       const LocalizationResult& result) {
   constexpr std::size_t kMostTags = 40;
-  std::vector<const TagEstimate*> all;
-  for (const TagEstimate& estimate : result.estimates) {
-    if (estimate.verdict != Verdict::kLocated || problem.samples.count(estimate.tag) == 0) continue;
-    if (problem.reference_tags.count(estimate.tag) == 0) all.push_back(&estimate);
-  }
   std::vector<const TagEstimate*> some;
-  const std::size_t stride = all.size() / kMostTags + 1;
-  for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  for (const std::size_t i : some_of(claimed_tags(problem, result), kMostTags)) {
+    some.push_back(&result.estimates[i]);
+  }
   return some;
 }
 
@@ -225,11 +222,9 @@ bool is_read_by(const SamplesOfTag& samples, const SwappedPair& antennas) {
 
 void refuse_read_by(const LocalizationProblem& problem, const SwappedPair& antennas,
                     LocalizationResult& result) {
-  for (TagEstimate& estimate : result.estimates) {
-    const auto samples = problem.samples.find(estimate.tag);
-    if (estimate.verdict != Verdict::kLocated || samples == problem.samples.end()) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    if (!is_read_by(samples->second, antennas)) continue;
+  for (const std::size_t i : claimed_tags(problem, result)) {
+    TagEstimate& estimate = result.estimates[i];
+    if (!is_read_by(problem.samples.at(estimate.tag), antennas)) continue;
     estimate = not_located(std::move(estimate),
                            fmt::format("antennas '{}' and '{}' read best what is behind them, as "
                                        "if they were swapped",

@@ -351,6 +351,25 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
 
 }  // namespace
 
+std::vector<std::size_t> claimed_tags(const LocalizationProblem& problem,
+                                      const LocalizationResult& result) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
+    const TagEstimate& estimate = result.estimates[i];
+    if (estimate.verdict != Verdict::kLocated) continue;
+    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+    if (problem.samples.count(estimate.tag) > 0) all.push_back(i);
+  }
+  return all;
+}
+
+std::vector<std::size_t> some_of(const std::vector<std::size_t>& all, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>((all.size() + most - 1) / most, 1);
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  return some;
+}
+
 bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,
                         const SamplesOfTag& samples, const Eigen::Vector3d& p_WT) {
   constexpr double kSlow = 3.0;  // Reads that are worth one; noise alone leaves 1 to 1.5.

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/method.h"
@@ -41,6 +43,14 @@ struct DepartureFit {
 std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
                                           const std::string& tag, const SamplesOfTag& samples,
                                           const Eigen::Vector3d& p_WT, Departure departure);
+
+/// The located tags whose places can be held against their reads, by number of the estimate:
+/// those with samples, but for reference tags.
+std::vector<std::size_t> claimed_tags(const LocalizationProblem& problem,
+                                      const LocalizationResult& result);
+
+/// At most `most` of them, evenly taken.
+std::vector<std::size_t> some_of(const std::vector<std::size_t>& all, std::size_t most);
 
 /// Whether what a place leaves of the phases is no noise: a departure leaves slow errors.
 bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& tag,

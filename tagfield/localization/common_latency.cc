@@ -178,31 +178,6 @@ double log_likelihood_of(const LocalizationProblem& problem, const SamplesOfTag&
   return best.log_likelihood;
 }
 
-std::vector<std::size_t> may_testify(const LocalizationProblem& problem,
-                                     const LocalizationResult& result) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < result.estimates.size(); ++i) {
-    const TagEstimate& estimate = result.estimates[i];
-    if (estimate.verdict != Verdict::kLocated) continue;
-    if (problem.samples.count(estimate.tag) == 0 ||
-        problem.reference_tags.count(estimate.tag) > 0) {
-      continue;
-    }
-    all.push_back(i);
-  }
-  return all;
-}
-
-/// Evenly taken from all that may.
-std::vector<std::size_t> some_of(const std::vector<std::size_t>& all) {
-  const std::size_t stride = (all.size() + kMostTags - 1) / kMostTags;
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(stride, 1)) {
-    some.push_back(all[i]);
-  }
-  return some;
-}
-
 std::optional<Witness> witness_of(const LocalizationProblem& problem,
                                   const LocalizationResult& result, std::size_t index,
                                   std::size_t reads) {
@@ -219,7 +194,7 @@ std::optional<Witness> witness_of(const LocalizationProblem& problem,
 
 std::vector<Witness> witnesses_of(const LocalizationProblem& problem, int threads,
                                   const LocalizationResult& result, std::size_t reads) {
-  const std::vector<std::size_t> some = some_of(may_testify(problem, result));
+  const std::vector<std::size_t> some = some_of(claimed_tags(problem, result), kMostTags);
   std::vector<std::optional<Witness>> found(some.size());
   parallel_for(some.size(), threads,
                [&](std::size_t i) { found[i] = witness_of(problem, result, some[i], reads); });
@@ -296,7 +271,7 @@ std::optional<double> latency_by(const LocalizationProblem& problem, int threads
 }
 
 void refuse_moved(const LocalizationProblem& problem, double late_s, LocalizationResult& result) {
-  for (const std::size_t i : may_testify(problem, result)) {
+  for (const std::size_t i : claimed_tags(problem, result)) {
     TagEstimate& estimate = result.estimates[i];
     const Candidate& claim = estimate.candidates.front();
     const double moved = mean_travel(problem, problem.samples.at(estimate.tag), late_s);
