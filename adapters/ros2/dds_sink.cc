@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -146,6 +148,52 @@ struct Reader {
   Entity reader;
 };
 
+/// Velocities on a topic, in the types in which anybody publishes them; before that as a Twist. A
+/// topic of two types is one that `ros2 topic echo` and rosbag2 refuse, so none has both for
+/// nothing.
+struct TwistReaders {
+  std::string topic;  ///< "rt/cmd_vel"
+  Entity publications;
+  bool plain_seen = false;
+  bool stamped_seen = false;
+  std::optional<Reader> plain;
+  std::optional<Reader> stamped;
+};
+
+constexpr std::string_view kPlainType = "geometry_msgs::msg::dds_::Twist_";
+constexpr std::string_view kStampedType = "geometry_msgs::msg::dds_::TwistStamped_";
+
+/// Looks for new publishers of the topic; whether there was one.
+bool see_publishers(TwistReaders& twists) {
+  constexpr std::size_t kMost = 16;
+  bool seen = false;
+  std::array<void*, kMost> samples{};
+  std::array<dds_sample_info_t, kMost> infos{};
+  const dds_return_t count =
+      libdds().take(twists.publications.get(), samples.data(), infos.data(), kMost, kMost);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+    const auto* const found = static_cast<const dds_builtintopic_endpoint_t*>(samples.at(i));
+    if (!infos.at(i).valid_data || twists.topic != found->topic_name) continue;
+    twists.plain_seen = twists.plain_seen || kPlainType == found->type_name;
+    twists.stamped_seen = twists.stamped_seen || kStampedType == found->type_name;
+    seen = true;
+  }
+  if (count > 0) libdds().return_loan(twists.publications.get(), samples.data(), count);
+  return seen;
+}
+
+/// Into a struct of the topic's type; false without a new one.
+bool take_one(const std::optional<Reader>& reader, void* into) {
+  if (!reader) return false;
+  dds_sample_info_t info{};
+  return libdds().take(reader->reader.get(), &into, &info, 1, 1) == 1 && info.valid_data;
+}
+
+geometry_msgs::Twist twist_of(const geometry_msgs_msg_dds__Twist_& twist) {
+  return {{twist.linear.x, twist.linear.y, twist.linear.z},
+          {twist.angular.x, twist.angular.y, twist.angular.z}};
+}
+
 struct Writer {
   Entity topic;
   Entity writer;
@@ -182,9 +230,42 @@ struct DdsSink::Impl {
     node.node_namespace = "/";
     node.node_name = node_name;
     for (const Writer& writer : writers) node.writer_gid_seq.push_back(gid_of(writer.writer.get()));
-    for (const Reader& reader : readers) node.reader_gid_seq.push_back(gid_of(reader.reader.get()));
+    for (const TwistReaders& twists : subscriptions) {
+      for (const std::optional<Reader>* reader : {&twists.plain, &twists.stamped}) {
+        if (*reader) node.reader_gid_seq.push_back(gid_of((*reader)->reader.get()));
+      }
+    }
     const rmw_dds_common::ParticipantEntitiesInfo info{gid_of(participant.get()), {node}};
     write(*discovery, &info);
+  }
+
+  Reader make_reader(const std::string& topic, const Ros2Type& type) const {
+    Entity made(libdds().create_topic(participant.get(), dds_types().at(type.name).descriptor,
+                                      topic.c_str(), nullptr, nullptr),
+                topic);
+    // Best effort hears reliable writers too, and only the newest command counts.
+    const Qos qos = with_user_data(fmt::format("typehash={};", type.hash));
+    libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+    libdds().qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+    Entity reader(libdds().create_reader(participant.get(), made.get(), qos.get(), nullptr), topic);
+    return {std::move(made), std::move(reader)};
+  }
+
+  /// Reads a topic's velocities in the types that were seen.
+  void read_seen_types(TwistReaders& twists) {
+    const bool wants_plain = twists.plain_seen || !twists.stamped_seen;
+    if (wants_plain == twists.plain.has_value() &&
+        twists.stamped_seen == twists.stamped.has_value()) {
+      return;
+    }
+    if (!wants_plain) twists.plain.reset();
+    if (wants_plain && !twists.plain) {
+      twists.plain.emplace(make_reader(twists.topic, type_of(geometry_msgs::Twist{})));
+    }
+    if (twists.stamped_seen && !twists.stamped) {
+      twists.stamped.emplace(make_reader(twists.topic, type_of(geometry_msgs::TwistStamped{})));
+    }
+    tell_graph();
   }
 
   static void write(const Writer& writer, const void* message) {
@@ -202,7 +283,7 @@ struct DdsSink::Impl {
   Entity participant;
   std::optional<Writer> discovery;
   std::vector<Writer> writers;
-  std::vector<Reader> readers;
+  std::vector<TwistReaders> subscriptions;
 };
 
 DdsSink::DdsSink(std::uint32_t domain, const std::string& node_name)
@@ -229,31 +310,25 @@ void DdsSink::finish() {
 }
 
 std::size_t DdsSink::subscribe_twist(const std::string& topic) {
-  const Ros2Type& type = type_of(geometry_msgs::Twist{});
-  Entity made(libdds().create_topic(impl_->participant.get(), dds_types().at(type.name).descriptor,
-                                    ("rt" + topic).c_str(), nullptr, nullptr),
-              topic);
-  // Best effort hears reliable writers too, and only the newest command counts.
-  const Qos qos = with_user_data(fmt::format("typehash={};", type.hash));
-  libdds().qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-  libdds().qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
-  Entity reader(libdds().create_reader(impl_->participant.get(), made.get(), qos.get(), nullptr),
-                topic);
-  impl_->readers.push_back({std::move(made), std::move(reader)});
-  impl_->tell_graph();
-  return impl_->readers.size() - 1;
+  Entity publications(libdds().create_reader(impl_->participant.get(),
+                                             DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+                      "publications");
+  impl_->subscriptions.push_back(
+      {"rt" + topic, std::move(publications), false, false, std::nullopt, std::nullopt});
+  impl_->read_seen_types(impl_->subscriptions.back());
+  return impl_->subscriptions.size() - 1;
 }
 
 std::optional<geometry_msgs::Twist> DdsSink::take_twist(std::size_t subscription) {
-  using Twist = geometry_msgs_msg_dds__Twist_;
-  Twist twist{};
-  void* sample = &twist;
-  dds_sample_info_t info{};
-  const dds_return_t count =
-      libdds().take(impl_->readers.at(subscription).reader.get(), &sample, &info, 1, 1);
-  if (count < 1 || !info.valid_data) return std::nullopt;
-  return geometry_msgs::Twist{{twist.linear.x, twist.linear.y, twist.linear.z},
-                              {twist.angular.x, twist.angular.y, twist.angular.z}};
+  TwistReaders& twists = impl_->subscriptions.at(subscription);
+  if (see_publishers(twists)) impl_->read_seen_types(twists);
+  geometry_msgs_msg_dds__Twist_ plain{};
+  if (take_one(twists.plain, &plain)) return twist_of(plain);
+  geometry_msgs_msg_dds__TwistStamped_ stamped{};
+  const bool came = take_one(twists.stamped, &stamped);
+  const geometry_msgs::Twist twist = twist_of(stamped.twist);
+  libdds().free(stamped.header.frame_id);
+  return came ? std::optional(twist) : std::nullopt;
 }
 
 bool DdsSink::wait_for_reader(Duration most) const {

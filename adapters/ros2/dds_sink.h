@@ -27,7 +27,8 @@ class DdsSink : public MessageSink {
   /// Waits until reliable readers have got it all, a few seconds at the most.
   void finish() override;
 
-  /// Listens to twists on a topic ("/cmd_vel"); gives its number.
+  /// Listens to velocities on a topic ("/cmd_vel"), as a Twist or a TwistStamped, whichever is
+  /// published: Nav2's are stamped from Kilted on. Gives its number.
   std::size_t subscribe_twist(const std::string& topic);
   /// The newest that came since this was asked last.
   std::optional<geometry_msgs::Twist> take_twist(std::size_t subscription);

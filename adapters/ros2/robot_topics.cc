@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros2/robot_topics.h"
 
-#include <array>
 #include <sstream>
 #include <utility>
 
@@ -12,9 +11,6 @@
 namespace tagfield::ros2 {
 namespace {
 
-/// Variance of what wheels on a floor don't measure: height, roll, pitch.
-constexpr double kFloorVariance = 1e-6;
-
 /// "a/b", "odom" → "/a/b/odom"
 std::string topic_in(const std::string& name_space, const std::string& name) {
   std::string topic = "/";
@@ -23,28 +19,6 @@ std::string topic_in(const std::string& name_space, const std::string& name) {
     if (!token.empty()) topic.append(topic_token(token)).append("/");
   }
   return topic.append(name);
-}
-
-/// Rows and columns are x, y, z, roll, pitch, yaw; wheels tell of x, y and yaw.
-std::array<double, 36> pose_covariance(const Eigen::Matrix3d& planar) {
-  constexpr std::array<std::size_t, 3> kAxes = {0, 1, 5};
-  std::array<double, 36> covariance{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      covariance.at(6 * kAxes.at(row) + kAxes.at(column)) =
-          planar(static_cast<int>(row), static_cast<int>(column));
-    }
-  }
-  for (const std::size_t axis : {2U, 3U, 4U}) covariance.at(7 * axis) = kFloorVariance;
-  return covariance;
-}
-
-std::array<double, 36> twist_covariance(const Eigen::Vector2d& variance) {
-  std::array<double, 36> covariance{};
-  covariance[0] = variance.x();
-  for (const std::size_t axis : {1U, 2U, 3U, 4U}) covariance.at(7 * axis) = kFloorVariance;
-  covariance[35] = variance.y();
-  return covariance;
 }
 
 }  // namespace
@@ -59,17 +33,11 @@ RobotTopics::RobotTopics(std::shared_ptr<MessageSink> sink, RobotNames names)
       static_tf_(*sink_, {"/tf_static", Delivery::kLatched}) {}
 
 void RobotTopics::publish(const OdometryReport& odometry) const {
-  const RigidTransform X_OB = to_transform(odometry.pose);
-  nav_msgs::Odometry message;
-  message.header = header_message(odometry.stamp, names_.odom);
-  message.child_frame_id = names_.base;
-  message.pose = {pose_message(X_OB), pose_covariance(odometry.covariance)};
-  message.twist.twist.linear.x = odometry.velocity.forward;
-  message.twist.twist.angular.z = odometry.velocity.turn;
-  message.twist.covariance = twist_covariance(odometry.velocity_variance);
-  odometry_.publish(odometry.stamp, message);
+  odometry_.publish(odometry.stamp, odometry_message(odometry, names_));
   if (!names_.publish_tf) return;
-  tf_.publish(odometry.stamp, {{frame_message(odometry.stamp, names_.odom, names_.base, X_OB)}});
+  tf_.publish(
+      odometry.stamp,
+      {{frame_message(odometry.stamp, names_.odom, names_.base, to_transform(odometry.pose))}});
 }
 
 void RobotTopics::publish(const MotionReport& motion) const {

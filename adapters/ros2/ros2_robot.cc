@@ -20,6 +20,21 @@ bool is_finite(const geometry_msgs::Twist& twist) {
 
 }  // namespace
 
+void Ros2Robot::Travel::add(const OdometryReport& report, double seconds) {
+  moved.forward += report.velocity.forward * seconds;
+  moved.turn += report.velocity.turn * seconds;
+  variance += report.velocity_variance * seconds * seconds;
+  duration_s += seconds;
+}
+
+void Ros2Robot::Travel::take_mean(OdometryReport& report) {
+  if (duration_s > 0.0) {
+    report.velocity = {moved.forward / duration_s, moved.turn / duration_s};
+    report.velocity_variance = variance / (duration_s * duration_s);
+  }
+  *this = {};
+}
+
 Ros2Robot::Ros2Robot(std::shared_ptr<DdsSink> driver, std::shared_ptr<MessageSink> sink,
                      std::shared_ptr<Ros2Outlet> outlet, const LaserParameters& laser,
                      std::function<void(const std::string&)> warn)
@@ -47,19 +62,20 @@ BodyVelocity Ros2Robot::wanted(Time now) {
   return command_;
 }
 
-void Ros2Robot::on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelocity& velocity) {
-  outlet_->tell_time(stamp);
-  if (told_ != Time::min() && stamp - told_ < kOdometryInterval) return;
-  told_ = stamp;
-  const RigidTransform X_OB = to_transform(pose_O);
-  nav_msgs::Odometry message;
-  message.header = header_message(stamp, kOdomFrame);
-  message.child_frame_id = kBaseFrame;
-  message.pose.pose = pose_message(X_OB);
-  message.twist.twist.linear.x = velocity.forward;
-  message.twist.twist.angular.z = velocity.turn;
-  odometry_.publish(stamp, message);
-  outlet_->tell_frame(stamp, frame_message(stamp, kOdomFrame, kBaseFrame, X_OB));
+void Ros2Robot::on_odometry(const OdometryReport& report) {
+  outlet_->tell_time(report.stamp);
+  if (reported_ != Time::min()) travel_.add(report, to_seconds(report.stamp - reported_));
+  reported_ = report.stamp;
+  if (told_ != Time::min() && report.stamp - told_ < kOdometryInterval) return;
+  told_ = report.stamp;
+  OdometryReport told = report;
+  travel_.take_mean(told);
+  RobotNames names;
+  names.odom = kOdomFrame;
+  names.base = kBaseFrame;
+  odometry_.publish(told.stamp, odometry_message(told, names));
+  outlet_->tell_frame(told.stamp,
+                      frame_message(told.stamp, kOdomFrame, kBaseFrame, to_transform(told.pose)));
 }
 
 void Ros2Robot::on_scan(const LaserScan& scan) {

@@ -31,10 +31,21 @@ class Ros2Robot : public RemoteControl {
             std::function<void(const std::string&)> warn);
 
   BodyVelocity wanted(Time now) override;
-  void on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelocity& velocity) override;
+  void on_odometry(const OdometryReport& report) override;
   void on_scan(const LaserScan& scan) override;
 
  private:
+  /// By the wheels since odometry was told last.
+  struct Travel {
+    BodyVelocity moved;  ///< [m], [rad]
+    Eigen::Vector2d variance = Eigen::Vector2d::Zero();
+    double duration_s = 0.0;
+
+    void add(const OdometryReport& report, double seconds);
+    /// Puts the mean velocity and its variance into a report, and starts anew.
+    void take_mean(OdometryReport& report);
+  };
+
   std::shared_ptr<DdsSink> driver_;
   std::shared_ptr<MessageSink> sink_;
   std::shared_ptr<Ros2Outlet> outlet_;
@@ -45,7 +56,9 @@ class Ros2Robot : public RemoteControl {
   Publisher<sensor_msgs::LaserScan> scans_;
   BodyVelocity command_;
   Time commanded_ = Time::min();
+  Time reported_ = Time::min();
   Time told_ = Time::min();
+  Travel travel_;
 };
 
 }  // namespace tagfield::ros2

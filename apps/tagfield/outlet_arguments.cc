@@ -63,7 +63,8 @@ RemoteDriving driving_of(const OutletArguments& arguments, const ScenarioWithWor
 void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
   CLI::Option* ros2 = command.add_flag(
       "--ros2", arguments.ros2,
-      "Play the run into ROS 2, in real time: /rfid/reads, /tf, /clock and more (docs/ros2.md)");
+      "Play the run into ROS 2, in real time: /rfid/reads, /tf, /clock and more (docs/ros2.md). Of "
+      "many seeds, the first");
   command
       .add_option("--domain", arguments.domain,
                   "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
@@ -71,7 +72,7 @@ void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
       ->needs(ros2);
   command.add_option("--mcap", arguments.mcap,
                      "Record the same messages into this MCAP file, for rosbag2 and Foxglove "
-                     "(docs/mcap.md)");
+                     "(docs/mcap.md). Of many seeds, the first");
   command
       .add_option("--drive", arguments.drive,
                   "This robot is driven from outside, by Nav2 for example: /cmd_vel in, /odom, "

@@ -30,10 +30,7 @@ class PythonDriver final : public RemoteControl {
     }
     return velocity_;
   }
-  void on_odometry(Time /*stamp*/, const PlanarPose& pose_O,
-                   const BodyVelocity& /*velocity*/) override {
-    odometry_ = pose_O;
-  }
+  void on_odometry(const OdometryReport& report) override { odometry_ = report.pose; }
   void on_scan(const LaserScan& scan) override { scan_ = scan; }
 
   void drive(double forward_m_s, double turn_rad_s) {

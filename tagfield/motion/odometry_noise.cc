@@ -63,4 +63,22 @@ Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const Odometry
   return J * Q * J.transpose();
 }
 
+Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
+                                   const PlanarPose& increment, const OdometryNoise& noise) {
+  const double c = std::cos(q_OB.yaw);
+  const double s = std::sin(q_OB.yaw);
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
+  by_pose(0, 2) = -s * increment.x - c * increment.y;
+  by_pose(1, 2) = c * increment.x - s * increment.y;
+  Eigen::Matrix3d by_increment = Eigen::Matrix3d::Identity();
+  by_increment.topLeftCorner<2, 2>() << c, -s, s, c;
+  return by_pose * covariance * by_pose.transpose() +
+         by_increment * increment_covariance(increment, noise) * by_increment.transpose();
+}
+
+Eigen::Vector2d increment_variances(const PlanarPose& increment, const OdometryNoise& noise) {
+  const Variances variances = variances_of(increment, noise);
+  return {variances.way, variances.heading};
+}
+
 }  // namespace tagfield

@@ -44,4 +44,12 @@ PlanarPose noisy_increment(const PlanarPose& increment, const OdometryNoise& noi
 /// pose. Singular: of rank 2 for a motion on the spot.
 Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const OdometryNoise& noise);
 
+/// Covariance of x, y [m], yaw [rad] of the pose that `increment` leads to from `q_OB`, to first
+/// order, if that of q_OB is `covariance`. Both in the axes of O.
+Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
+                                   const PlanarPose& increment, const OdometryNoise& noise);
+
+/// Variances of an increment's length [m²] and of its change of heading [rad²].
+Eigen::Vector2d increment_variances(const PlanarPose& increment, const OdometryNoise& noise);
+
 }  // namespace tagfield

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "tagfield/motion/robot_reports.h"
 #include "tagfield/navigation/goal_driver.h"
 #include "tagfield/scenario/navigation_spec.h"
 #include "tagfield/simulator/robot_senses.h"
@@ -23,9 +24,9 @@ class RemoteControl {
 
   /// The velocity that the robot is to have from `now` on, as far as its limits let it.
   virtual BodyVelocity wanted(Time now) = 0;
-  /// X_OR by the wheels, and the velocity that the robot has from `stamp` on. Frame O is where it
-  /// started.
-  virtual void on_odometry(Time stamp, const PlanarPose& pose_O, const BodyVelocity& velocity) = 0;
+  /// By the wheels, with their errors: X_OR at the stamp, and the mean velocity over the step
+  /// before. Frame O is where the robot started.
+  virtual void on_odometry(const OdometryReport& report) = 0;
   virtual void on_scan(const LaserScan& scan) = 0;
 };
 
@@ -48,8 +49,12 @@ class RemoteDriver {
   [[nodiscard]] PlanarPose odometry(double seconds) const { return senses_.odometry(seconds); }
 
  private:
+  [[nodiscard]] OdometryReport report(Time now);
+
   std::shared_ptr<RemoteControl> control_;
   SpeedLimits limits_;
+  OdometryNoise noise_;
+  OdometryReport last_;
   RobotSenses senses_;
   BodyVelocity velocity_;
 };

@@ -215,8 +215,6 @@ def frames_and_topics_are_the_programs(context):
     check_equal([nav2[name]["global_frame"] for name in
                  ("local_costmap", "behavior_server", "global_costmap", "bt_navigator")],
                 [odom, odom, "map", "map"], "global_frame")
-    for name in ("controller_server", "behavior_server"):
-        check_equal(nav2[name]["enable_stamped_cmd_vel"], False, f"{name}: the program hears Twist")
 
 
 @case

@@ -20,6 +20,7 @@ struct LibDds : LoadedLibrary {
   decltype(&dds_create_writer) create_writer = function("dds_create_writer");
   decltype(&dds_delete) delete_ = function("dds_delete");
   decltype(&dds_delete_qos) delete_qos = function("dds_delete_qos");
+  decltype(&dds_free) free = function("dds_free");
   decltype(&dds_get_guid) get_guid = function("dds_get_guid");
   decltype(&dds_get_publication_matched_status) get_publication_matched_status =
       function("dds_get_publication_matched_status");
@@ -30,6 +31,7 @@ struct LibDds : LoadedLibrary {
   decltype(&dds_qset_history) qset_history = function("dds_qset_history");
   decltype(&dds_qset_reliability) qset_reliability = function("dds_qset_reliability");
   decltype(&dds_qset_userdata) qset_userdata = function("dds_qset_userdata");
+  decltype(&dds_return_loan) return_loan = function("dds_return_loan");
   decltype(&dds_set_log_sink) set_log_sink = function("dds_set_log_sink");
   decltype(&dds_strretcode) strretcode = function("dds_strretcode");
   decltype(&dds_take) take = function("dds_take");

@@ -7,6 +7,7 @@
 
 #include "adapters/ros2/ros2_messages.h"
 #include "tagfield/base/time.h"
+#include "tagfield/motion/robot_reports.h"
 #include "tagfield/poses/rigid_transform.h"
 
 namespace tagfield::ros2 {
@@ -20,5 +21,7 @@ std_msgs::Header header_message(Time stamp, const std::string& frame);
 /// The pose of frame `child` in frame `parent`.
 geometry_msgs::TransformStamped frame_message(Time stamp, const std::string& parent,
                                               const std::string& child, const RigidTransform& X);
+/// Wheels tell of x, y and yaw; of the rest they say that a robot stays on its floor.
+nav_msgs::Odometry odometry_message(const OdometryReport& report, const RobotNames& names);
 
 }  // namespace tagfield::ros2

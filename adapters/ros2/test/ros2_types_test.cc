@@ -10,6 +10,8 @@ namespace {
 TEST(Ros2Types, HashesOfKnownTypesAreThoseOfRos2) {
   EXPECT_EQ(type_of(geometry_msgs::Twist{}).hash,
             "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a");
+  EXPECT_EQ(type_of(geometry_msgs::TwistStamped{}).hash,
+            "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64");
   EXPECT_EQ(type_of(rosgraph_msgs::Clock{}).hash,
             "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564");
   EXPECT_EQ(type_of(nav_msgs::OccupancyGrid{}).hash,

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <cmath>
+
 #include "tagfield/base/test/error_text.h"
+#include "tagfield/base/units.h"
+#include "tagfield/motion/planar_pose.h"
 #include "tagfield/simulator/robot.h"
 #include "tagfield/simulator/simulation.h"
 
@@ -20,15 +25,10 @@ class Steady : public RemoteControl {
   BodyVelocity wanted(Time now) override {
     return to_seconds(now) < until_s_ - 1e-9 ? velocity_ : BodyVelocity{};
   }
-  void on_odometry(Time /*stamp*/, const PlanarPose& pose_O,
-                   const BodyVelocity& velocity) override {
-    poses.push_back(pose_O);
-    velocities.push_back(velocity);
-  }
+  void on_odometry(const OdometryReport& report) override { reports.push_back(report); }
   void on_scan(const LaserScan& scan) override { scans.push_back(scan); }
 
-  std::vector<PlanarPose> poses;
-  std::vector<BodyVelocity> velocities;
+  std::vector<OdometryReport> reports;
   std::vector<LaserScan> scans;
 
  private:
@@ -73,12 +73,12 @@ TEST(RemoteDriver, DrivesAsFarAsItsLimitsLetIt) {
   EXPECT_NEAR(X_WB.translation.y(), -2.0 + 0.8 * 5.0, 1e-9);
   EXPECT_NEAR(X_WB.translation.x(), 3.0, 1e-9);
   double fastest = 0.0;
-  for (const BodyVelocity& velocity : control->velocities) {
-    fastest = std::max(fastest, velocity.forward);
+  for (const OdometryReport& report : control->reports) {
+    fastest = std::max(fastest, report.velocity.forward);
   }
   EXPECT_NEAR(fastest, 0.8, 1e-12);
-  EXPECT_NEAR(control->velocities.at(99).forward, 0.5, 1e-9) << "after 1 s at 0.5 m/s2";
-  EXPECT_EQ(control->velocities.back().forward, 0.0);
+  EXPECT_NEAR(control->reports.at(100).velocity.forward, 0.5, 1e-9) << "after 1 s at 0.5 m/s2";
+  EXPECT_EQ(control->reports.back().velocity.forward, 0.0);
 }
 
 TEST(RemoteDriver, NeverExceedsTheRobotsSpeed) {
@@ -86,7 +86,9 @@ TEST(RemoteDriver, NeverExceedsTheRobotsSpeed) {
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(9.0), 1, {}, nullptr, &driving);
   run_to_end(simulation);
-  for (const BodyVelocity& velocity : control->velocities) EXPECT_LE(velocity.forward, 1.0 + 1e-12);
+  for (const OdometryReport& report : control->reports) {
+    EXPECT_LE(report.velocity.forward, 1.0 + 1e-12);
+  }
 }
 
 TEST(RemoteDriver, OdometryBeginsWhereTheRobotStarts) {
@@ -94,13 +96,43 @@ TEST(RemoteDriver, OdometryBeginsWhereTheRobotStarts) {
   const RemoteDriving driving = driving_by(control);
   Simulation simulation(scenario_of(4.0), 1, {}, nullptr, &driving);
   run_to_end(simulation);
-  EXPECT_EQ(control->poses.front().x, 0.0);
-  EXPECT_EQ(control->poses.front().yaw, 0.0);
+  EXPECT_EQ(control->reports.front().pose.x, 0.0);
+  EXPECT_EQ(control->reports.front().pose.yaw, 0.0);
   // Without noise the wheels tell the truth: forwards is +x of O, and +y of the world here.
   const Robot& robot = simulation.robots().at(0);
   EXPECT_NEAR(robot.believed_pose(0.0).translation.y(), robot.true_pose(0.0).translation.y(), 1e-9);
-  EXPECT_NEAR(control->poses.back().y, 0.0, 1e-9);
-  EXPECT_GT(control->poses.back().x, 1.0);
+  EXPECT_NEAR(control->reports.back().pose.y, 0.0, 1e-9);
+  EXPECT_GT(control->reports.back().pose.x, 1.0);
+}
+
+// 300 robots on a curve, with noise: errors over the stated covariance are χ² of 3 degrees of
+// freedom, and those of a velocity of one. Their means stray by √(2·3/300) = 0.14 and 0.08 (1 σ):
+// bounds are beyond 4 σ.
+TEST(RemoteDriver, OdometryErrsAsItsCovarianceSays) {
+  constexpr int kRobots = 300;
+  double pose_sum = 0.0;
+  double forward_sum = 0.0;
+  double turn_sum = 0.0;
+  for (int i = 0; i < kRobots; ++i) {
+    const auto control = std::make_shared<Steady>(BodyVelocity{0.6, 0.4}, 100.0);
+    const RemoteDriving driving = driving_by(control);
+    Scenario scenario = scenario_of(6.0);
+    own_navigation(scenario).odometry = {};
+    Simulation simulation(scenario, 100 + static_cast<std::uint64_t>(i), {}, nullptr, &driving);
+    run_to_end(simulation);
+    const OdometryReport& told = control->reports.back();
+    const PlanarPose true_O =
+        between(scenario.robots.at(0).start, planar(simulation.robots().at(0).true_pose(0.0)));
+    const Eigen::Vector3d e(told.pose.x - true_O.x, told.pose.y - true_O.y,
+                            wrap_to_pi(told.pose.yaw - true_O.yaw));
+    pose_sum += e.dot(told.covariance.inverse() * e);
+    const BodyVelocity& velocity = told.velocity;
+    forward_sum += std::pow(velocity.forward - 0.6, 2) / told.velocity_variance.x();
+    turn_sum += std::pow(velocity.turn - 0.4, 2) / told.velocity_variance.y();
+  }
+  EXPECT_NEAR(pose_sum / kRobots, 3.0, 0.6);
+  EXPECT_NEAR(forward_sum / kRobots, 1.0, 0.35);
+  EXPECT_NEAR(turn_sum / kRobots, 1.0, 0.35);
 }
 
 TEST(RemoteDriver, ScansComeAtTheLasersRate) {
