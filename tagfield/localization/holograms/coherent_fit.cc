@@ -358,8 +358,16 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
   const bool bent = judgement.at_maxima && share < kBentShare;
   const Unlikelihood unlikely = unlikelihood(phases, maxima.front(), best);
   const Rivals rivals = rivals_of(phases, height, maxima, bent ? &unlikely : nullptr);
+  const double factor =
+      judgement.error_factor ? judgement.error_factor(phases, height, maxima.front().place) : 1.0;
   const auto candidate_of = [&](const Maximum& maximum) {
-    return scaled(careful_candidate(phases, height, maximum.place, bent), judgement.error_factor);
+    if (!judgement.error_factor) {
+      return careful_candidate(phases, height, maximum.place, bent);
+    }
+    const PlaceVector top = climb(phases, apertures(phases, kWholeAperture), height, maximum.place);
+    Candidate candidate = scaled(candidate_at(phases, height, top), factor);
+    candidate.p_WT = to_place(height, maximum.place);
+    return candidate;
   };
   estimate.candidates.push_back(candidate_of(maxima.front()));
   span_lobes(height, unlikely, rivals.lobes, estimate.candidates.front());

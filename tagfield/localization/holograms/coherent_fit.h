@@ -38,12 +38,18 @@ double coherent_share(const TagPhases& phases, const HeightModel& height, const 
 /// pose errors bend them.
 inline constexpr double kBentShare = 0.97;
 
+/// How many times those of the best use of the phases a method's errors are at a place; at least 1.
+using ErrorFactor = std::function<double(const TagPhases& phases, const HeightModel& height,
+                                         const PlaceVector& place)>;
+
 /// What is done with places that a search found.
 struct CoherentJudgement {
   /// A lesser coherent_share() is no tag at rest; that of phases that say nothing is about 0.1.
   double min_share = 0.35;
-  /// Expected errors are so many times those of the best use of the phases; at least 1.
-  double error_factor = 1.0;
+  /// Of places that are not maxima of coherence, whose own residuals tell of that too: covariances
+  /// are those of the maxima next to them, times the square of this at the best. None where they
+  /// are.
+  ErrorFactor error_factor;
   bool climb = true;          ///< Go from each place to the maximum of coherence() near it.
   bool at_maxima = true;      ///< The places, climbed to or not, are about those maxima.
   bool known_offsets = true;  ///< Offsets that are known are made use of.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/phase_noise.h"
 
@@ -14,12 +15,16 @@ namespace {
 constexpr double kGridNoise = 0.35;
 constexpr Eigen::Index kLongAperture = 64;  ///< Reads from which on there are several references.
 constexpr Eigen::Index kReferences = 4;
-/// The reference's own noise and the weights make errors so many times as large as they must be, as
-/// was found by trying.
-constexpr double kErrorFactor = 2.6;
+constexpr double kLeastNoise = 1e-3;     ///< Of a phase [rad], where it shows none.
+constexpr int kDraws = 16;               ///< Of noise, by which the expected error is found.
 constexpr std::size_t kFinished = 6;     ///< So many of the brightest places are finished.
 constexpr double kFirstSpacing = 0.012;  ///< Of the tile that looks for the summit [m].
 constexpr double kLastSpacing = 1e-4;    ///< [m]
+
+/// From an antenna to a place on the floor.
+Eigen::Vector2d from_antenna(const SearchRead& read, const Eigen::Vector2d& p) {
+  return p - Eigen::Vector2d(static_cast<double>(read.x), static_cast<double>(read.y));
+}
 
 /// erfc(x), x ≥ 0, to 5·10⁻⁴ (Abramowitz and Stegun, 7.1.27).
 Tile complementary_error(const Tile& x) {
@@ -88,16 +93,68 @@ std::vector<PlaceVector> finished(const TagPhases& phases, const HeightModel& he
   return places;
 }
 
+/// The same reads of a tag at `p`, with noise.
+SearchReads drawn(SearchReads reads, const Eigen::Vector2d& p, double noise_rad,
+                  RandomStream& stream) {
+  for (SearchRead& read : reads.reads) {
+    const double r = std::sqrt(from_antenna(read, p).squaredNorm() + read.height_squared);
+    const double turns = read.turns_per_metre * r + noise_rad / kTwoPi * standard_normal(stream);
+    read.turns = static_cast<float>(turns - std::round(turns));
+  }
+  return reads;
+}
+
+/// Of x and y for phases with a noise of 1 rad, each aperture's offset unknown [1/m²].
+Eigen::Matrix2d information_at(const SearchReads& reads, const Eigen::Vector2d& p) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
+      const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d away = from_antenna(read, p);
+      const Eigen::Vector2d slope = kTwoPi * static_cast<double>(read.turns_per_metre) * away /
+                                    std::sqrt(away.squaredNorm() + read.height_squared + 1e-12);
+      information += slope * slope.transpose();
+      sum += slope;
+    }
+    information -=
+        sum * sum.transpose() / static_cast<double>(std::max<Eigen::Index>(aperture.count, 1));
+  }
+  return information;
+}
+
+/// Over `kDraws` sets of reads as the place's tag would give them with the noise that there is:
+/// √ of the mean of eᵀ J e/2, where the summit errs by e on the floor and J⁻¹ is the bound there.
+/// The reference's own noise and weights that depend on what they weigh have no simple closed form.
+double error_factor(const TagPhases& phases, const PlaceVector& place, double z, double kernel_rad,
+                    double noise_rad, RandomStream& stream) {
+  const Eigen::Vector2d middle = middle_of(phases);
+  const SearchReads reads = search_reads(phases, kWholeAperture, z, middle);
+  const Eigen::Vector2d p = place.head<2>() - middle;
+  const Eigen::Matrix2d J = information_at(reads, p) / (noise_rad * noise_rad);
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Eigen::Vector2d e = summit(drawn(reads, p, noise_rad, stream), kernel_rad, p) - p;
+    sum += e.dot(J * e);
+  }
+  return std::max(1.0, std::sqrt(sum / (2.0 * kDraws)));
+}
+
 TagEstimate locate_by_differences(const LocalizationProblem& problem, const std::string& tag,
                                   const SamplesOfTag& samples, const DahOptions& options) {
   CoherentJudgement judgement;
   judgement.min_share = options.min_share;
-  judgement.error_factor = kErrorFactor;
   judgement.climb = false;
   judgement.at_maxima = false;
   judgement.known_offsets = false;  // Differences have lost the offset.
   const double noise = largest_phase_noise(samples, options.least_noise_rad);
   const double grid_noise = std::hypot(noise, kGridNoise);
+  judgement.error_factor = [&](const TagPhases& phases, const HeightModel& height,
+                               const PlaceVector& place) {
+    RandomStream stream(0, Purpose::kTagSearch, stream_key(tag));
+    return error_factor(phases, place, to_place(height, place).z(), noise,
+                        largest_phase_noise(samples, kLeastNoise), stream);
+  };
   const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
     return differential_brightness(reads, grid_noise, x, y);
   };
