@@ -62,9 +62,10 @@ void warn_of_latency(double late_s, Diagnostics& diagnostics);
 /// Refuses tags whose phases show that they moved while they were read, by more than three times
 /// what their places are expected to be off, and those that are elsewhere by as much once reads and
 /// poses are shifted in time against one another: where chance does so in less than one case of a
-/// million, amid reflections too, and hardly any slow errors are left; a motion, where it leaves
-/// more at rest than pose errors do. Where most tags agree in a shift a warning says by how much.
-/// Not of methods that correct poses.
+/// million, amid reflections too, and hardly any slow errors are left; a motion, where a tag at
+/// rest would leave more than pose errors do, or where it leaves nothing and the other tags say
+/// that it was not the poses. Where most tags agree in a shift a warning says by how much. Not of
+/// methods that correct poses.
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics);
 
