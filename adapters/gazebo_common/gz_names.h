@@ -45,6 +45,7 @@ namespace gz_transport = gz::transport;
 #include <ignition/common/Mesh.hh>
 #include <ignition/common/MeshManager.hh>
 #include <ignition/common/SubMesh.hh>
+#include <ignition/common/SystemPaths.hh>
 #include <ignition/common/Util.hh>
 #include <ignition/gazebo/EntityComponentManager.hh>
 #include <ignition/gazebo/EventManager.hh>
@@ -77,8 +78,9 @@ class ISystemReset {
   ISystemReset& operator=(const ISystemReset&) = delete;
   virtual void Reset(const gz_sim::UpdateInfo& info, gz_sim::EntityComponentManager& ecm) = 0;
 };
-inline void tell_error(const std::string& line) { ignerr << line << "\n"; }
-inline void tell_warning(const std::string& line) { ignwarn << line << "\n"; }
+// Without the place in our sources that `ignerr` would add: the line says where in the world it is.
+inline void tell_error(const std::string& line) { gz_common::Console::err() << line << "\n"; }
+inline void tell_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
 }  // namespace tagfield
 #define TAGFIELD_ADD_SYSTEM(type, ...) \
   IGNITION_ADD_PLUGIN(type, tagfield::gz_sim::System, __VA_ARGS__)
@@ -89,6 +91,7 @@ inline void tell_warning(const std::string& line) { ignwarn << line << "\n"; }
 #include <gz/common/Mesh.hh>
 #include <gz/common/MeshManager.hh>
 #include <gz/common/SubMesh.hh>
+#include <gz/common/SystemPaths.hh>
 #include <gz/common/Util.hh>
 #include <gz/sim/EntityComponentManager.hh>
 #include <gz/sim/EventManager.hh>
@@ -113,8 +116,15 @@ namespace tagfield {
 namespace gz_sim = gz::sim;
 namespace gz_common = gz::common;
 using gz_sim::ISystemReset;
-inline void tell_error(const std::string& line) { gzerr << line << "\n"; }
-inline void tell_warning(const std::string& line) { gzwarn << line << "\n"; }
+// Until Harmonic without the place in our sources that `gzerr` would add: the line says where in
+// the world it is. From Ionic on a message is a line of its own.
+#if TAGFIELD_GZ_SIM == 8
+inline void tell_error(const std::string& line) { gz_common::Console::err() << line << "\n"; }
+inline void tell_warning(const std::string& line) { gz_common::Console::warn() << line << "\n"; }
+#else
+inline void tell_error(const std::string& line) { gzerr << line; }
+inline void tell_warning(const std::string& line) { gzwarn << line; }
+#endif
 }  // namespace tagfield
 #define TAGFIELD_ADD_SYSTEM(type, ...) GZ_ADD_PLUGIN(type, tagfield::gz_sim::System, __VA_ARGS__)
 #endif

@@ -190,8 +190,10 @@ void GzField::add_tag(Entity sensor, const sdf::ElementPtr& element,
 void GzField::add_tag_set(Entity sensor, const sdf::ElementPtr& element,
                           const EntityComponentManager& ecm) {
   Diagnostics diagnostics;
+  // In silence: what is not found is told with its place, once.
   const auto find = [&](const std::string& uri) {
-    return gz_common::findFile(gz_sim::asFullPath(uri, element->FilePath()));
+    const std::string path = gz_sim::asFullPath(uri, element->FilePath());
+    return gz_common::systemPaths()->FindFile(path, true, false);
   };
   std::vector<TagOnLink> tags =
       tag_set_in(described_in(element, kTagSetType), {}, find, diagnostics);

@@ -94,7 +94,8 @@ def tag(name, x, y, z, parameters="", static=True):
 
 
 def errors(said):
-    return [line for line in said.split("\n") if "[Err]" in line]
+    """Its lines with an error; from Ionic on they are marked otherwise."""
+    return [line for line in said.split("\n") if "[Err]" in line or "[error]" in line]
 
 
 def recorded(context, said_by="run.mcap", name="located"):

@@ -95,6 +95,7 @@ def a_wrong_parameter_is_one_error_and_the_rest_goes_on(context):
         tag("twice", 2, 1, 1, "<epc>good</epc>"),
         model("odd", "0 0 0 0 0 0", sensor("odd", "rfid_gate")),
         model("shelf", "0 0 0 0 0 0", sensor("set", "rfid_tag_set", '<tag epc="x">1 2</tag>')),
+        model("rack", "0 0 0 0 0 0", sensor("set", "rfid_tag_set", "<table>none.csv</table>")),
         settings="<domain>400</domain>"), ["run 1"])
     found = errors(said)
     for part in ("model 'far', link 'link', sensor 'far': <range> is 'far', expected a number; "
@@ -102,9 +103,12 @@ def a_wrong_parameter_is_one_error_and_the_rest_goes_on(context):
                  "model 'twice', link 'link', sensor 'tag':",
                  "gz:type is 'rfid_gate', expected rfid_antenna, rfid_tag or rfid_tag_set",
                  "model 'shelf', link 'link', sensor 'set':",
+                 "model 'rack', link 'link', sensor 'set': <table> 'none.csv' is not found",
                  "<domain> is '400', expected a whole number from 0 to 232"):
         check_equal(len([line for line in found if part in line]), 1, f"errors with {part!r}")
-    check_equal(len(found), 5, f"errors, of {found}")
+    check_equal(len(found), 6, f"errors, of {found}")
+    check(not [line for line in found if ".h:" in line and "[Err]" in line],
+          f"a place in our sources stands in one of {found}")
     check("<mcap>" not in said and "<ros2>" not in said, "its own elements are taken for materials")
     check(not (context.folder / "run.mcap").exists(), "a wrong domain was told, and it recorded")
     check("wall " in said, "the server did not live")
