@@ -6,7 +6,8 @@
 
 models/p3at_rfid is models/p3at, part by part, but for the mast, the antenna and its lift; the mast's
 mass is in its base link. Each model has a model.config that names an SDF file, and each plugin that
-a model loads is one that CMake builds. Then the test looks whether it would notice.
+a model loads is one that CMake builds. What stands side by side in a model or world has names of its
+own, as SDFormat wants it and `gz sdf --check` checks it. Then the test looks whether it would notice.
 """
 
 import pathlib
@@ -20,7 +21,7 @@ PLAIN, MOUNTED = "p3at", "p3at_rfid"
 # What the second has and the first has not: element and name, by the element that it is in.
 ADDED = {
     "model": {("link", "antenna"), ("joint", "lift_joint"), ("plugin", "lift")},
-    "base_link": {("collision", "mast"), ("visual", "mast_foot"), ("visual", "mast"),
+    "base_link": {("collision", "mast"), ("visual", "mast_foot"), ("visual", "mast_visual"),
                   ("visual", "mast_rail"), ("visual", "mast_head")},
 }
 
@@ -106,7 +107,7 @@ def about(mass, centre, inertia, point):
 
 def mast_of(model, mass):
     """The mast as an even box, as it is drawn; its collision is a little wider."""
-    visual = model.find("link[@name='base_link']/visual[@name='mast']")
+    visual = model.find("link[@name='base_link']/visual[@name='mast_visual']")
     centre = [float(word) for word in visual.findtext("pose").split()[:3]]
     a, b, c = (float(word) for word in visual.findtext("geometry/box/size").split())
     return mass, centre, [mass / 12.0 * (b * b + c * c), mass / 12.0 * (a * a + c * c),
@@ -114,7 +115,7 @@ def mast_of(model, mass):
 
 
 def mass_faults(plain, mounted):
-    if mounted.find("link[@name='base_link']/visual[@name='mast']") is None:
+    if mounted.find("link[@name='base_link']/visual[@name='mast_visual']") is None:
         return
     base, whole = body_of(plain), body_of(mounted)
     mast = mast_of(mounted, whole[0] - base[0])
@@ -167,9 +168,21 @@ def file_faults(root):
                            f"built are {sorted(plugins)}")
 
 
+def name_faults(root):
+    """Elements of one name side by side; that of a plugin says what it is."""
+    for folder in ("models", "worlds", "templates", "examples"):
+        for file in sorted((root / folder).rglob("*.sdf")):
+            for element in xml.etree.ElementTree.parse(file).iter():
+                names = [child.get("name") for child in element if child.tag != "plugin"]
+                for name in sorted({name for name in names if name and names.count(name) > 1}):
+                    yield (f"{file.relative_to(root)}: <{element.tag} name=\"{element.get('name')}\">"
+                           f" has more than one child called '{name}'")
+
+
 def faults(root):
     plain, mounted = (model_in(root / "models" / name / "model.sdf") for name in (PLAIN, MOUNTED))
-    return [*part_faults(plain, mounted), *mass_faults(plain, mounted), *file_faults(root)]
+    return [*part_faults(plain, mounted), *mass_faults(plain, mounted), *file_faults(root),
+            *name_faults(root)]
 
 
 # --- Does it notice? ------------------------------------------------------------------------------
@@ -185,6 +198,7 @@ PLANTED = (  # a file, what is replaced in it by what, what must be said of it
     ("rfid_tag/model.sdf", "libgazeboRfidTagPlugin.so", "libRfidTagPlugin.so", "libRfidTagPlugin"),
     ("rfid_antenna/model.config", "model.sdf", "antenna.sdf", "antenna.sdf"),
     ("rfid_tag_set/model.config", None, None, "no model.config"),
+    ("rfid_tag/model.sdf", '<visual name="label_visual">', '<visual name="label">', "'label'"),
 )
 
 
