@@ -24,6 +24,8 @@ constexpr const char* kFile = "tagfield-gz";
 constexpr const char* kSystem = "tagfield::systems::";
 /// The oldest that has custom sensors.
 constexpr const char* kSdfVersion = "1.8";
+/// Of `gz:`; gz-sim does without, other readers of XML don't.
+constexpr const char* kNameSpace = "http://gazebosim.org/schema";
 
 /// What both the robot's plugin and DiffDrive are told, and the plugin's defaults.
 struct Wheel {
@@ -262,6 +264,7 @@ std::string gz_sim_world(const std::string& text, const std::string& file,
   XMLElement* const sdf = document.FirstChildElement("sdf");
   if (sdf == nullptr) fail({file, 0}, "has no <sdf>");
   sdf->SetAttribute("version", kSdfVersion);
+  sdf->SetAttribute("xmlns:gz", kNameSpace);
   Converter converter(file, options, diagnostics);
   for (XMLElement* const world : children(sdf, "world")) converter.convert_world(world);
   converter.convert_models(sdf);

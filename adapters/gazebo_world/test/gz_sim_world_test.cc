@@ -22,6 +22,7 @@ class Converted {
     warnings_ = diagnostics.warnings();
   }
 
+  XMLElement* sdf() { return document_.RootElement(); }
   XMLElement* world() { return document_.RootElement()->FirstChildElement("world"); }
   XMLElement* link() { return world()->FirstChildElement("model")->FirstChildElement("link"); }
   XMLElement* plugin(const std::string& name, XMLElement* in) {
@@ -49,6 +50,7 @@ TEST(GzSimWorld, MakesCustomSensorsOfOurs) {
       "<plugin name='p' filename='libgazeboRfidAntennaPlugin.so'><range>5</range></plugin></sensor>"
       "<sensor name='t' type='rfidtag'><plugin name='q' filename='libgazeboRfidTagPlugin.so'/>"
       "</sensor></link></model>");
+  EXPECT_STREQ(gz.sdf()->Attribute("xmlns:gz"), "http://gazebosim.org/schema");
   XMLElement* const antenna = gz.link()->FirstChildElement("sensor");
   EXPECT_STREQ(antenna->Attribute("type"), "custom");
   EXPECT_STREQ(antenna->Attribute("gz:type"), "rfid_antenna");
