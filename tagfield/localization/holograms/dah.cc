@@ -2,6 +2,7 @@
 #include "tagfield/localization/holograms/dah.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tagfield/base/random.h"
@@ -32,22 +33,21 @@ Tile complementary_error(const Tile& x) {
   return root.square().square().inverse();
 }
 
-Tile against(const SearchReads& reads, const Aperture& aperture, const SearchRead& reference,
-             float turns_scale, const Tile& x, const Tile& y) {
-  const Tile of_reference = residual_turns(reference, x, y);
+/// The waves of an aperture's reads against one of them.
+struct Against {
+  Tile reference;  ///< Its residual [turns].
   Tile in_phase = Tile::Zero();
   Tile quadrature = Tile::Zero();
+};
+
+void add_wave(const Tile& turns, float turns_scale, Against& against) {
+  const Tile difference = wrapped_turns(turns - against.reference);
+  const Tile weight = complementary_error(difference.abs() * turns_scale);
   Tile cosine;
   Tile sine;
-  for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
-    const SearchRead& read = reads.reads[static_cast<std::size_t>(i)];
-    const Tile turns = wrapped_turns(residual_turns(read, x, y) - of_reference);
-    const Tile weight = complementary_error(turns.abs() * turns_scale);
-    wave_of(turns, cosine, sine);
-    in_phase += weight * cosine;
-    quadrature += weight * sine;
-  }
-  return (in_phase.square() + quadrature.square()).sqrt();
+  wave_of(difference, cosine, sine);
+  against.in_phase += weight * cosine;
+  against.quadrature += weight * sine;
 }
 
 /// Square array of places about `p`, `spacing` apart.
@@ -184,14 +184,25 @@ const OptionTable<DahOptions>& dah_options() {
 Tile differential_brightness(const SearchReads& reads, double noise_rad, const Tile& x,
                              const Tile& y) {
   const auto turns_scale = static_cast<float>(kTwoPi / (2.0 * noise_rad));
+  const auto residual_of = [&](Eigen::Index i) {
+    return residual_turns(reads.reads[static_cast<std::size_t>(i)], x, y);
+  };
   Tile light = Tile::Zero();
   for (const Aperture& aperture : reads.apertures) {
+    std::array<Against, kReferences> all;
     const Eigen::Index references = aperture.count >= kLongAperture ? kReferences : 1;
+    const auto end = all.begin() + references;
     for (Eigen::Index k = 0; k < references; ++k) {
-      const Eigen::Index at = aperture.begin + (2 * k + 1) * aperture.count / (2 * references);
-      light +=
-          against(reads, aperture, reads.reads[static_cast<std::size_t>(at)], turns_scale, x, y) /
-          static_cast<float>(references);
+      all.at(static_cast<std::size_t>(k)).reference =
+          residual_of(aperture.begin + (2 * k + 1) * aperture.count / (2 * references));
+    }
+    for (Eigen::Index i = aperture.begin; i < aperture.begin + aperture.count; ++i) {
+      const Tile turns = residual_of(i);
+      for (auto one = all.begin(); one != end; ++one) add_wave(turns, turns_scale, *one);
+    }
+    for (auto one = all.begin(); one != end; ++one) {
+      light += (one->in_phase.square() + one->quadrature.square()).sqrt() /
+               static_cast<float>(references);
     }
   }
   return light;

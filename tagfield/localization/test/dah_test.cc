@@ -19,14 +19,14 @@ const Method& dah() {
 
 TEST(Dah, LocatesToCentimetresOnACurvedPath) {
   Study study;
-  study.seeds = 4;
+  study.seeds = 2;
   const Tally tally = run(dah(), study, make_aisles);
-  EXPECT_GE(tally.errors.size(), 38u);
+  EXPECT_GE(tally.errors.size(), 19u);
   EXPECT_LT(tally.mean(), 0.010);
   EXPECT_LT(tally.errors.back(), 0.1);
   study.noise.phase_rad = 0.5;
   const Tally noisy = run(dah(), study, make_aisles);
-  EXPECT_GE(noisy.errors.size(), 34u);
+  EXPECT_GE(noisy.errors.size(), 17u);
   EXPECT_LT(noisy.mean(), 0.06);
 }
 
