@@ -83,9 +83,12 @@ py::dict run(const BenchRequest& request, const py::object& progress) {
 }
 
 py::dict bench_suite(const std::string& path, const std::vector<Method>& own,
-                     const std::optional<std::uint64_t>& seeds, int threads,
-                     const py::object& progress) {
+                     const std::optional<std::uint64_t>& seeds,
+                     const std::optional<std::uint64_t>& first_seed, bool skip_missing,
+                     bool allow_outside, int threads, const py::object& progress) {
   BenchRequest request{load_suite(path), own, threads};
+  set_world_options(world_options(skip_missing, allow_outside), request.suite);
+  if (first_seed) request.suite.first_seed = *first_seed;
   for (const Method& method : own) {
     request.suite.methods.push_back({method.name, method.name, {}, {}});
   }
@@ -138,6 +141,7 @@ void bind_bench(py::module_& module) {
            py::arg("path"), py::arg("text"), py::arg("name"), py::arg("overrides"),
            py::arg("world").none(true), py::arg("skip_missing"), py::arg("allow_outside"));
   module.def("bench_suite", &bench_suite, py::arg("path"), py::arg("own"), py::arg("seeds"),
+             py::arg("first_seed"), py::arg("skip_missing"), py::arg("allow_outside"),
              py::arg("threads"), py::arg("progress").none(true));
   module.def("bench", &bench, py::arg("name"), py::arg("methods"), py::arg("conditions"),
              py::arg("own"), py::arg("first_seed"), py::arg("seeds"), py::arg("threads"),

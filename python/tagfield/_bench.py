@@ -43,8 +43,9 @@ class Bench:
 
 
 def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
-          conditions: Mapping[str, Any] | None = None, *, seeds: int | None = None, first_seed: int = 1,
-          phase_noise_rad: float | None = None, name: str = "bench", threads: int | None = None,
+          conditions: Mapping[str, Any] | None = None, *, seeds: int | None = None, first_seed: int | None = None,
+          phase_noise_rad: float | None = None, name: str | None = None, skip_missing: bool = False,
+          allow_outside: bool = False, threads: int | None = None,
           progress: Callable[[float], Any] | None = None) -> Bench:
     """Compares methods on the same reads, by the same judge and against the Cramér-Rao bound.
 
@@ -54,8 +55,9 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
     what: a scenario, its file, or a suite's file; methods of a suite are compared with those in `methods`.
     methods: names, methods of your own, or (label, name, {setting: value}).
     conditions: label and what is different there, as of Scenario.with_(), or a Scenario of its own.
-    seeds: so many in each condition, from first_seed on. phase_noise_rad: for the bound, where the model
-    states none. progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
+    seeds: so many in each condition, from first_seed (1, or the suite's) on. phase_noise_rad: for the bound,
+    where the model states none. skip_missing, allow_outside: of files, as of load(). progress: called with
+    0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
     """
     own = [entry for entry in methods if isinstance(entry, _core.Method)]
     own += [entry[1] for entry in methods if isinstance(entry, tuple) and isinstance(entry[1], _core.Method)]
@@ -63,13 +65,20 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
         if conditions is not None or len(own) != len(methods):
             raise _core.Error("bench: a suite has its own conditions and methods: only methods of your own "
                               "can be added")
-        return Bench(_core.bench_suite(os.fspath(what), own, seeds, threads_of(threads), progress))
-    scenario = what if isinstance(what, Scenario) else load(what)
+        if phase_noise_rad is not None or name is not None:
+            raise _core.Error("bench: a suite says phase_noise_rad and its name itself")
+        return Bench(_core.bench_suite(os.fspath(what), own, seeds, first_seed, skip_missing, allow_outside,
+                                       threads_of(threads), progress))
+    if isinstance(what, Scenario) and (skip_missing or allow_outside):
+        raise _core.Error("bench: skip_missing and allow_outside are of files: give them to tagfield.load()")
+    scenario = what if isinstance(what, Scenario) else load(what, skip_missing=skip_missing,
+                                                            allow_outside=allow_outside)
     if not methods:
         raise _core.Error("bench: methods is empty")
     entries = [_condition(scenario, label, changes, phase_noise_rad)
                for label, changes in (conditions or {scenario.name: {}}).items()]
-    return Bench(_core.bench(name, [_method(entry) for entry in methods], entries, own, first_seed,
+    return Bench(_core.bench(name or "bench", [_method(entry) for entry in methods], entries, own,
+                             1 if first_seed is None else first_seed,
                              1 if seeds is None else seeds, threads_of(threads), progress))
 
 

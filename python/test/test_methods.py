@@ -151,6 +151,39 @@ def test_bench_takes_scenarios_made_here():
         tagfield.bench(scenario, ["hyperbola"], {"here": {"antennas.a.rang_m": 1}})
 
 
+def test_a_suites_files_may_lie_outside_only_where_it_is_said(tmp_path):
+    (tmp_path / "worlds").mkdir()
+    (tmp_path / "here").mkdir()
+    (tmp_path / "worlds/wall.stl").write_text(
+        "solid w\nfacet normal 0 0 1\nouter loop\nvertex 9 9 0\nvertex 9 8 0\nvertex 9 8 1\nendloop\nendfacet\n"
+        "endsolid w\n", encoding="utf-8")
+    (tmp_path / "here/world.sdf").write_text(
+        '<sdf version="1.6"><world name="w"><model name="m"><static>1</static><link name="l">'
+        f'<collision name="c"><geometry><mesh><uri>file://{tmp_path}/worlds/wall.stl</uri></mesh></geometry>'
+        "</collision></link></model></world></sdf>", encoding="utf-8")
+    (tmp_path / "here/row.yaml").write_text("""
+name: row
+model: paper
+world: {path: world.sdf}
+robots: [{name: cart, start: [0, 0, 0], waypoints: [[3, 0], [3, 1]]}]
+antennas: [{name: a, on: cart, pose: [0, 0, 1]}]
+tags: [{id: t, position: [1.5, 2, 1]}]
+""", encoding="utf-8")
+    suite = tmp_path / "here/suite.yaml"
+    suite.write_text("name: s\nmethods: [hyperbola]\nseeds: 2\nconditions: [{name: row, scenario: row.yaml}]\n",
+                     encoding="utf-8")
+    with pytest.raises(tagfield.Error, match="--allow-outside"):
+        tagfield.bench(suite)
+    compared = tagfield.bench(suite, allow_outside=True, first_seed=7)
+    assert compared.tags()["seed"].tolist() == [7, 8]
+    for more in ({"name": "other"}, {"phase_noise_rad": 0.1}):
+        with pytest.raises(tagfield.Error, match="a suite says"):
+            tagfield.bench(suite, allow_outside=True, **more)
+    loaded = tagfield.load(tmp_path / "here/row.yaml", allow_outside=True)
+    with pytest.raises(tagfield.Error, match="give them to tagfield.load"):
+        tagfield.bench(loaded, ["hyperbola"], allow_outside=True)
+
+
 def test_runs_are_read_back(run, tmp_path):
     (tmp_path / "reads.csv").write_text("stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n"
                                         "0.5,r,a,t,866e6,1.25,-50\n", encoding="utf-8")
