@@ -14,14 +14,18 @@ constexpr double kPlanesApart = 0.7;  ///< [m]
 
 }  // namespace
 
-HeightModel height_model(const LocalizationProblem& problem, const std::string& tag,
-                         const TagPhases& phases) {
-  const auto side = side_to_estimate(problem, tag);
-  if (!side) return {HeightModel::Kind::kKnown, plane_height(problem, tag), 1.0};
-  const double sign = *side == HeightSide::kAbove ? 1.0 : -1.0;
+HeightModel estimated_height(HeightSide side, const TagPhases& phases) {
+  const double sign = side == HeightSide::kAbove ? 1.0 : -1.0;
   if (phases.size() == 0) return {HeightModel::Kind::kLevel, 0.0, sign};
   const bool is_level = phases.z.maxCoeff() - phases.z.minCoeff() < kLevel;
   return {is_level ? HeightModel::Kind::kLevel : HeightModel::Kind::kFree, phases.z.mean(), sign};
+}
+
+HeightModel height_model(const LocalizationProblem& problem, const std::string& tag,
+                         const TagPhases& phases) {
+  const auto side = side_to_estimate(problem, tag);
+  if (side) return estimated_height(*side, phases);
+  return {HeightModel::Kind::kKnown, plane_height(problem, tag), 1.0};
 }
 
 std::vector<double> heights_to_search(const HeightModel& height) {

@@ -27,6 +27,9 @@ struct HeightModel {
   [[nodiscard]] int unknowns() const { return kind == Kind::kKnown ? 2 : 3; }
 };
 
+/// Of a tag on that side of the antennas, at a height that is to be estimated.
+HeightModel estimated_height(HeightSide side, const TagPhases& phases);
+
 /// For these samples of the tag.
 HeightModel height_model(const LocalizationProblem& problem, const std::string& tag,
                          const TagPhases& phases);

@@ -68,12 +68,25 @@ Candidate candidate_at(const TagPhases& phases, const Eigen::Vector2d& p, double
   return make_candidate(phases, known, fit);
 }
 
+/// The plane was a guess: the place may be off by as much as it moves where the height is
+/// estimated, and by what that estimate may be off.
+void span_height(const TagPhases& phases, HeightSide side, Candidate& candidate) {
+  const HeightModel height = estimated_height(side, phases);
+  const TagFit fit = fit_tag(phases, height, to_unknowns(height, candidate.p_WT));
+  const Candidate free = make_candidate(phases, height, fit);
+  if (!free.covariance) return;
+  const Eigen::Vector3d off = free.p_WT - candidate.p_WT;
+  candidate.covariance = *free.covariance + off * off.transpose();
+  candidate.expected_error_m = std::sqrt(candidate.covariance->topLeftCorner<2, 2>().trace());
+}
+
 }  // namespace
 
 TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
                                  double tag_height, const HyperbolaOptions& options,
                                  const EstimateLimits& limits,
-                                 const std::optional<PoseErrorModel>& pose_error) {
+                                 const std::optional<PoseErrorModel>& pose_error,
+                                 const std::optional<HeightSide>& side) {
   check_options(hyperbola_options(), options);
   if (!std::isfinite(tag_height)) throw Error("the tag's height must be finite");
   TagEstimate estimate = begun(tag, samples);
@@ -92,20 +105,21 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   if (pose_error && pose_error->sigma_m > 0.0) search.phases.pose_error = pose_error;
   for (const Eigen::Vector2d& p : places) {
     estimate.candidates.push_back(candidate_at(search.phases, p, tag_height));
+    if (side) span_height(search.phases, *side, estimate.candidates.back());
   }
   judge(limits, estimate);
   return estimate;
 }
 
 Method hyperbola_method(const HyperbolaOptions& options) {
-  return one_by_one("hyperbola",
-                    "hyperbolae from unwrapped phase, their intersections (the paper's)",
-                    hyperbola_options(), options,
-                    [](const LocalizationProblem& problem, const std::string& tag,
-                       const SamplesOfTag& samples, const HyperbolaOptions& of) {
-                      return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of,
-                                                  problem.limits, problem.pose_error);
-                    });
+  return one_by_one(
+      "hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
+      hyperbola_options(), options,
+      [](const LocalizationProblem& problem, const std::string& tag, const SamplesOfTag& samples,
+         const HyperbolaOptions& of) {
+        return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of, problem.limits,
+                                    problem.pose_error, side_to_estimate(problem, tag));
+      });
 }
 
 }  // namespace tagfield

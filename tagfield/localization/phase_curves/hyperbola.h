@@ -19,12 +19,13 @@ struct HyperbolaOptions {
 
 /// Locates one tag at rest in the plane z = `tag_height` [m, world]. Antennas that stand still
 /// tell nothing by phase differences and are left out. With the pose error's model, where it is
-/// told, covariances are honest about it. Throws Error on options or a height out of
-/// their range.
+/// told, covariances are honest about it; with a side, where the tag's height is not known, about
+/// the plane, too. Throws Error on options or a height out of their range.
 TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& samples,
                                  double tag_height, const HyperbolaOptions& options,
                                  const EstimateLimits& limits,
-                                 const std::optional<PoseErrorModel>& pose_error = {});
+                                 const std::optional<PoseErrorModel>& pose_error = {},
+                                 const std::optional<HeightSide>& side = {});
 
 /// "hyperbola": all tags, one by one, each in its plane.
 Method hyperbola_method(const HyperbolaOptions& options = {});

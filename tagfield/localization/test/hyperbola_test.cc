@@ -38,6 +38,20 @@ TEST(Hyperbola, MeetsTheContractAboveTheAntenna) {
   EXPECT_LT(tally.errors.back(), 0.1);
 }
 
+// Tags 5 to 60 cm above the plane that is a guess: places are off by centimetres, and say so.
+TEST(Hyperbola, ErrsAsItSaysWhereTheHeightIsUnknown) {
+  Study study;
+  study.seeds = 8;
+  study.height_known = false;
+  study.lowest = 0.45;
+  study.highest = 1.0;
+  const Tally tally = tally_of(study, make_aisles);
+  EXPECT_GE(tally.errors.size(), 70u);
+  EXPECT_GT(tally.mean(), 0.005);
+  EXPECT_GT(tally.calibration(), 0.6);
+  EXPECT_LT(tally.calibration(), 1.3);
+}
+
 TEST(Hyperbola, WithoutRefinementTheBestIntersectionIsGoodToo) {
   HyperbolaOptions options;
   options.refine = false;
