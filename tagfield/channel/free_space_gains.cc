@@ -23,8 +23,15 @@ struct Vectors {
   Lane z;
 };
 
+/// Rotations as unit quaternions.
+struct Rotations {
+  Lane w;
+  Vectors v;
+};
+
 /// Of one end of each link, in W: its axes, the way from it, and what it makes of that.
 struct EndLanes {
+  Rotations R_WE;  ///< What the axes are columns of.
   Vectors boresight;
   Vectors left;
   Vectors up;
@@ -44,14 +51,9 @@ struct Links {
   EndLanes tag;
 };
 
-/// Rotations as unit quaternions.
-struct Rotations {
-  Lane w;
-  Vectors v;
-};
-
 /// The rotations' columns.
-void set_axes(const Rotations& R, std::size_t count, EndLanes& end) {
+void set_axes(std::size_t count, EndLanes& end) {
+  const Rotations& R = end.R_WE;
   for (std::size_t i = 0; i < count; ++i) {
     const double w = R.w[i];
     const double x = R.v.x[i];
@@ -247,8 +249,6 @@ void add_some(const RadioEnd& antenna, const AntennaPattern& tag,
   const std::size_t count = X_WT.size();
   Links links;
   Vectors p_WT;
-  Rotations R_WT;
-  Rotations R_WA;
   const auto fill = [](const Eigen::Quaterniond& q, std::size_t i, Rotations& R) {
     R.w[i] = q.w();
     R.v.x[i] = q.x();
@@ -256,15 +256,15 @@ void add_some(const RadioEnd& antenna, const AntennaPattern& tag,
     R.v.z[i] = q.z();
   };
   for (std::size_t i = 0; i < count; ++i) {
-    fill(antenna.X_WA.rotation, i, R_WA);
-    fill(X_WT[i]->rotation, i, R_WT);
+    fill(antenna.X_WA.rotation, i, links.antenna.R_WE);
+    fill(X_WT[i]->rotation, i, links.tag.R_WE);
     p_WT.x[i] = X_WT[i]->translation.x();
     p_WT.y[i] = X_WT[i]->translation.y();
     p_WT.z[i] = X_WT[i]->translation.z();
   }
   in_lanes(set, [&] {
-    set_axes(R_WA, count, links.antenna);
-    set_axes(R_WT, count, links.tag);
+    set_axes(count, links.antenna);
+    set_axes(count, links.tag);
     set_ways(antenna.X_WA.translation, p_WT, count, links);
     turn_ways(count, links.antenna);
     turn_ways(count, links.tag);
