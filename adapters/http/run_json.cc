@@ -191,6 +191,25 @@ std::string_view between(std::string_view text, std::string_view begin, std::str
   return last == std::string_view::npos ? std::string_view{} : text.substr(first, last - first);
 }
 
+std::optional<RunView> run_view(const RunFiles& run, const std::string& folder) {
+  const std::string_view page = page_file();
+  const std::string_view hash = between(page, "script-src '", "'");
+  const std::string_view script = between(page, "<script>", "</script>");
+  if (hash.empty() || script.empty()) return std::nullopt;
+  std::string html = "<div id=\"tagfield-view\"></div>\n";
+  html += "<script type=\"application/json\" id=\"tagfield-run\">";
+  // No text of the run may end the element.
+  for (const char c : run_json(run, read_surroundings(folder))) {
+    if (c == '<') {
+      html += "\\u003c";
+    } else {
+      html += c;
+    }
+  }
+  html.append("</script>\n<script>").append(script).append("</script>\n");
+  return RunView{std::move(html), std::string(hash)};
+}
+
 }  // namespace
 
 std::string scene_json(const ScenarioWithWorld& loaded) {
@@ -262,23 +281,8 @@ std::string run_json(const RunFiles& run, const Surroundings& around) {
   return json_text(json);
 }
 
-std::optional<RunView> run_view(const std::string& folder) {
-  const std::string_view page = page_file();
-  const std::string_view hash = between(page, "script-src '", "'");
-  const std::string_view script = between(page, "<script>", "</script>");
-  if (hash.empty() || script.empty()) return std::nullopt;
-  std::string html = "<div id=\"tagfield-view\"></div>\n";
-  html += "<script type=\"application/json\" id=\"tagfield-run\">";
-  // No text of the run may end the element.
-  for (const char c : run_json(read_run_files(folder), read_surroundings(folder))) {
-    if (c == '<') {
-      html += "\\u003c";
-    } else {
-      html += c;
-    }
-  }
-  html.append("</script>\n<script>").append(script).append("</script>\n");
-  return RunView{std::move(html), std::string(hash)};
+MakeView view_of(const std::string& folder) {
+  return [folder](const RunFiles& run) { return run_view(run, folder); };
 }
 
 }  // namespace tagfield::http

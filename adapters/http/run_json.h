@@ -35,8 +35,8 @@ Surroundings read_surroundings(const std::string& folder);
 /// none.
 std::string run_json(const RunFiles& run, const Surroundings& around);
 
-/// What report.html embeds of the run in `folder`; none where the program was built without the
-/// page. Throws Error as read_run_files() and read_surroundings() do.
-std::optional<RunView> run_view(const std::string& folder);
+/// Makes what report.html embeds of a run that is read from `folder`; none where the program was
+/// built without the page. Throws Error as read_surroundings() does.
+MakeView view_of(const std::string& folder);
 
 }  // namespace tagfield::http

@@ -18,6 +18,7 @@
 #include "tagfield/experiment/sweep/sweep_plan.h"
 #include "tagfield/files/csv.h"
 #include "tagfield/files/poses_csv.h"
+#include "tagfield/files/read_overview.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/tag_places_csv.h"
@@ -74,11 +75,17 @@ double span_s(const Rows& rows) {
   return to_seconds(last->stamp - first->stamp);
 }
 
-void add_reads(const std::vector<TagRead>& reads, Json& json) {
-  json["reads"] = reads.size();
-  json["tags"] = names_in(reads, [](const TagRead& read) { return read.tag; });
-  json["antennas"] = names_in(reads, [](const TagRead& read) { return read.antenna; });
-  json["duration_s"] = span_s(reads);
+void add_reads(const ReadOverview& reads, Json& json) {
+  json["reads"] = reads.count;
+  json["tags"] = names_in(reads.tags, [](const std::string& tag) { return tag; });
+  json["antennas"] = names_in(reads.last_by_antenna, [](const auto& of) { return of.first; });
+  json["duration_s"] = reads.count == 0 ? 0.0 : to_seconds(reads.last - reads.first);
+}
+
+void add_table_of_reads(const std::string& path, Json& json) {
+  ReadOverview overview;
+  for_each_read(path, [&](const TagRead& read) { add(read, overview); });
+  add_reads(overview, json);
 }
 
 void add_poses(const std::vector<AntennaPose>& poses, Json& json) {
@@ -110,7 +117,7 @@ Json describe_table(const std::string& path) {
   Json json;
   if (has({"stamp_s", "antenna", "tag", "frequency_hz", "rssi_dbm"})) {
     json["kind"] = "reads";
-    add_reads(read_reads_csv(path), json);
+    add_table_of_reads(path, json);
   } else if (has({"stamp_s", "antenna", "x_m", "qw"})) {
     json["kind"] = "antenna poses";
     add_poses(read_poses_csv(path), json);
@@ -214,7 +221,7 @@ Json describe_calibration(const std::string& path) {
 Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
   const BagRecording bag = read_bag(path, {}, diagnostics);
   Json json = {{"kind", "recording of ROS"}};
-  add_reads(bag.reads, json);
+  add_reads(overview_of(bag.reads), json);
   json["duration_s"] = bag.duration_s;
   json["believed_poses"] = bag.believed.poses.empty()
                                ? std::string("none")
@@ -227,7 +234,7 @@ Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
 Json describe_run(const std::string& path) {
   const RunFiles run = read_run_files(path);
   Json json = {{"kind", "folder of a run"}, {"scenario", run.summary.scenario}};
-  add_reads(run.reads, json);
+  add_table_of_reads((fs::path(path) / "reads.csv").string(), json);
   return json;
 }
 

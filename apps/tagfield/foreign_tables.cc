@@ -62,21 +62,26 @@ ReadsAndPoses read_plain_tables(const std::string& command, const std::string& r
     return {std::move(dataset.reads),
             poses_of(command, poses, format, form, std::move(dataset.poses))};
   }
-  const bool of_run = is_run(reads);
-  const fs::path folder = of_run ? fs::path(reads) : fs::path(reads).parent_path();
-  const std::string of_poses =
-      poses.empty() && of_run ? (folder / "antenna_poses.csv").string() : poses;
-  if (of_poses.empty()) {
-    throw Error(command + ": reads as CSV need --poses FILE, the poses of their antennas");
-  }
-  finish_commit(folder);
+  const TableFiles files = own_tables(command, reads, poses);
   ProgressBar bar("reading");
-  return {read_reads_csv(of_run ? (folder / "reads.csv").string() : reads,
-                         [&](double share) { bar.show(share); }),
-          read_poses_csv(of_poses)};
+  return {read_reads_csv(files.reads, [&](double share) { bar.show(share); }),
+          read_poses_csv(files.poses)};
 }
 
 }  // namespace
+
+TableFiles own_tables(const std::string& command, const std::string& reads,
+                      const std::string& poses) {
+  const bool of_run = is_run(reads);
+  const fs::path folder = of_run ? fs::path(reads) : fs::path(reads).parent_path();
+  TableFiles files{of_run ? (folder / "reads.csv").string() : reads, poses};
+  if (poses.empty() && of_run) files.poses = (folder / "antenna_poses.csv").string();
+  if (files.poses.empty()) {
+    throw Error(command + ": reads as CSV need --poses FILE, the poses of their antennas");
+  }
+  finish_commit(folder);
+  return files;
+}
 
 bool is_run(const std::string& path) { return fs::exists(fs::path(path) / "reads.csv"); }
 

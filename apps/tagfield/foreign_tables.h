@@ -20,6 +20,17 @@ struct ReadsAndPoses {
 /// Whether that is the folder of a run, with its tables.
 bool is_run(const std::string& path);
 
+/// Files of tables in the project's own form.
+struct TableFiles {
+  std::string reads;
+  std::string poses;
+};
+
+/// Those that read_tables() reads, of a table or the folder of a run. Throws Error where poses are
+/// missing.
+TableFiles own_tables(const std::string& command, const std::string& reads,
+                      const std::string& poses);
+
 /// `reads`: a table, the folder of a run, or with a format a folder of tables too, or any of them
 /// in an archive. `poses`: a table, or "" where the format or the run has the antennas' places.
 /// `format`: a file, the name of one in profiles/datasets, or "" for the project's own form. Throws

@@ -63,7 +63,7 @@ MethodSettings settings_of(const LocalizeArguments& arguments) {
 /// Those of the scenario, with what the command line says instead; for poses of that name.
 LocalizationOptions options_of(const LocalizeArguments& arguments,
                                const std::optional<ScenarioWithWorld>& loaded,
-                               const std::vector<TagRead>& reads, const std::string& poses) {
+                               const ReadOverview& reads, const std::string& poses) {
   LocalizationOptions options;
   options.method = "auto";
   if (loaded) options = localization_options(loaded->scenario, arguments.threads);
@@ -88,7 +88,8 @@ std::vector<std::string> order_of(const std::optional<ScenarioWithWorld>& loaded
 std::vector<TagOutcome> outcomes_of(const RecordingToLocalize& recording,
                                     const LocalizationOptions& options,
                                     const std::vector<TagEstimate>& estimates) {
-  return judged(estimates, recording.reads, recording.truth, options.known.reference_tags);
+  return judged_by_counts(estimates, recording.overview.count_by_tag, recording.truth,
+                          options.known.reference_tags);
 }
 
 /// The same reads by the scenario's other methods, after `summary`'s own; none where it names none.
@@ -96,7 +97,7 @@ std::vector<MethodSummary> compared_methods(const RecordingToLocalize& recording
                                             const std::optional<ScenarioWithWorld>& loaded,
                                             LocalizationOptions options, const Summary& summary,
                                             const std::vector<std::string>& order) {
-  if (!loaded || loaded->scenario.localization.compare.empty()) return {};
+  if (!loaded || loaded->scenario.localization.compare.empty() || recording.stored) return {};
   const bool believed = recording.poses.name != "true";
   std::vector<MethodSummary> methods = {summary_of_method(summary.method, summary.tags, believed)};
   for (const std::string& name : loaded->scenario.localization.compare) {
@@ -145,7 +146,7 @@ Summary summary_of(const LocalizeArguments& arguments, const RecordingToLocalize
   summary.method_why = result.why;
   summary.pose = recording.poses.name;
   summary.path_length_m = recording.path_length_m;
-  summary.reads = recording.reads.size();
+  summary.reads = recording.overview.count;
   summary.simulated_s = recording.duration_s;
   summary.tags = outcomes_of(recording, options, result.estimates);
   return summary;
@@ -159,7 +160,11 @@ bool is_empty(const Truth& truth) {
 void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWithWorld>& loaded,
            const LocalizationOptions& options, const LocalizationResult& result,
            StagedFolder& folder) {
-  folder.add("reads.csv", reads_to_csv(recording.reads));
+  if (recording.stored) {
+    folder.add_copy("reads.csv", recording.stored->table);
+  } else {
+    folder.add("reads.csv", reads_to_csv(recording.reads));
+  }
   folder.add("antenna_poses.csv", poses_to_csv(recording.poses.poses));
   if (!recording.other.poses.empty()) {
     folder.add("compared_poses.csv", poses_to_csv(recording.other.poses));
@@ -218,15 +223,32 @@ void refuse_unknown_method(const std::string& method) {
   }
 }
 
+/// Tags at known places, by the command line or the scenario.
+std::set<std::string> references_of(const LocalizeArguments& arguments,
+                                    const std::optional<ScenarioWithWorld>& loaded) {
+  std::map<std::string, Eigen::Vector3d> places;
+  if (!arguments.references_file.empty()) {
+    places = read_tag_places_csv(arguments.references_file);
+  } else if (loaded) {
+    places = localization_options(loaded->scenario, 1).known.reference_tags;
+  }
+  std::set<std::string> tags;
+  for (const auto& [tag, place] : places) tags.insert(tag);
+  return tags;
+}
+
 /// The recording, with warnings of what is odd about it.
-RecordingToLocalize recording_of(const LocalizeArguments& arguments, Diagnostics& diagnostics) {
+RecordingToLocalize recording_of(const LocalizeArguments& arguments, const std::string& out,
+                                 const std::set<std::string>& references,
+                                 Diagnostics& diagnostics) {
   if (is_bag(arguments.recording)) {
+    if (arguments.part_reads) throw Error("localize: --part-reads goes with CSV only");
     if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
     return bag_recording(arguments, diagnostics);
   }
   refuse_options_of_bags(arguments);
-  RecordingToLocalize recording = csv_recording(arguments);
-  warn_of_odd_reads(arguments.recording, recording.reads, diagnostics);
+  RecordingToLocalize recording = csv_recording(arguments, out, references, diagnostics);
+  warn_of_odd_reads(arguments.recording, recording.overview, diagnostics);
   warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);
   return recording;
 }
@@ -255,12 +277,17 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
 }  // namespace
 
 LocalizationResult located_with_progress(const RecordingToLocalize& recording,
+                                         const std::optional<Calibration>& calibration,
                                          LocalizationOptions options, Diagnostics& diagnostics) {
   StageBars bars;
   options.on_locating = [&bars](const std::string& what, double share) {
     bars.show("locating " + what, share);
   };
-  return locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+  if (!recording.stored) {
+    return locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+  }
+  return locate_in_parts(parts_of(*recording.stored, calibration), recording.poses.poses, options,
+                         diagnostics);
 }
 
 int localize(const LocalizeArguments& arguments) {
@@ -271,46 +298,54 @@ int localize(const LocalizeArguments& arguments) {
                      arguments.old_height_side + " now");
   }
   const auto loaded = scenario_of(arguments, diagnostics);
-  RecordingToLocalize recording = recording_of(arguments, diagnostics);
+  const std::string out = folder_of(arguments);
+  RecordingToLocalize recording =
+      recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
-      options_of(arguments, loaded, recording.reads, recording.poses.name);
-  if (!arguments.calibration.empty()) {
-    apply_calibration(read_calibration(arguments.calibration), recording.reads,
-                      recording.poses.poses, options.known);
+      options_of(arguments, loaded, recording.overview, recording.poses.name);
+  const std::optional<Calibration> calibration =
+      arguments.calibration.empty() ? std::nullopt
+                                    : std::optional(read_calibration(arguments.calibration));
+  if (calibration) {
+    apply_calibration(*calibration, recording.reads, recording.poses.poses, options.known);
   }
   if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
     diagnostics.warn(
         "--circular does nothing: the poses don't say how the antennas lie (they are "
         "all unturned)");
   }
-  if (recording.reads.empty()) {
+  if (recording.overview.count == 0) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
-  const std::string out = folder_of(arguments);
   try_folder(out);
   const std::vector<std::string> order = order_of(loaded);
-  LocalizationResult result = located_with_progress(recording, options, diagnostics);
+  LocalizationResult result = located_with_progress(recording, calibration, options, diagnostics);
   result.estimates = with_all_tags(std::move(result.estimates), recording.truth, order);
   Summary summary = summary_of(arguments, recording, loaded, options, result);
   summary.compared_pose = compared(
-      recording, options_of(arguments, loaded, recording.reads, recording.other.name), order);
+      recording, options_of(arguments, loaded, recording.overview, recording.other.name), order);
+  if (recording.stored && loaded && !loaded->scenario.localization.compare.empty()) {
+    diagnostics.warn("localization.compare has no effect where reads are located in parts");
+  }
   summary.compared_methods = compared_methods(recording, loaded, options, summary, order);
   summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
-  catch_interrupts();  // What is left to do takes but a moment, and then nothing half-done lies
-                       // about.
+  catch_interrupts();  // What is left to do takes but a moment, unless reads don't fit in memory,
+                       // and then nothing half-done lies about.
   StagedFolder folder(out);
   stage(recording, loaded, options, result, folder);
+  if (recording.stored && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));
   if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
   const std::string staging = folder.staging().string();
-  stage_report(staging, http::run_view(staging), folder);
+  stage_report(staging, http::view_of(staging), folder);
+  if (recording.stored && interrupted()) return kExitInterrupted;
   folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
                  "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
   if (arguments.as_json) {
     fmt::print("{}", to_json(summary));
   } else {
-    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.reads), table_of(summary),
+    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.overview), table_of(summary),
                out);
   }
   return kExitOk;
@@ -334,6 +369,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "bag: true, tf, odometry (tf without a map), or auto (default): the true "
                       "ones and tf beside them, else tf");
   add_format_option(*command, arguments->format);
+  add_part_option(*command, arguments->part_reads);
   command->add_option("--frame", arguments->frame,
                       "With a bag: fixed frame of tf (default: the first of map, world, odom that "
                       "can express the antennas)");

@@ -38,7 +38,8 @@ struct LocalizeArguments {
   std::optional<double> map_yaw_sigma_deg;
   std::string calibration;  ///< Profile, or "".
   std::optional<double> tag_height_m;
-  std::vector<std::string> settings;  ///< "KEY=VALUE", of the method.
+  std::vector<std::string> settings;      ///< "KEY=VALUE", of the method.
+  std::optional<std::size_t> part_reads;  ///< See part_of_table().
   int threads = default_threads();
   bool as_json = false;
   WorldOptions world{};  ///< Of the scenario.

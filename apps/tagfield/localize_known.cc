@@ -44,9 +44,9 @@ KnownOffset parse_offset(const std::string& word) {
 
 /// An offset for each antenna of the reads that one is told of; that of its own name counts.
 std::vector<KnownOffset> offsets_of(const std::vector<std::string>& words,
-                                    const std::vector<TagRead>& reads) {
+                                    const ReadOverview& reads) {
   std::set<std::string> antennas;
-  for (const TagRead& read : reads) antennas.insert(read.antenna);
+  for (const auto& [antenna, last] : reads.last_by_antenna) antennas.insert(antenna);
   std::vector<KnownOffset> named;
   std::vector<KnownOffset> of_all;
   for (const std::string& word : words) {
@@ -161,7 +161,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->needs("--scenario");
 }
 
-void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
+void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
                 KnownBeforehand& known) {
   if (arguments.tag_height_m || !arguments.heights_file.empty() || !arguments.height_side.empty() ||
       !arguments.old_height_side.empty()) {
@@ -174,7 +174,7 @@ void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& 
   if (!arguments.offsets.empty()) known.offsets = offsets_of(arguments.offsets, reads);
   if (arguments.circular.empty()) return;
   const Hand hand = arguments.circular == "right" ? Hand::kRight : Hand::kLeft;
-  for (const TagRead& read : reads) known.circular[read.antenna] = hand;
+  for (const auto& [antenna, last] : reads.last_by_antenna) known.circular[antenna] = hand;
 }
 
 std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses) {

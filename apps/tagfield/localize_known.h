@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "apps/tagfield/localize.h"
+#include "tagfield/files/read_overview.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/scenario/scenario.h"
-#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 
@@ -20,7 +20,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments);
 
 /// Replaces in `known` what the command line says of heights, reference tags, offsets and
 /// polarization. Throws Error on an offset of an antenna that has no reads.
-void take_known(const LocalizeArguments& arguments, const std::vector<TagRead>& reads,
+void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
                 KnownBeforehand& known);
 
 /// What is known of the error of poses of that name ("true", "odometry", "given", …): those of a

@@ -14,42 +14,21 @@ namespace {
 /// The UHF bands of all regions lie closer together than this.
 constexpr double kMostRatio = 1.2;
 
-/// Rows earlier than the one before of the same antenna.
-template <typename Row>
-std::size_t count_backwards(const std::vector<Row>& rows) {
-  std::map<std::string, Time> last;
-  std::size_t count = 0;
-  for (const Row& row : rows) {
-    const auto [entry, is_first] = last.try_emplace(row.antenna, row.stamp);
-    if (!is_first && row.stamp < entry->second) ++count;
-    entry->second = row.stamp;
-  }
-  return count;
-}
-
-template <typename Row>
-void warn_of_order(const std::string& file, const std::vector<Row>& rows,
+void warn_of_order(const std::string& file, std::size_t backwards, std::size_t rows,
                    Diagnostics& diagnostics) {
-  const std::size_t count = count_backwards(rows);
-  if (count == 0) return;
+  if (backwards == 0) return;
   diagnostics.warn({file, 0},
                    fmt::format("{} of {} rows have an earlier stamp_s than the row before them: "
                                "they are put in order of time",
-                               count, rows.size()));
-}
-
-std::set<double> carriers_of(const std::vector<TagRead>& reads) {
-  std::set<double> carriers;
-  for (const TagRead& read : reads) carriers.insert(read.frequency_hz);
-  return carriers;
+                               backwards, rows));
 }
 
 }  // namespace
 
-void warn_of_odd_reads(const std::string& file, const std::vector<TagRead>& reads,
+void warn_of_odd_reads(const std::string& file, const ReadOverview& reads,
                        Diagnostics& diagnostics) {
-  warn_of_order(file, reads, diagnostics);
-  const std::set<double> carriers = carriers_of(reads);
+  warn_of_order(file, reads.backwards, reads.count, diagnostics);
+  const std::set<double>& carriers = reads.carriers_hz;
   if (carriers.empty() || *carriers.rbegin() <= kMostRatio * *carriers.begin()) return;
   diagnostics.warn({file, 0},
                    fmt::format("frequency_hz goes from {:g} to {:g}: is all of it in Hz?",
@@ -58,19 +37,21 @@ void warn_of_odd_reads(const std::string& file, const std::vector<TagRead>& read
 
 void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& poses,
                        Diagnostics& diagnostics) {
-  warn_of_order(file, poses, diagnostics);
+  std::map<std::string, Time> last;
+  std::size_t backwards = 0;
+  for (const AntennaPose& pose : poses) {
+    const auto [entry, is_first] = last.try_emplace(pose.antenna, pose.stamp);
+    if (!is_first && pose.stamp < entry->second) ++backwards;
+    entry->second = pose.stamp;
+  }
+  warn_of_order(file, backwards, poses.size(), diagnostics);
 }
 
-std::string told_of_reads(const std::vector<TagRead>& reads) {
-  std::set<std::string> tags;
-  std::set<std::string> antennas;
-  for (const TagRead& read : reads) {
-    tags.insert(read.tag);
-    antennas.insert(read.antenna);
-  }
-  std::string text = fmt::format("{} of {} by {}", counted(reads.size(), "read"),
-                                 counted(tags.size(), "tag"), counted(antennas.size(), "antenna"));
-  const std::set<double> carriers = carriers_of(reads);
+std::string told_of_reads(const ReadOverview& reads) {
+  std::string text =
+      fmt::format("{} of {} by {}", counted(reads.count, "read"), counted(reads.tags.size(), "tag"),
+                  counted(reads.last_by_antenna.size(), "antenna"));
+  const std::set<double>& carriers = reads.carriers_hz;
   if (carriers.size() < 2) return text;
   return text + fmt::format(" on {} carriers from {:g} to {:g} MHz", carriers.size(),
                             1e-6 * *carriers.begin(), 1e-6 * *carriers.rbegin());

@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/read_overview.h"
 #include "tagfield/poses/trajectory.h"
-#include "tagfield/stream/tag_read.h"
 
 namespace tagfield {
 
 /// Warns of rows that are not in order of time (of each antenna by itself) and of carriers that can
 /// hardly all be in hertz.
-void warn_of_odd_reads(const std::string& file, const std::vector<TagRead>& reads,
+void warn_of_odd_reads(const std::string& file, const ReadOverview& reads,
                        Diagnostics& diagnostics);
 /// Likewise of the order of poses.
 void warn_of_odd_poses(const std::string& file, const std::vector<AntennaPose>& poses,
                        Diagnostics& diagnostics);
 
 /// "1200 reads of 10 tags by 1 antenna on 4 carriers from 865.7 to 867.5 MHz".
-std::string told_of_reads(const std::vector<TagRead>& reads);
+std::string told_of_reads(const ReadOverview& reads);
 
 }  // namespace tagfield

@@ -7,9 +7,11 @@
 #include <map>
 #include <set>
 
+#include "adapters/archive/unpacked_archive.h"
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
+#include "tagfield/files/poses_csv.h"
 
 namespace tagfield {
 namespace {
@@ -92,12 +94,31 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
 
 }  // namespace
 
-RecordingToLocalize csv_recording(const LocalizeArguments& arguments) {
-  ReadsAndPoses tables =
-      read_tables("localize", arguments.recording, arguments.poses, arguments.format);
+RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
+                                  const std::set<std::string>& references,
+                                  Diagnostics& diagnostics) {
   RecordingToLocalize recording;
-  recording.reads = std::move(tables.reads);
-  recording.poses = {"given", std::move(tables.poses)};
+  const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.recording);
+  if (arguments.part_reads && !can_be_stored) {
+    throw Error("localize: --part-reads goes with CSV in Tagfield's own form only, not packed");
+  }
+  std::optional<std::size_t> part;
+  TableFiles files;
+  if (can_be_stored) {
+    files = own_tables("localize", arguments.recording, arguments.poses);
+    part = part_of_table(files.reads, arguments.part_reads);
+  }
+  if (part) {
+    recording.poses = {"given", read_poses_csv(files.poses)};
+    recording.stored = store_reads(files.reads, out, *part, references, diagnostics);
+    recording.overview = recording.stored->overview;
+  } else {
+    ReadsAndPoses tables =
+        read_tables("localize", arguments.recording, arguments.poses, arguments.format);
+    recording.reads = std::move(tables.reads);
+    recording.poses = {"given", std::move(tables.poses)};
+    recording.overview = overview_of(recording.reads);
+  }
   recording.path_length_m = longest_path(recording.poses.poses);
   return recording;
 }
@@ -117,6 +138,7 @@ RecordingToLocalize bag_recording(const LocalizeArguments& arguments, Diagnostic
   compare_frames(arguments.recording, bag,
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
   recording.reads = std::move(bag.reads);
+  recording.overview = overview_of(recording.reads);
   recording.truth = std::move(bag.truth);
   recording.path_length_m = driven_path(recording.truth, recording.poses.poses);
   recording.duration_s = bag.duration_s;

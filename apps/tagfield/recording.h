@@ -3,10 +3,13 @@
 /// What is to be localized, wherever it comes from.
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/tagfield/localize.h"
+#include "apps/tagfield/stored_reads.h"
 #include "tagfield/base/error.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
@@ -21,7 +24,9 @@ struct NamedPoses {
 };
 
 struct RecordingToLocalize {
-  std::vector<TagRead> reads;
+  std::vector<TagRead> reads;         ///< All, or none where they are stored.
+  std::optional<StoredReads> stored;  ///< More than fit in memory.
+  ReadOverview overview;
   NamedPoses poses;
   NamedPoses other;  ///< To be compared with; empty where there are none.
   Truth truth;       ///< Empty where unknown.
@@ -29,8 +34,12 @@ struct RecordingToLocalize {
   double duration_s = 0.0;  ///< 0 where unknown.
 };
 
-/// Reads and poses as CSV. Throws Error where `--poses` is missing.
-RecordingToLocalize csv_recording(const LocalizeArguments& arguments);
+/// Reads and poses as CSV. `references`: tags at known places, which all parts have of reads that
+/// are stored on the way to `out`. Throws Error where `--poses` is missing, or --part-reads goes
+/// with an archive or other people's tables.
+RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
+                                  const std::set<std::string>& references,
+                                  Diagnostics& diagnostics);
 
 /// A rosbag, with a progress bar. Throws Error where it has not the poses that were asked for.
 RecordingToLocalize bag_recording(const LocalizeArguments& arguments, Diagnostics& diagnostics);

@@ -16,7 +16,7 @@ namespace {
 int report(const LocalizeArguments& arguments) {
   if (is_bag(arguments.recording)) return localize(arguments);
   if (!arguments.out.empty()) throw Error("report: --out goes with a bag only");
-  write_report(arguments.recording, http::run_view(arguments.recording));
+  write_report(arguments.recording, http::view_of(arguments.recording));
   fmt::print("page: {}/report.html\n", arguments.recording);
   return kExitOk;
 }

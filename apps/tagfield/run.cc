@@ -297,7 +297,7 @@ int run(const RunArguments& arguments) {
   if (!summary.complete) folder.add("INCOMPLETE", "The run was interrupted; see summary.json.\n");
   if (!arguments.no_page) {
     const std::string staging = folder.staging().string();
-    stage_report(staging, http::run_view(staging), folder);
+    stage_report(staging, http::view_of(staging), folder);
   }
   folder.commit(stale_files());
   if (store && summary.complete) store->drop();

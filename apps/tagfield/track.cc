@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "adapters/archive/unpacked_archive.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/track_files.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
@@ -45,6 +47,7 @@ struct TrackArguments {
   std::optional<std::uint64_t> seed;
   std::size_t seeds = 1;
   std::string out;
+  std::optional<std::size_t> part_reads;  ///< See part_of_table().
   int threads = default_threads();
   bool no_page = false;
   bool as_json = false;
@@ -144,10 +147,16 @@ Truth truth_beside(const std::string& reads) {
   return read_truth(folder.empty() ? "." : folder.string());
 }
 
-Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
-  if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
+/// How tags that were read are to be tracked, and what is known of them.
+struct Task {
   TrackingSpec spec;
   KnownBeforehand known;
+};
+
+Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
+  if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
+  Task task;
+  auto& [spec, known] = task;
   if (!arguments.scenario.empty()) {
     const ScenarioWithWorld loaded = load(arguments, arguments.scenario, diagnostics);
     spec = loaded.scenario.tracking;
@@ -165,6 +174,11 @@ Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
   if (!arguments.heights_file.empty()) {
     known.heights.of_tag = read_tag_heights_csv(arguments.heights_file);
   }
+  return task;
+}
+
+Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
+  auto [spec, known] = task_of(arguments, diagnostics);
   std::vector<TrackingRun> runs(1);
   runs[0].seed = arguments.seed.value_or(1);
   ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
@@ -229,8 +243,87 @@ std::string folder_of(const TrackArguments& arguments, const Result& result) {
   return "runs/" + folder_name(result.summary.name);
 }
 
+int tell(const TrackArguments& arguments, const Result& result, const std::string& out) {
+  if (arguments.as_json) {
+    fmt::print("{}", to_json(result.summary));
+  } else {
+    fmt::print("{}{}: {}\n", table_of(result.summary), arguments.no_page ? "folder" : "page",
+               arguments.no_page ? out : out + "/tracks.html");
+    if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
+  }
+  return result.complete ? kExitOk : kExitInterrupted;
+}
+
+/// Judges nothing where the truth itself doesn't fit in memory.
+Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
+  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+  const fs::path tags = folder / "truth" / "tags.csv";
+  if (fs::exists(tags) && fs::file_size(tags) > kLargeTable) {
+    diagnostics.warn({tags.string(), 0}, "does not fit in memory: the tracks are not judged by it");
+    return {};
+  }
+  return truth_beside(reads);
+}
+
+/// Tags of a table that doesn't fit in memory, whose tracks may not either.
+int track_table_in_parts(const TrackArguments& arguments, const TableFiles& files,
+                         std::size_t part_reads, Diagnostics& diagnostics) {
+  auto [spec, known] = task_of(arguments, diagnostics);
+  Result result;
+  result.summary.name = arguments.input;
+  result.summary.method = to_string(spec.options.method);
+  const std::string out = folder_of(arguments, result);
+  TrackingRun& run = result.first;
+  run.seed = arguments.seed.value_or(1);
+  run.believed_poses = read_poses_csv(files.poses);
+  run.truth = truth_that_fits(arguments.input, diagnostics);
+  const StoredReads stored = store_reads(files.reads, out, part_reads, {}, diagnostics);
+  std::optional<Calibration> calibration;
+  if (!arguments.calibration.empty()) {
+    calibration = read_calibration(arguments.calibration);
+    std::vector<TagRead> none;
+    apply_calibration(*calibration, none, run.believed_poses, known);
+  }
+  StagedFolder folder(out);
+  TrackTables tables(folder);
+  {
+    ProgressBar bar(fmt::format("tracking in {} parts", stored.store->parts()));
+    track_in_parts(
+        spec, known, arguments.threads, parts_of(stored, calibration),
+        [&](const std::vector<TagTrack>& tracks) { tables.add(tracks); },
+        [&](double share) { bar.show(share); }, run, diagnostics);
+  }
+  result.summary.seeds = {run.seed};
+  result.summary.tags = std::move(run.outcomes);
+  add_orders(run.order_outcomes, result.summary.orders);
+  result.summary.warnings = diagnostics.warnings();
+  print_warnings(diagnostics);
+  catch_interrupts();
+  stage_summary(result.summary, run, result.summary.tags.size(), stored.overview.count,
+                !arguments.no_page, folder);
+  folder.commit(track_file_names());
+  return tell(arguments, result, out);
+}
+
+/// The table where it is to be tracked in parts.
+std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArguments& arguments) {
+  const bool can_be_stored =
+      !is_scenario(arguments.input) && arguments.format.empty() && !is_archive(arguments.input);
+  if (arguments.part_reads && !can_be_stored) {
+    throw Error("track: --part-reads goes with CSV in Tagfield's own form only, not packed");
+  }
+  if (!can_be_stored) return std::nullopt;
+  TableFiles files = own_tables("track", arguments.input, arguments.poses);
+  const auto part = part_of_table(files.reads, arguments.part_reads);
+  if (!part) return std::nullopt;
+  return std::pair(std::move(files), *part);
+}
+
 int track_command(const TrackArguments& arguments) {
   Diagnostics diagnostics;
+  if (const auto table = table_for_parts(arguments)) {
+    return track_table_in_parts(arguments, table->first, table->second, diagnostics);
+  }
   Result result = is_scenario(arguments.input) ? track_scenario(arguments, diagnostics)
                                                : track_reads(arguments, diagnostics);
   result.summary.warnings = diagnostics.warnings();
@@ -246,14 +339,7 @@ int track_command(const TrackArguments& arguments) {
   }
   stage_tracks(result.summary, result.first, !arguments.no_page, folder);
   folder.commit(track_file_names());
-  if (arguments.as_json) {
-    fmt::print("{}", to_json(result.summary));
-  } else {
-    fmt::print("{}{}: {}\n", table_of(result.summary), arguments.no_page ? "folder" : "page",
-               arguments.no_page ? out : out + "/tracks.html");
-    if (!result.complete) fmt::print("INCOMPLETE: the run was interrupted\n");
-  }
-  return result.complete ? kExitOk : kExitInterrupted;
+  return tell(arguments, result, out);
 }
 
 void add_knowledge(CLI::App& command, TrackArguments& arguments) {
@@ -302,6 +388,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
                       "With reads, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,"
                       "qw; one row for one at rest)");
   add_format_option(*command, arguments->format);
+  add_part_option(*command, arguments->part_reads);
   command->add_option("--scenario", arguments->scenario,
                       "With reads, a scenario whose 'tracking' and heights are to be used");
   add_world_options(*command, arguments->world);

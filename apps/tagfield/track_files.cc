@@ -9,12 +9,32 @@ namespace tagfield {
 
 void stage_tracks(const TrackSummary& summary, const TrackingRun& first, bool with_page,
                   StagedFolder& folder) {
-  folder.add("tracks.csv", tracks_to_csv(first.tracks));
-  folder.add("verdicts.csv", verdicts_to_csv(first.tracks));
+  TrackTables(folder).add(first.tracks);
+  stage_summary(summary, first, first.tracks.size(), first.reads.size(), with_page, folder);
+}
+
+TrackTables::TrackTables(StagedFolder& folder)
+    : tracks_(folder.grow("tracks.csv")), verdicts_(folder.grow("verdicts.csv")) {
+  tracks_->text() += tracks_to_csv({});
+  verdicts_->text() += verdicts_to_csv({});
+}
+
+void TrackTables::add(const std::vector<TagTrack>& tracks) {
+  for (const TagTrack& track : tracks) {
+    tracks_->text() += track_rows({track});
+    tracks_->sync();
+  }
+  verdicts_->text() += verdict_rows(tracks);
+  verdicts_->sync();
+}
+
+void stage_summary(const TrackSummary& summary, const TrackingRun& first, std::size_t tags,
+                   std::size_t reads, bool with_page, StagedFolder& folder) {
   folder.add("order.csv", orders_to_csv(first.orders));
   folder.add("tracks.json", to_json(summary));
-  const TracksShown shown{&summary,     &first.reads,  &first.believed_poses,
-                          &first.truth, &first.tracks, &first.orders};
+  const TracksShown shown{
+      tags,         reads,         &summary,     &first.reads, &first.believed_poses,
+      &first.truth, &first.tracks, &first.orders};
   const std::vector<Figure> figures = tracks_figures(shown);
   for (const Figure& figure : figures) {
     const bool is_map = figure.name == "tracks";

@@ -3,7 +3,9 @@
 /// What `track` writes, and `run` of a scenario that says where its tags run.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "tagfield/experiment/tracking_run.h"
@@ -15,6 +17,20 @@ namespace tagfield {
 /// `with_page`. `first` is the first seed of those in the summary.
 void stage_tracks(const TrackSummary& summary, const TrackingRun& first, bool with_page,
                   StagedFolder& folder);
+
+/// The same of tracks that TrackTables wrote, of so many tags and reads.
+void stage_summary(const TrackSummary& summary, const TrackingRun& first, std::size_t tags,
+                   std::size_t reads, bool with_page, StagedFolder& folder);
+
+/// Writes tracks and verdicts part by part.
+class TrackTables {
+ public:
+  explicit TrackTables(StagedFolder& folder);
+  void add(const std::vector<TagTrack>& tracks);
+
+ private:
+  std::shared_ptr<GrowingFile> tracks_, verdicts_;
+};
 
 /// All that stage_tracks() may have written earlier.
 const std::vector<std::filesystem::path>& track_file_names();

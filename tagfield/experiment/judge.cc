@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "tagfield/files/read_overview.h"
 #include "tagfield/report/text.h"
 
 namespace tagfield {
@@ -69,14 +70,21 @@ std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
                                const std::vector<TagRead>& reads, const Truth& truth,
                                const std::map<std::string, Eigen::Vector3d>& references,
                                std::uint64_t seed) {
-  std::map<std::string, std::size_t> counts = count_by_tag(reads);
+  return judged_by_counts(estimates, overview_of(reads).count_by_tag, truth, references, seed);
+}
+
+std::vector<TagOutcome> judged_by_counts(const std::vector<TagEstimate>& estimates,
+                                         const ReadCounts& reads, const Truth& truth,
+                                         const std::map<std::string, Eigen::Vector3d>& references,
+                                         std::uint64_t seed) {
   const std::map<std::string, Places> places = places_of(truth);
   std::vector<TagOutcome> outcomes;
   for (const TagEstimate& estimate : estimates) {
     TagOutcome outcome;
     outcome.seed = seed;
     outcome.estimate = estimate;
-    outcome.reads = counts[estimate.tag];
+    const auto count = reads.find(estimate.tag);
+    if (count != reads.end()) outcome.reads = count->second;
     outcome.reference = references.count(estimate.tag) > 0;
     const auto known = places.find(estimate.tag);
     if (known != places.end()) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "tagfield/localization/tag_estimate.h"
@@ -19,6 +20,9 @@ namespace tagfield {
 std::vector<TagEstimate> with_all_tags(std::vector<TagEstimate> estimates, const Truth& truth,
                                        const std::vector<std::string>& order);
 
+/// How many reads there are of each tag.
+using ReadCounts = std::unordered_map<std::string, std::size_t>;
+
 /// An outcome for each estimate: located, ambiguous or not located as the estimate says; moved
 /// where the truth has the tag in places over 5 mm apart, so that it has no one true place; of
 /// others the last counts, as physics lets them settle. `references` are those whose places were
@@ -27,5 +31,11 @@ std::vector<TagOutcome> judged(const std::vector<TagEstimate>& estimates,
                                const std::vector<TagRead>& reads, const Truth& truth,
                                const std::map<std::string, Eigen::Vector3d>& references,
                                std::uint64_t seed = 0);
+
+/// The same of reads that are not in memory.
+std::vector<TagOutcome> judged_by_counts(const std::vector<TagEstimate>& estimates,
+                                         const ReadCounts& reads, const Truth& truth,
+                                         const std::map<std::string, Eigen::Vector3d>& references,
+                                         std::uint64_t seed = 0);
 
 }  // namespace tagfield

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/experiment/tracking_run.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
 #include <mutex>
+#include <utility>
 
 #include "tagfield/base/parallel.h"
 #include "tagfield/experiment/known_beforehand.h"
@@ -26,6 +31,43 @@ TrackingRun simulated(const Scenario& scenario, std::uint64_t seed, const RunCon
   return run;
 }
 
+/// Adds each tag's first and last read.
+void add_ends(const std::vector<TagRead>& reads, std::vector<TagRead>& ends) {
+  std::map<std::string, std::pair<const TagRead*, const TagRead*>> by_tag;
+  for (const TagRead& read : reads) {
+    auto& [first, last] = by_tag.try_emplace(read.tag, &read, &read).first->second;
+    if (read.stamp < first->stamp) first = &read;
+    if (read.stamp > last->stamp) last = &read;
+  }
+  for (const auto& [tag, of_tag] : by_tag) {
+    ends.push_back(*of_tag.first);
+    if (of_tag.second != of_tag.first) ends.push_back(*of_tag.second);
+  }
+}
+
+void thin(std::vector<double>& errors) {
+  const std::size_t every = errors.size() / kErrorsKept + 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < errors.size(); i += every) errors[kept++] = errors[i];
+  errors.resize(kept);
+  errors.shrink_to_fit();
+}
+
+/// Adds what tags of a part passed.
+void add_passings(std::vector<PassingOrder> of_part, std::vector<PassingOrder>& orders) {
+  if (orders.empty()) {
+    orders = std::move(of_part);
+    return;
+  }
+  for (std::size_t i = 0; i < of_part.size(); ++i) {  // The same things passed, in the same order.
+    std::vector<Passing>& all = orders[i].passings;
+    const auto middle = static_cast<std::ptrdiff_t>(all.size());
+    std::move(of_part[i].passings.begin(), of_part[i].passings.end(), std::back_inserter(all));
+    std::inplace_merge(all.begin(), all.begin() + middle, all.end(),
+                       [](const Passing& a, const Passing& b) { return a.stamp < b.stamp; });
+  }
+}
+
 }  // namespace
 
 void track(const TrackingSpec& spec, const KnownBeforehand& known, int threads, TrackingRun& run,
@@ -37,6 +79,40 @@ void track(const TrackingSpec& spec, const KnownBeforehand& known, int threads, 
   run.tracks = track_tags(problem, options, threads, diagnostics);
   run.orders = passing_orders(problem, run.tracks, spec.line);
   run.outcomes = judge_tracks(run.seed, run.tracks, run.truth);
+  run.order_outcomes =
+      judge_orders(run.orders, passing_orders(problem, true_tracks(run.truth), spec.line));
+}
+
+void track_in_parts(const TrackingSpec& spec, const KnownBeforehand& known, int threads,
+                    const ReadParts& parts,
+                    const std::function<void(const std::vector<TagTrack>&)>& on_tracks,
+                    const std::function<void(double)>& on_progress, TrackingRun& run,
+                    Diagnostics& diagnostics) {
+  TrackingOptions options = spec.options;
+  options.seed = run.seed;
+  WarningsOfParts warnings(parts.count);
+  LocalizationProblem problem;
+  for (std::size_t i = 0; i < parts.count; ++i) {
+    if (on_progress) on_progress(static_cast<double>(i) / static_cast<double>(parts.count));
+    Diagnostics of_part;
+    {
+      const std::vector<TagRead> reads = parts.reads(i);
+      add_ends(reads, run.reads);
+      problem = make_problem(reads, run.believed_poses, known, of_part);
+    }
+    std::vector<TagTrack> tracks = track_tags(problem, options, threads, of_part);
+    warnings.take(of_part);
+    on_tracks(tracks);
+    add_passings(passing_orders(problem, tracks, spec.line), run.orders);
+    for (TrackOutcome& outcome : judge_tracks(run.seed, tracks, run.truth)) {
+      for (auto* errors : {&outcome.along_m, &outcome.across_m, &outcome.speed_m_s}) thin(*errors);
+      run.outcomes.push_back(std::move(outcome));
+    }
+    const std::size_t kept = std::min(tracks.size(), kTracksKept - run.tracks.size());
+    std::move(tracks.begin(), tracks.begin() + static_cast<std::ptrdiff_t>(kept),
+              std::back_inserter(run.tracks));
+  }
+  warnings.give(diagnostics);
   run.order_outcomes =
       judge_orders(run.orders, passing_orders(problem, true_tracks(run.truth), spec.line));
 }

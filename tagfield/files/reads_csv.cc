@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "tagfield/base/units.h"
 #include "tagfield/files/csv.h"
@@ -85,18 +86,24 @@ std::string reads_to_csv(const std::vector<TagRead>& reads) {
   return text;
 }
 
-std::vector<TagRead> read_reads_csv(const std::string& path,
-                                    const std::function<void(double)>& on_progress) {
+void for_each_read(const std::string& path, const std::function<void(TagRead)>& take,
+                   const std::function<void(double)>& on_progress) {
   CsvTable table;
   ReadColumns columns;
-  std::vector<TagRead> reads;
   read_csv_rows(
       path,
       [&](const CsvTable& begun) {
         table = begun;
         columns = columns_of(table);
       },
-      [&](const CsvRow& row) { reads.push_back(read_in(table, columns, row)); }, {}, on_progress);
+      [&](const CsvRow& row) { take(read_in(table, columns, row)); }, {}, on_progress);
+}
+
+std::vector<TagRead> read_reads_csv(const std::string& path,
+                                    const std::function<void(double)>& on_progress) {
+  std::vector<TagRead> reads;
+  for_each_read(
+      path, [&](TagRead read) { reads.push_back(std::move(read)); }, on_progress);
   reads.shrink_to_fit();
   return reads;
 }

@@ -27,4 +27,9 @@ std::string reads_to_csv(const std::vector<TagRead>& reads);
 std::vector<TagRead> read_reads_csv(const std::string& path,
                                     const std::function<void(double)>& on_progress = {});
 
+/// The same read by read, of tables that don't fit in memory. Reads before a bad line have been
+/// taken when it throws.
+void for_each_read(const std::string& path, const std::function<void(TagRead)>& take,
+                   const std::function<void(double)>& on_progress = {});
+
 }  // namespace tagfield

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/files.h"
 #include "tagfield/files/internal/file_steps.h"
 #include "tagfield/files/internal/folder_lock.h"
 #include "tagfield/files/internal/folder_swap.h"
@@ -245,6 +246,19 @@ void StagedFolder::add(const fs::path& name, const std::string& text) {
   const fs::path place = staging_ / name;
   make_folder(place.parent_path());
   write_through(place, text, folder_ / name);
+  added_.insert(name);
+}
+
+void StagedFolder::add_copy(const fs::path& name, const fs::path& from) {
+  require_free(name);
+  const fs::path place = staging_ / name;
+  make_folder(place.parent_path());
+  GrowingFile file(place, folder_ / name);
+  read_in_blocks(from.string(), [&](std::string_view block) {
+    file.text().append(block);
+    file.sync();
+  });
+  file.finish();
   added_.insert(name);
 }
 

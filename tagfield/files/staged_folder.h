@@ -70,6 +70,10 @@ class StagedFolder {
   /// didn't write, and where the way there leads through a symbolic link.
   void add(const std::filesystem::path& name, const std::string& text);
 
+  /// Adds a copy of a file, however large. Throws Error as add() does, and where it can't be
+  /// copied.
+  void add_copy(const std::filesystem::path& name, const std::filesystem::path& from);
+
   /// Adds a file that grows until commit().
   std::shared_ptr<GrowingFile> grow(const std::filesystem::path& name);
 

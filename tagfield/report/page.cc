@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/report/page.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "tagfield/base/error.h"
@@ -13,6 +15,7 @@
 #include "tagfield/report/passings_figure.h"
 #include "tagfield/report/run_files.h"
 #include "tagfield/report/style_sheet.h"
+#include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
@@ -39,6 +42,16 @@ std::string figures_html(const std::vector<Figure>& figures) {
   return "<div class=\"figures\">\n" + drawn + "</div>\n" + missing;
 }
 
+/// Where not all reads fit in memory.
+std::string left_out_note(const RunFiles& run) {
+  if (run.reads.size() == run.reads_in_table) return "";
+  return fmt::format(
+      "<p class=\"muted\">Figures and the run over time show {} of {} reads: all of the tag that "
+      "an "
+      "antenna reads most often, as far as they fit in memory, and a share of the others.</p>\n",
+      grouped(run.reads.size()), grouped(run.reads_in_table));
+}
+
 std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
   const Summary& summary = run.summary;
@@ -53,7 +66,7 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
          (view ? "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html +
                      "</section>\n"
                : "") +
-         "<h2>Figures</h2>\n" + figures_html(figures) +
+         "<h2>Figures</h2>\n" + left_out_note(run) + figures_html(figures) +
          (run.tracked ? passings_table(run.tracked->orders) : "") +
          (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +
          page_footer() + script_html(table_script()) + script_html(figure_script()) +
@@ -75,9 +88,9 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
          escaped(title) + "</title>\n<style>\n" + page_style() + "</style>\n</head>\n";
 }
 
-void stage_report(const std::string& run_folder, const std::optional<RunView>& view,
-                  StagedFolder& folder) {
+void stage_report(const std::string& run_folder, const MakeView& make_view, StagedFolder& folder) {
   const RunFiles run = read_run_files(run_folder);
+  const std::optional<RunView> view = make_view ? make_view(run) : std::nullopt;
   const std::vector<Figure> figures = all_figures(run);
   for (const Figure& figure : figures) {
     if (!figure.missing.empty()) continue;
@@ -87,10 +100,10 @@ void stage_report(const std::string& run_folder, const std::optional<RunView>& v
   folder.add("report.html", page_of(run, figures, view));
 }
 
-void write_report(const std::string& run_folder, const std::optional<RunView>& view) {
+void write_report(const std::string& run_folder, const MakeView& make_view) {
   require_run_folder(run_folder);
   StagedFolder folder(run_folder);
-  stage_report(run_folder, view, folder);
+  stage_report(run_folder, make_view, folder);
   folder.commit({"figures"});
 }
 

@@ -8,9 +8,9 @@
 #include "tagfield/base/error.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
-#include "tagfield/files/reads_csv.h"
 #include "tagfield/files/truth_csv.h"
 #include "tagfield/map/map_file.h"
+#include "tagfield/report/internal/drawn_reads.h"
 #include "tagfield/report/text.h"
 #include "tagfield/report/tracks_csv.h"
 
@@ -127,7 +127,9 @@ RunFiles read_run_files(const std::string& folder) {
   RunFiles run;
   const std::string summary_file = folder + "/summary.json";
   run.summary = summary_from_json(read_text_file(summary_file), summary_file);
-  run.reads = read_reads_csv(folder + "/reads.csv");
+  DrawnReads drawn = read_drawn(folder + "/reads.csv");
+  run.reads = std::move(drawn.reads);
+  run.reads_in_table = drawn.of;
   Trajectories believed = by_antenna(read_poses_csv(folder + "/antenna_poses.csv"));
   const std::string compared = folder + "/compared_poses.csv";
   if (run.summary.pose == "true" && run.summary.compared_pose && fs::exists(compared)) {
@@ -153,6 +155,7 @@ RunFiles recorded_run(const std::string& name, std::vector<TagRead> reads,
   RunFiles run;
   run.summary.scenario = name;
   run.reads = std::move(reads);
+  run.reads_in_table = run.reads.size();
   Trajectories true_poses = take_truth(truth, run);
   std::map<std::string, std::size_t> counts = count_by_tag(run.reads);
   for (const auto& [tag, places] : run.true_places) counts.emplace(tag, 0);

@@ -46,7 +46,8 @@ struct TrackedTags {
 /// All that a page is made of. Not to be copied: tracks point into `reads`.
 struct RunFiles {
   Summary summary;
-  std::vector<TagRead> reads;  ///< Of the first seed, as all below.
+  std::vector<TagRead> reads;      ///< Of the first seed, as all below; those that the page shows.
+  std::size_t reads_in_table = 0;  ///< As many, or more where these don't fit in memory.
   std::map<std::string, std::vector<TagPosition>>
       true_places;                   ///< By tag, in rising order of time.
   std::vector<Silhouette> top_view;  ///< Empty where unknown.

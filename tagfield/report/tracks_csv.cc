@@ -37,9 +37,13 @@ std::string motion_of(const TrackPoint& point) {
 }  // namespace
 
 std::string tracks_to_csv(const std::vector<TagTrack>& tracks) {
-  std::string text =
-      "stamp_s,tag,track,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,sigma_x_m,sigma_y_m,sigma_z_m,"
-      "sigma_vx_m_s,sigma_vy_m_s,sigma_vz_m_s,cov_xy_m2\n";
+  return "stamp_s,tag,track,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,sigma_x_m,sigma_y_m,sigma_z_m,"
+         "sigma_vx_m_s,sigma_vy_m_s,sigma_vz_m_s,cov_xy_m2\n" +
+         track_rows(tracks);
+}
+
+std::string track_rows(const std::vector<TagTrack>& tracks) {
+  std::string text;
   for (const TagTrack& tag : tracks) {
     for (std::size_t i = 0; i < tag.tracks.size(); ++i) {
       for (const TrackPoint& point : tag.tracks[i].points) text += row_of(tag.tag, i + 1, point);
@@ -49,9 +53,13 @@ std::string tracks_to_csv(const std::vector<TagTrack>& tracks) {
 }
 
 std::string verdicts_to_csv(const std::vector<TagTrack>& tracks) {
-  std::string text =
-      "tag,verdict,tracks,reads,left_out,rms_rad,coherence,expected_error_m,speed_m_s,heading_deg,"
-      "sigma_speed_m_s,sigma_heading_deg,reason\n";
+  return "tag,verdict,tracks,reads,left_out,rms_rad,coherence,expected_error_m,speed_m_s,"
+         "heading_deg,sigma_speed_m_s,sigma_heading_deg,reason\n" +
+         verdict_rows(tracks);
+}
+
+std::string verdict_rows(const std::vector<TagTrack>& tracks) {
+  std::string text;
   for (const TagTrack& tag : tracks) {
     text += fmt::format("{},{},{},{}", csv_field(tag.tag), to_string(tag.verdict),
                         tag.tracks.size(), tag.reads);

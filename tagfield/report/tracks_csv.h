@@ -19,6 +19,10 @@ std::string tracks_to_csv(const std::vector<TagTrack>& tracks);
 /// sigma_speed_m_s,sigma_heading_deg,reason`: a row a tag, of its likeliest track halfway.
 std::string verdicts_to_csv(const std::vector<TagTrack>& tracks);
 
+/// The rows of these tables alone, to be added to a header.
+std::string track_rows(const std::vector<TagTrack>& tracks);
+std::string verdict_rows(const std::vector<TagTrack>& tracks);
+
 /// `passed,rank,tag,stamp_s,sigma_s,before_next`: the last is the probability that the tag was
 /// before the one that follows, empty for the last.
 std::string orders_to_csv(const std::vector<PassingOrder>& orders);

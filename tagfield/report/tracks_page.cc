@@ -72,7 +72,7 @@ std::string tracks_numbers(const TracksShown& shown) {
     html += tracks_number("In order at " + shortened(order.name, 18),
                           fmt::format("{} of {}", grouped(order.right), grouped(order.pairs)));
   }
-  return html + tracks_number("Reads", grouped(shown.reads->size())) + "</dl>\n";
+  return html + tracks_number("Reads", grouped(shown.read_count)) + "</dl>\n";
 }
 
 std::string tracks_fact(const std::string& name, const std::string& value) {
@@ -138,6 +138,14 @@ std::string track_row(const TagTrack& tag, const TrackOutcome& outcome, bool tru
   return row + "</tr>\n";
 }
 
+std::string tracks_left_out(const TracksShown& shown) {
+  if (shown.tracks->size() >= shown.tag_count) return "";
+  return fmt::format(
+      "<p class=\"muted\">The figures of tracks and speeds show the first {} of {} tags; "
+      "tracks.csv holds all.</p>\n",
+      grouped(shown.tracks->size()), grouped(shown.tag_count));
+}
+
 /// Of the first seed: its outcomes come first, in the order of its tracks.
 std::string tracks_table(const TracksShown& shown) {
   const std::vector<TagTrack>& tracks = *shown.tracks;
@@ -164,9 +172,9 @@ std::string tracks_table(const TracksShown& shown) {
     html += track_row(tracks[i], outcomes[i], truth, remarks);
   }
   html += "</tbody></table></div>\n";
-  if (most < tracks.size()) {
+  if (most < shown.tag_count) {
     html += fmt::format("<p class=\"muted\">The first {} of {} tags; verdicts.csv holds all.</p>\n",
-                        most, grouped(tracks.size()));
+                        most, grouped(shown.tag_count));
   }
   return html +
          "<p class=\"muted\">Speed and heading halfway; expected error where the tag came nearest "
@@ -224,7 +232,7 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
   return page_head(shown.summary->name + " – Tagfield tracks",
                    {table_script().hash, figure_script().hash, link_script().hash}) +
          "<body>\n" + tracks_header(shown) + "<main>\n" + tracks_numbers(shown) +
-         "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
+         tracks_left_out(shown) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          passings_table(*shown.orders) + "<h2>Tags</h2>\n" + tracks_table(shown) +
          tracks_facts(*shown.summary) +
          "</main>\n<footer>\n<p>Made by Tagfield; tracks.csv, verdicts.csv, order.csv and "

@@ -3,6 +3,7 @@
 /// The page of tracked tags.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace tagfield {
 
 /// What the page is made of; none is null. The summary is of all seeds, all else of the first.
 struct TracksShown {
+  std::size_t tag_count = 0;   ///< Of the first seed; of more than `tracks` where those are a part.
+  std::size_t read_count = 0;  ///< Likewise.
   const TrackSummary* summary = nullptr;
-  const std::vector<TagRead>* reads = nullptr;
+  const std::vector<TagRead>* reads = nullptr;  ///< Each tag's first and last among them.
   const std::vector<AntennaPose>* antennas = nullptr;
   const Truth* truth = nullptr;
   const std::vector<TagTrack>* tracks = nullptr;

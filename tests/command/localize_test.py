@@ -641,6 +641,38 @@ def the_folder_of_a_run_is_its_tables(context):
 
 
 @case
+def reads_that_do_not_fit_in_memory(context):
+    """In parts on the disk: the same estimates where tags are located one by one, and nothing left behind."""
+    context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
+    reads = read_rows(TAGS)
+    for method in ("hyperbola", "ml", "sar"):
+        _, expected, _ = localize(context, reads, pose_rows(), "--method", method, "--reference", "known.csv")
+        whole = (context.folder / "out/report.html").read_bytes()
+        _, estimates, summary = localize(context, reads, pose_rows(), "--method", method, "--reference", "known.csv",
+                                         "--part-reads", str(len(reads) // 3))
+        check_equal(estimates, expected, f"{method}: estimates in parts")
+        check_equal(summary["reads"], len(reads), "reads")
+        check_equal((context.folder / "out/report.html").read_bytes(), whole, f"{method}: page")
+        check_equal((context.folder / "out/reads.csv").read_bytes(), (context.folder / "reads.csv").read_bytes(),
+                    "the table as it was")
+    # Of a tag with more reads than a part every second counts.
+    result, estimates, _ = localize(context, reads, pose_rows(), "--part-reads", "200", "--method", "ml")
+    check_located(estimates, TAGS, "every second read")
+    check_in("3 tags have over 200 reads, up to 360: every second", result.err, "warning")
+    check_equal({row["reads"] for row in estimates.values()}, {"180"}, "reads that count")
+    check_equal(sorted(path.name for path in context.folder.iterdir()),
+                ["known.csv", "out", "poses.csv", "reads.csv"], "files")
+    bad = reads[:700] + ["1,r,a,one,865700000,x,-50"] + reads[700:]
+    context.write("bad.csv", "\n".join(["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *bad]) + "\n")
+    for arguments, words in ((("bad.csv", "--poses", "poses.csv"), "bad.csv:702: phase_rad is 'x'"),
+                             (("reads.csv", "--poses", "poses.csv", "--format", "adarf"), "goes with CSV in Tagfield's")):
+        result = context.run("localize", *arguments, "--part-reads", "100", "--out", "new")
+        check_equal(result.code, 2, f"{arguments}: exit code")
+        check_in(words, result.err, "what it says")
+        check(not (context.folder / "new").exists(), f"{arguments}: results")
+
+
+@case
 def a_known_world_and_how_well(context):
     """Of a run its world is known to the letter; of tables to a centimetre, or as the command line says."""
     scenario = context.shipped("warehouse_physics")

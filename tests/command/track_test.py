@@ -69,6 +69,30 @@ def reads_of_a_run_give_the_same_tracks(context):
 
 
 @case
+def reads_that_do_not_fit_in_memory(context):
+    """In parts on the disk: the same tracks, and nothing left behind."""
+    scenario = context.shipped("conveyor")
+    run = track(context, scenario, name="run")
+    given = (run / "reads.csv", "--poses", run / "antenna_poses.csv", "--scenario", scenario)
+    whole = track(context, *given, name="whole")
+    parts = track(context, *given, "--part-reads", 2000, name="parts")
+    for name in ("tracks.csv", "verdicts.csv"):  # Tags of the conveyor are named as they come.
+        check_equal((parts / name).read_bytes(), (whole / name).read_bytes(), name)
+    check_equal((parts / "order.csv").read_bytes(), (whole / "order.csv").read_bytes(), "order.csv")
+    of_whole, of_parts = read_json(whole / "tracks.json"), read_json(parts / "tracks.json")
+    check_equal(of_parts["orders"], of_whole["orders"], "orders")
+    for key in ("along_m", "across_m"):
+        check(of_parts[key]["count"] <= 12 * 25, f"{key} is of {of_parts[key]['count']} stamps")
+        check_near(of_parts[key]["mean"], of_whole[key]["mean"], 0.2 * of_whole[key]["mean"], key)
+    for figure in ("tracks", "figures/passings", "figures/speeds"):
+        check_equal((parts / f"{figure}.svg").read_bytes(), (whole / f"{figure}.svg").read_bytes(), figure)
+    check_equal(sorted(path.name for path in context.folder.iterdir()), ["parts", "run", "whole"], "folders")
+    bad = context.run("track", scenario, "--part-reads", 2000, "--out", context.folder / "bad")
+    check_equal(bad.code, 2, "exit code with a scenario")
+    check_in("--part-reads goes with CSV", bad.err, "what it says")
+
+
+@case
 def threads_and_seeds(context):
     scenario = context.shipped("conveyor")
     one = track(context, scenario, "--seeds", 2, "--threads", 1, name="one")

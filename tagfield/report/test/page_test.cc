@@ -35,7 +35,9 @@ TEST(WriteReport, LetsNoScriptRunButTheViewsAndItsOwn) {
   const std::string own = std::string("'") + table_script().hash + "' '" + figure_script().hash +
                           "' '" + link_script().hash + "'";
   EXPECT_TRUE(holds(folder.text("report.html"), "; script-src " + own + "; "));
-  write_report(folder.path(), RunView{"<div id=\"view\"></div>\n", "sha256-abc="});
+  write_report(folder.path(), [](const RunFiles&) {
+    return RunView{"<div id=\"view\"></div>\n", "sha256-abc="};
+  });
   const std::string page = folder.text("report.html");
   EXPECT_TRUE(holds(page, "default-src 'none'; script-src 'sha256-abc=' " + own + "; "));
   EXPECT_TRUE(holds(page, "<h2>The run over time</h2>\n<div id=\"view\"></div>\n</section>\n"));

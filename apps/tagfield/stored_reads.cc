@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tagfield/stored_reads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "apps/tagfield/progress_bar.h"
+#include "tagfield/files/reads_csv.h"
+#include "tagfield/report/text.h"
+
+namespace tagfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The innermost folder on the way to `out` that is there.
+fs::path existing_folder(const std::string& out) {
+  fs::path folder = fs::absolute(out);
+  std::error_code ignored;
+  while (folder.has_relative_path() && !fs::is_directory(folder, ignored)) {
+    folder = folder.parent_path();
+  }
+  return folder;
+}
+
+void warn_of_thinned_tags(const StoredReads& reads, Diagnostics& diagnostics) {
+  std::size_t tags = 0;
+  std::size_t most = 0;
+  for (const auto& [tag, count] : reads.overview.count_by_tag) {
+    if (count > reads.most_of_a_tag) ++tags;
+    most = std::max(most, count);
+  }
+  if (tags == 0) return;
+  diagnostics.warn({reads.table, 0},
+                   fmt::format("{} {} over {} reads, up to {}: every second, third, … counts, so "
+                               "that those of one tag fit in memory (--part-reads)",
+                               counted(tags, "tag"), tags == 1 ? "has" : "have",
+                               grouped(reads.most_of_a_tag), grouped(most)));
+}
+
+}  // namespace
+
+void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads) {
+  command
+      .add_option("--part-reads", part_reads,
+                  "Work in parts of some tags each, with about so many reads, and keep the "
+                  "others on the disk; 0: all at once, in memory. Default: 400000 for CSV of over "
+                  "400 MB, else 0")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}));
+}
+
+std::optional<std::size_t> part_of_table(const std::string& table,
+                                         std::optional<std::size_t> part_reads) {
+  if (part_reads) return *part_reads == 0 ? std::nullopt : part_reads;
+  std::error_code unknown;
+  const std::uintmax_t size =
+      fs::is_regular_file(table, unknown) ? fs::file_size(table, unknown) : std::uintmax_t{0};
+  if (unknown || size < kLargeTable) return std::nullopt;
+  return kReadsOfPart;
+}
+
+StoredReads store_reads(const std::string& table, const std::string& out, std::size_t part_reads,
+                        const std::set<std::string>& everywhere, Diagnostics& diagnostics) {
+  StoredReads reads;
+  reads.table = table;
+  reads.most_of_a_tag = part_reads;
+  StageBars bars;
+  for_each_read(
+      table, [&](const TagRead& read) { add(read, reads.overview); },
+      [&](double share) { bars.show("counting reads", share); });
+  reads.store = std::make_unique<ReadStore>(existing_folder(out),
+                                            plan_parts(reads.overview, part_reads, everywhere));
+  for_each_read(
+      table, [&](const TagRead& read) { reads.store->add(read); },
+      [&](double share) { bars.show("sorting reads by tag", share); });
+  warn_of_thinned_tags(reads, diagnostics);
+  return reads;
+}
+
+ReadParts parts_of(const StoredReads& reads, const std::optional<Calibration>& calibration) {
+  const auto part = [&reads, calibration](std::size_t i) {
+    std::vector<TagRead> of_part = reads.store->part(i, reads.most_of_a_tag);
+    std::vector<AntennaPose> no_poses;
+    KnownBeforehand ignored;
+    if (calibration) apply_calibration(*calibration, of_part, no_poses, ignored);
+    return of_part;
+  };
+  return {reads.store->parts(), part};
+}
+
+}  // namespace tagfield
