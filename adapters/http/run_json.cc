@@ -19,6 +19,7 @@ namespace tagfield::http {
 namespace {
 
 constexpr std::size_t kMostReads = 200'000;
+constexpr std::size_t kMostPoses = 100'000;  ///< Of an antenna or robot.
 
 /// Short numbers: a tenth of a millimetre, a millisecond, a hundredth of a decibel are enough to
 /// look at.
@@ -37,9 +38,11 @@ double short_time(Time stamp) { return to_decimals(to_seconds(stamp), 1e4); }
 Json track_json(const Trajectory& poses) {
   Json times = Json::array();
   Json all = Json::array();
-  for (const StampedPose& pose : poses) {
-    times.push_back(short_time(pose.stamp));
-    all.push_back(short_pose(pose.X_WB));
+  const std::size_t every = 1 + poses.size() / kMostPoses;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i % every != 0 && i + 1 != poses.size()) continue;
+    times.push_back(short_time(poses[i].stamp));
+    all.push_back(short_pose(poses[i].X_WB));
   }
   return {{"t", std::move(times)}, {"pose", std::move(all)}};
 }

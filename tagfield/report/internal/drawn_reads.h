@@ -11,8 +11,8 @@
 
 namespace tagfield {
 
-/// More are not kept for a page: 180 MB.
-inline constexpr std::size_t kMostDrawn = 1'000'000;
+/// More are not kept for a page: 90 MB.
+inline constexpr std::size_t kMostDrawn = 500'000;
 
 struct DrawnReads {
   std::vector<TagRead> reads;  ///< In the table's order.
