@@ -47,7 +47,7 @@ void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads) 
   command
       .add_option("--part-reads", part_reads,
                   "Work in parts of some tags each, with about so many reads, and keep the "
-                  "others on the disk; 0: all at once, in memory. Default: 400000 for CSV of over "
+                  "others on the disk; 0: all at once, in memory. Default: 250000 for CSV of over "
                   "400 MB, else 0")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}));
 }

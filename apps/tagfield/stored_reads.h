@@ -22,7 +22,7 @@ namespace tagfield {
 /// 1.5 GB and more while they are localized.
 inline constexpr std::uintmax_t kLargeTable = 400'000'000;
 /// Reads of a part, and the most of one tag.
-inline constexpr std::size_t kReadsOfPart = 400'000;
+inline constexpr std::size_t kReadsOfPart = 250'000;
 
 /// Adds `--part-reads`.
 void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads);

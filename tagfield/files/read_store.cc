@@ -17,7 +17,7 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kRecordsInMemory = 1024;
+constexpr std::size_t kRecordsInMemory = 256;
 
 [[noreturn]] void fail_at(const std::filesystem::path& folder, const char* what) {
   fail({folder.string(), 0}, fmt::format("reads that don't fit in memory can't be {} there: {}",

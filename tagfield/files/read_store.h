@@ -25,7 +25,7 @@ struct PartPlan {
 };
 
 /// Parts are few enough to have a file each.
-inline constexpr std::size_t kMostParts = 256;
+inline constexpr std::size_t kMostParts = 800;
 
 /// Tags one after the other, as they were first read, so that neighbours are together, until a part
 /// has `reads_of_part` reads, or more where parts would be over kMostParts. Tags of `everywhere`,
