@@ -202,6 +202,43 @@ TEST(Joint, SaysThatAStraightWayIsAmbiguous) {
   }
 }
 
+// Two straight aisles so far apart that each tag is read from one of them: nothing tells on which
+// side a tag is, though the way as a whole is bent.
+TEST(Joint, SaysThatEachOfSeveralAislesIsAmbiguous) {
+  made::Noise noise;
+  noise.pose_m = 0.03;
+  made::Rng rng(11);
+  const double half_turn = 3.0 * kPi;  // Of 3 m radius.
+  const made::Path path = made::follow(
+      16.0 + half_turn, 0.02, [&](double s) { return std::clamp((s - 8.0) / 3.0, 0.0, kPi); });
+  const made::Path beliefs = made::believed(path, noise, made::kPathRate, rng);
+  made::ReaderSetup setup;
+  setup.range_m = 2.5;
+  LocalizationProblem problem;
+  problem.heights.of_all = 0.4;
+  problem.pose_error = PoseErrorModel{0.03, 0.0, 5.0};
+  for (int i = 0; i < 8; ++i) {
+    const double x = 2.6 + 0.4 * i;
+    const std::string id = "t" + std::to_string(i);
+    for (const double aisle : {0.0, 6.0}) {
+      problem.samples[id + (aisle > 0.0 ? "b" : "a")]["a"] = made::read_along(
+          path, beliefs, {x, aisle + (i % 2 == 0 ? 1.3 : -1.3), 0.4}, noise, rng, setup);
+    }
+  }
+  std::vector<StampedPose> way;
+  for (std::size_t i = 0; i < beliefs.size(); ++i) {
+    way.push_back({time_from_seconds(setup.start_s) +
+                       duration_from_seconds(static_cast<double>(i) / setup.rate_hz),
+                   from_translation(beliefs[i])});
+  }
+  problem.tracks["a"].X_WA = way;
+  int located = 0;
+  for (const TagEstimate& estimate : run(joint_method(), problem).estimates) {
+    if (estimate.verdict == Verdict::kLocated) ++located;
+  }
+  EXPECT_EQ(located, 0);
+}
+
 TEST(Joint, GivesCorrectedPoses) {
   made::Noise noise;
   noise.pose_m = 0.03;

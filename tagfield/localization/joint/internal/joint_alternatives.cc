@@ -2,6 +2,7 @@
 // Other places that explain the reads as well.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/joint/internal/joint_state.h"
@@ -43,6 +44,17 @@ Way way_of(const JointSystem& system) {
   return way;
 }
 
+/// Rms of the distances of the antennas' places from the line that lies best in them [m].
+double across_rms(const TagPhases& phases) {
+  Eigen::MatrixX2d places(phases.size(), 2);
+  places << phases.x, phases.y;
+  const Eigen::RowVector2d middle = places.colwise().mean();
+  places.rowwise() -= middle;
+  const Eigen::Matrix2d scatter = places.transpose() * places / static_cast<double>(phases.size());
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvalues()(0)));
+}
+
 bool is_elsewhere(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
   constexpr double kSame = 0.05;  // [m]
   return (candidate.p_WT - p_WT).head<2>().norm() > kSame;
@@ -73,6 +85,47 @@ void add_mirrored(JointState& state, int threads) {
   }
 }
 
+/// Where the tag's antennas were, with their estimated error taken out.
+TagPhases corrected_way(const JointSystem& system, const JointTag& tag) {
+  TagPhases phases = tag.phases;
+  for (Index i = 0; i < phases.size(); ++i) {
+    const Eigen::Vector2d off = displacement_at(system, tag, i);
+    phases.x[i] -= off.x();
+    phases.y[i] -= off.y();
+  }
+  return phases;
+}
+
+bool shares_knots(const JointTag& one, const JointTag& other) {
+  return std::any_of(one.knots.begin(), one.knots.end(), [&](Index knot) {
+    return std::binary_search(other.knots.begin(), other.knots.end(), knot);
+  });
+}
+
+/// The second place of a tag that was read from a straight stretch alone: across that. What tells
+/// the sides apart then is the pose error that it shares with other tags, and where some of those
+/// are on the wrong side, it tells the wrong one as clearly. Reference tags' sides are known.
+void add_mirrored_where_straight(JointState& state) {
+  constexpr double kStraight = 0.1;  // rms from a line [m]
+  const JointSystem& system = state.system;
+  for (std::size_t i = 0; i < system.tags.size(); ++i) {
+    const JointTag& tag = system.tags[i];
+    if (tag.fixed || tag.knots.empty() || !state.alternatives[i].empty()) continue;
+    const bool has_reference =
+        std::any_of(system.tags.begin(), system.tags.end(),
+                    [&](const JointTag& other) { return other.fixed && shares_knots(tag, other); });
+    const TagPhases phases = corrected_way(system, tag);
+    if (has_reference || across_rms(phases) > kStraight) continue;
+    PlaceVector image = tag.fit.unknowns;
+    image.head<2>() = mirror_image(phases, image.head<2>());
+    const Candidate mirrored =
+        make_candidate(phases, tag.height, fit_tag(phases, tag.height, image));
+    if (is_elsewhere(mirrored, to_place(tag.height, tag.fit.unknowns))) {
+      state.alternatives[i].push_back(mirrored);
+    }
+  }
+}
+
 }  // namespace
 
 void find_alternatives(JointState& state, int threads) {
@@ -88,6 +141,7 @@ void find_alternatives(JointState& state, int threads) {
     }
   }
   add_mirrored(state, threads);
+  add_mirrored_where_straight(state);
 }
 
 }  // namespace tagfield

@@ -62,7 +62,7 @@ void find_better_places(JointState& state, int threads);
 void fit_wrapped_jointly(JointState& state, int threads);
 
 /// Other places that explain the reads nearly as well: of single tags with the corrected poses, and
-/// of all tags mirrored across a straight way.
+/// of all tags mirrored across a straight way, and of tags that were read from a straight stretch.
 void find_alternatives(JointState& state, int threads);
 
 /// Where a tag stands, with the covariance of its unknowns.
