@@ -22,6 +22,7 @@ std::string kind_of(const std::string& message) {
 /// How many parts each method located, "ml of 12, joint of 3".
 std::string spoken(const std::map<std::string, std::size_t>& parts_by_method) {
   std::vector<std::string> words;
+  words.reserve(parts_by_method.size());
   for (const auto& [method, parts] : parts_by_method) {
     words.push_back(fmt::format("{} of {}", method, parts));
   }

@@ -102,11 +102,25 @@ bool shares_knots(const JointTag& one, const JointTag& other) {
   });
 }
 
+/// Standard deviation of the pose error where the tag was read, in x or y [m].
+double pose_sigma_at(const JointSystem& system, const JointTag& tag) {
+  double most = 0.0;
+  for (const Index knot : tag.knots) {
+    const auto& scale = system.knots.scale[static_cast<std::size_t>(knot)];
+    most = std::max(most, scale.topLeftCorner<2, 2>().norm() / std::sqrt(2.0));
+  }
+  return most;
+}
+
+/// A way no further from a line than so many times the pose error, rms, may be a straight one: on
+/// the wrong side, the error is estimated with the wrong sign, so that a straight way seems to be
+/// off by twice as much as the poses are.
+constexpr double kStraight = 3.0;
+
 /// The second place of a tag that was read from a straight stretch alone: across that. What tells
 /// the sides apart then is the pose error that it shares with other tags, and where some of those
 /// are on the wrong side, it tells the wrong one as clearly. Reference tags' sides are known.
 void add_mirrored_where_straight(JointState& state) {
-  constexpr double kStraight = 0.1;  // rms from a line [m]
   const JointSystem& system = state.system;
   for (std::size_t i = 0; i < system.tags.size(); ++i) {
     const JointTag& tag = system.tags[i];
@@ -115,7 +129,7 @@ void add_mirrored_where_straight(JointState& state) {
         std::any_of(system.tags.begin(), system.tags.end(),
                     [&](const JointTag& other) { return other.fixed && shares_knots(tag, other); });
     const TagPhases phases = corrected_way(system, tag);
-    if (has_reference || across_rms(phases) > kStraight) continue;
+    if (has_reference || across_rms(phases) > kStraight * pose_sigma_at(system, tag)) continue;
     PlaceVector image = tag.fit.unknowns;
     image.head<2>() = mirror_image(phases, image.head<2>());
     const Candidate mirrored =
