@@ -234,7 +234,11 @@ Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
 Json describe_run(const std::string& path) {
   const RunFiles run = read_run_files(path);
   Json json = {{"kind", "folder of a run"}, {"scenario", run.summary.scenario}};
-  add_table_of_reads((fs::path(path) / "reads.csv").string(), json);
+  if (run.reads.size() == run.reads_in_table) {
+    add_reads(overview_of(run.reads), json);
+  } else {
+    add_table_of_reads((fs::path(path) / "reads.csv").string(), json);
+  }
   return json;
 }
 

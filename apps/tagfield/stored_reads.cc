@@ -54,10 +54,14 @@ void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads) 
 
 std::optional<std::size_t> part_of_table(const std::string& table,
                                          std::optional<std::size_t> part_reads) {
-  if (part_reads) return *part_reads == 0 ? std::nullopt : part_reads;
+  if (part_reads == std::size_t{0}) return std::nullopt;
   std::error_code unknown;
-  const std::uintmax_t size =
-      fs::is_regular_file(table, unknown) ? fs::file_size(table, unknown) : std::uintmax_t{0};
+  const bool is_file = fs::is_regular_file(table, unknown);
+  if (part_reads && fs::exists(table, unknown) && !is_file) {
+    fail({table, 0}, "is no file that can be read twice, as --part-reads needs it");
+  }
+  if (part_reads) return part_reads;
+  const std::uintmax_t size = is_file ? fs::file_size(table, unknown) : std::uintmax_t{0};
   if (unknown || size < kLargeTable) return std::nullopt;
   return kReadsOfPart;
 }
@@ -73,9 +77,19 @@ StoredReads store_reads(const std::string& table, const std::string& out, std::s
       [&](double share) { bars.show("counting reads", share); });
   reads.store = std::make_unique<ReadStore>(existing_folder(out),
                                             plan_parts(reads.overview, part_reads, everywhere));
+  std::size_t again = 0;
   for_each_read(
-      table, [&](const TagRead& read) { reads.store->add(read); },
+      table,
+      [&](const TagRead& read) {
+        reads.store->add(read);
+        ++again;
+      },
       [&](double share) { bars.show("sorting reads by tag", share); });
+  if (again != reads.overview.count) {
+    fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: expected "
+                                 "a file that stays as it is",
+                                 reads.overview.count, again));
+  }
   warn_of_thinned_tags(reads, diagnostics);
   return reads;
 }

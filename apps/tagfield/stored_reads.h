@@ -28,7 +28,7 @@ inline constexpr std::size_t kReadsOfPart = 250'000;
 void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads);
 
 /// So many reads a part that a table is to be held in; none where it is held in memory as a whole.
-/// `part_reads`: as on the command line.
+/// `part_reads`: as on the command line; throws Error where it is told of a pipe.
 std::optional<std::size_t> part_of_table(const std::string& table,
                                          std::optional<std::size_t> part_reads);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "tagfield/report/text.h"
 
@@ -32,13 +33,12 @@ std::string spoken(const std::map<std::string, std::size_t>& parts_by_method) {
 }  // namespace
 
 void WarningsOfParts::take(const Diagnostics& of_part) {
-  std::map<std::string, bool> seen;
+  std::set<std::string> seen;
   for (const std::string& warning : of_part.warnings()) {
     const std::string kind = kind_of(warning);
     const auto [entry, is_new] = said_.try_emplace(kind, warning, 0);
     if (is_new) order_.push_back(kind);
-    if (!seen[kind]) ++entry->second.second;
-    seen[kind] = true;
+    if (seen.insert(kind).second) ++entry->second.second;
   }
 }
 

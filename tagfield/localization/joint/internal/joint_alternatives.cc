@@ -12,6 +12,19 @@ namespace {
 
 using Index = Eigen::Index;
 
+/// How far the antennas' places are from the line that lies best in them, seen from above [m]:
+/// along their scatter's lesser eigenvector.
+Eigen::ArrayXd from_line(const TagPhases& phases) {
+  Eigen::MatrixX2d places(phases.x.size(), 2);
+  places << phases.x, phases.y;
+  const Eigen::RowVector2d middle = places.colwise().mean();
+  places.rowwise() -= middle;
+  const Eigen::Matrix2d scatter = places.transpose() * places;
+  const Eigen::Vector2d across =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+  return places * across;
+}
+
 /// The way of all antennas, and whether it is so straight that mirror images can't be told apart.
 struct Way {
   TagPhases places;  ///< x and y alone.
@@ -31,28 +44,8 @@ Way way_of(const JointSystem& system) {
     way.places.y.segment(at, tag.phases.size()) = tag.phases.y;
     at += tag.phases.size();
   }
-  // The spread across the axis along which the places lie: the scatter's lesser eigenvector.
-  Eigen::MatrixX2d places(reads, 2);
-  places << way.places.x, way.places.y;
-  const Eigen::RowVector2d middle = places.colwise().mean();
-  places.rowwise() -= middle;
-  const Eigen::Matrix2d scatter = places.transpose() * places;
-  const Eigen::Vector2d across =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
-  const double farthest = (places * across).cwiseAbs().maxCoeff();
-  way.is_straight = farthest < kStraight;
+  way.is_straight = from_line(way.places).abs().maxCoeff() < kStraight;
   return way;
-}
-
-/// Rms of the distances of the antennas' places from the line that lies best in them [m].
-double across_rms(const TagPhases& phases) {
-  Eigen::MatrixX2d places(phases.size(), 2);
-  places << phases.x, phases.y;
-  const Eigen::RowVector2d middle = places.colwise().mean();
-  places.rowwise() -= middle;
-  const Eigen::Matrix2d scatter = places.transpose() * places / static_cast<double>(phases.size());
-  return std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvalues()(0)));
 }
 
 bool is_elsewhere(const Candidate& candidate, const Eigen::Vector3d& p_WT) {
@@ -129,7 +122,8 @@ void add_mirrored_where_straight(JointState& state) {
         std::any_of(system.tags.begin(), system.tags.end(),
                     [&](const JointTag& other) { return other.fixed && shares_knots(tag, other); });
     const TagPhases phases = corrected_way(system, tag);
-    if (has_reference || across_rms(phases) > kStraight * pose_sigma_at(system, tag)) continue;
+    const double rms = std::sqrt(from_line(phases).square().mean());
+    if (has_reference || rms > kStraight * pose_sigma_at(system, tag)) continue;
     PlaceVector image = tag.fit.unknowns;
     image.head<2>() = mirror_image(phases, image.head<2>());
     const Candidate mirrored =
