@@ -36,7 +36,7 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
   const FixedTag& tag = scene.tags[number];
   TagEstimate estimate = begun(*tag.name, *tag.samples);
   if (!tag.why_not.empty()) return not_located(std::move(estimate), tag.why_not);
-  if (scene.law.evidence < kLeastLogEvidence && !scene.swapped.empty()) {
+  if (!scene.swapped.empty()) {
     return not_located(std::move(estimate),
                        fmt::format("the strengths fit far better with the places of antennas {} "
                                    "exchanged: are ports or poses mixed up?",

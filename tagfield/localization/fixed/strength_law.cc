@@ -51,11 +51,13 @@ Eigen::VectorXd less_gain(const TagOnGrid& tag, Eigen::Index cell) {
   return tag.rssi_dbm - tag.gain_db.row(cell).matrix().transpose();
 }
 
-double log_normal_density(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& covariance) {
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-  const double log_det = 2.0 * root.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (misfit.dot(root.solve(misfit)) + log_det +
-                 static_cast<double>(misfit.size()) * std::log(kTwoPi));
+/// Overwrites both.
+double log_normal_density(Eigen::VectorXd& misfit, Eigen::MatrixXd& covariance) {
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> root(covariance);
+  const double log_det = 2.0 * covariance.diagonal().array().log().sum();
+  root.matrixL().solveInPlace(misfit);
+  return -0.5 *
+         (misfit.squaredNorm() + log_det + static_cast<double>(misfit.size()) * std::log(kTwoPi));
 }
 
 double log_mean_exp(const Eigen::ArrayXd& logs) {
@@ -159,9 +161,10 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const Eigen::MatrixXd rows = design(tags[i], 0, size);
     const StrengthLaw law = law_by(flat, sum, &told[i]);
-    log += log_normal_density(tags[i].rssi_dbm - rows * law.mean,
-                              rows * law.covariance * rows.transpose() +
-                                  scatter(rows.rows(), flat.fading_db, tag_sigma_db));
+    Eigen::VectorXd misfit = tags[i].rssi_dbm - rows * law.mean;
+    Eigen::MatrixXd covariance = rows * law.covariance * rows.transpose() +
+                                 scatter(rows.rows(), flat.fading_db, tag_sigma_db);
+    log += log_normal_density(misfit, covariance);
   }
   return log;
 }
@@ -211,12 +214,31 @@ TagOnGrid on_grid(const std::vector<std::string>& names, const std::vector<Fixed
 
 Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
                             const StrengthPrior& prior) {
-  const Eigen::MatrixXd own = scatter(tag.rssi_dbm.size(), law.fading_db, prior.tag_sigma_db);
+  const Eigen::Index count = tag.rssi_dbm.size();
+  const Eigen::Index slope = law.mean.size() - 1;
+  // design() of every cell differs only in its last column, less the distances' logarithms.
+  Eigen::MatrixXd levels = Eigen::MatrixXd::Zero(count, slope);
+  levels.col(0).setOnes();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    levels(i, 1 + static_cast<Eigen::Index>(tag.antennas[static_cast<std::size_t>(i)])) = 1.0;
+  }
+  const Eigen::MatrixXd of_levels =
+      scatter(count, law.fading_db, prior.tag_sigma_db) +
+      levels * law.covariance.topLeftCorner(slope, slope) * levels.transpose();
+  const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
+  const Eigen::VectorXd over_level = tag.rssi_dbm - levels * law.mean.head(slope);
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(tag.cells.size()));
+  Eigen::VectorXd distances(count);
+  Eigen::VectorXd misfit(count);
+  Eigen::MatrixXd covariance(count, count);
   for (Eigen::Index cell = 0; cell < logs.size(); ++cell) {
-    const Eigen::MatrixXd rows = design(tag, cell, law.mean.size());
-    logs[cell] = log_normal_density(less_gain(tag, cell) - rows * law.mean,
-                                    rows * law.covariance * rows.transpose() + own);
+    distances = tag.log_distance.row(cell).matrix().transpose();
+    misfit = over_level - tag.gain_db.row(cell).matrix().transpose() + law.mean[slope] * distances;
+    covariance = of_levels;
+    covariance.noalias() -= with_slope * distances.transpose();
+    covariance.noalias() -= distances * with_slope.transpose();
+    covariance.noalias() += law.covariance(slope, slope) * distances * distances.transpose();
+    logs[cell] = log_normal_density(misfit, covariance);
   }
   return logs;
 }

@@ -139,10 +139,7 @@ FixedScene fixed_scene(const LocalizationProblem& problem, int threads,
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     scene.law.of_tag[numbers[i]] = learned.of_tag[i];
   }
-  // Where a law holds as told, reflections alone can make another order likelier.
-  if (scene.law.evidence < kLeastLogEvidence) {
-    scene.swapped = swapped_antennas(scene, numbers, options, threads);
-  }
+  scene.swapped = swapped_antennas(scene, numbers, options, threads);
   std::vector<std::vector<FixedReads>> reads;
   for (const FixedTag& tag : scene.tags) reads.push_back(tag.reads);
   scene.out_of_order = problem.has_phases && is_out_of_order(reads);

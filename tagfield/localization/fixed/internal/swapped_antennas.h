@@ -11,7 +11,8 @@
 namespace tagfield {
 
 /// Which two antennas' exchange makes the strengths of the tags with these numbers a hundred times
-/// likelier, the number of pairs allowed for; "" where none does. By a few tags.
+/// likelier, the number of pairs allowed for, and explains twice as much as their order as told
+/// (evidence of LearnedLaw); "" where none does. By a few tags.
 std::string swapped_antennas(const FixedScene& scene, const std::vector<std::size_t>& numbers,
                              const FixedOptions& options, int threads);
 
