@@ -14,6 +14,7 @@
 #include "tagfield/localization/holograms/particle.h"
 #include "tagfield/localization/holograms/robust.h"
 #include "tagfield/localization/holograms/sar.h"
+#include "tagfield/localization/interleaved_tags.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/joint/multipath.h"
 #include "tagfield/localization/map_error.h"
@@ -98,6 +99,7 @@ LocalizationResult held_against(const LocalizationProblem& problem, Localization
     refuse_mixtures_by_phase(problem, result);
     refuse_groups(problem, result);
   }
+  if (problem.has_phases) refuse_interleaved_tags(problem, result);
   if (problem.has_phases) refuse_departures(problem, threads, result, diagnostics);
   add_map_error(problem, result);
   keep_within_area(problem, result.estimates);
