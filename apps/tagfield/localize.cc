@@ -317,6 +317,9 @@ int localize(const LocalizeArguments& arguments) {
   if (recording.overview.count == 0) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
+  if (!loaded && recording.overview.count > 0) {
+    warn_of_unknown_heights(options.known.heights, diagnostics);
+  }
   try_folder(out);
   const std::vector<std::string> order = order_of(loaded);
   LocalizationResult result = located_with_progress(recording, calibration, options, diagnostics);

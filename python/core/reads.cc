@@ -181,9 +181,10 @@ MethodSettings settings_of(const std::vector<std::pair<std::string, std::string>
   return settings;
 }
 
-Localized located(const Tables& tables, const LocalizationOptions& options) {
+Localized located(const Tables& tables, const LocalizationOptions& options, bool of_scenario) {
   Localized localized;
   Diagnostics diagnostics;
+  if (!of_scenario) warn_of_unknown_heights(options.known.heights, diagnostics);
   LocalizationResult& result = localized.result;
   result = locate_tags(tables.reads, tables.poses, options, diagnostics);
   localized.outcomes = judged(with_all_tags(result.estimates, tables.truth, {}), tables.reads,
@@ -212,8 +213,9 @@ py::dict localize(const ReadsArgument& reads, const PosesArgument& poses,
   if (own || !told.empty()) options.settings = told;
   refuse_unused(told, {find_method(options.methods, method)}, options.methods);
   options.known = known_of(Asked(keywords, "localize"), loaded, tables.reads);
-  Localized localized = interruptible(
-      threads, py::none(), [&](const RunControl& /*control*/) { return located(tables, options); });
+  Localized localized = interruptible(threads, py::none(), [&](const RunControl& /*control*/) {
+    return located(tables, options, loaded != nullptr);
+  });
   py::dict all = estimates_of(localized.outcomes);
   all["method"] = localized.result.method;
   all["why"] = localized.result.why;

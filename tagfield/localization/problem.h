@@ -106,6 +106,9 @@ struct TagHeights {
   std::optional<HeightSide> estimated;  ///< Heights that are not known are estimated, on this side.
 };
 
+/// Warns where nothing is known of any tag's height, nor is it estimated.
+void warn_of_unknown_heights(const TagHeights& heights, Diagnostics& diagnostics);
+
 /// Error of the believed poses: an Ornstein-Uhlenbeck process in x, y and yaw, with variances σ²
 /// and the correlation e^(−|Δt|/τ).
 struct PoseErrorModel {

@@ -62,6 +62,8 @@ def localize(context, reads, poses, *arguments, covariance=False):
         ["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *reads]) + "\n")
     context.write("poses.csv", "\n".join(
         ["stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw" + more, *poses]) + "\n")
+    if not {"--tag-height", "--tag-heights", "--vertical-side", "--scenario"} & set(arguments):
+        arguments = ("--tag-height", f"{HEIGHT}", *arguments)
     result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out",
                               *arguments)
     check("warning" in result.err or result.err == "", f"stderr: {result.err!r}")
