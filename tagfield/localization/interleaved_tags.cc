@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "tagfield/localization/each_place.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/tag_fit.h"
@@ -61,20 +63,16 @@ PhaseTriples phase_triples(const TagPhases& phases, const HeightModel& height,
 }
 
 void refuse_interleaved_tags(const LocalizationProblem& problem, LocalizationResult& result) {
-  for (TagEstimate& estimate : result.estimates) {
-    const auto samples = problem.samples.find(estimate.tag);
-    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
-    const TagPhases phases = coherent_reads(problem, samples->second);
-    if (phases.size() == 0) continue;
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
+    const TagPhases phases = coherent_reads(problem, samples);
+    if (phases.size() == 0) return;
     const HeightModel height = height_model(problem, estimate.tag, phases);
-    const PhaseTriples triples =
-        phase_triples(phases, height, to_unknowns(height, estimate.candidates.front().p_WT));
-    if (!are_of_two_tags(triples)) continue;
+    const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
+    if (!are_of_two_tags(phase_triples(phases, height, place))) return;
     estimate = not_located(std::move(estimate),
                            "the phase jumps to and fro from read to read, as of two tags under one "
                            "EPC");
-  }
+  });
 }
 
 }  // namespace tagfield

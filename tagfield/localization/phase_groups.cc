@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/each_place.h"
 #include "tagfield/localization/judgement.h"
 
 namespace tagfield {
@@ -108,16 +109,13 @@ std::optional<double> group_ratio(const SamplesOfTag& samples, double multiple) 
 }
 
 void refuse_groups(const LocalizationProblem& problem, LocalizationResult& result) {
-  for (TagEstimate& estimate : result.estimates) {
-    const auto samples = problem.samples.find(estimate.tag);
-    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
-    if (problem.reference_tags.count(estimate.tag) > 0) continue;
+  for_each_place(problem, result, [&](const SamplesOfTag& samples, TagEstimate& estimate) {
     const double multiple = problem.half_turns ? 1.0 : 2.0;
-    if (group_ratio(samples->second, multiple).value_or(0.0) < kGroups) continue;
+    if (group_ratio(samples, multiple).value_or(0.0) < kGroups) return;
     estimate = not_located(std::move(estimate),
                            "phases of one antenna on one carrier come in two groups: there are two "
                            "tags under this EPC, or the tag or something beside it has moved");
-  }
+  });
 }
 
 }  // namespace tagfield

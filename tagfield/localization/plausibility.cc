@@ -8,6 +8,7 @@
 #include <map>
 
 #include "tagfield/base/units.h"
+#include "tagfield/localization/each_place.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
@@ -100,17 +101,6 @@ std::vector<const SamplesByTag::value_type*> telling_tags(const LocalizationProb
 
 void refuse(TagEstimate& estimate, const std::string& why) {
   estimate = not_located(std::move(estimate), why);
-}
-
-/// Calls it for each tag with a place that was not given, with its samples.
-template <typename Call>
-void for_each_place(const LocalizationProblem& problem, LocalizationResult& result,
-                    const Call& call) {
-  for (TagEstimate& estimate : result.estimates) {
-    const auto samples = problem.samples.find(estimate.tag);
-    if (estimate.candidates.empty() || samples == problem.samples.end()) continue;
-    if (problem.reference_tags.count(estimate.tag) == 0) call(samples->second, estimate);
-  }
 }
 
 std::vector<Eigen::Vector2d> places_of(const SamplesOfTag& samples) {

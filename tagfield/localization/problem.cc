@@ -126,8 +126,7 @@ void warn_of_unknown_heights(const TagHeights& heights, Diagnostics& diagnostics
   if (heights.of_all || !heights.of_tag.empty() || heights.estimated) return;
   diagnostics.warn(
       "nothing is said of the tags' heights: they are taken to be as high as the antennas, and "
-      "what "
-      "that moves places by is not in the expected errors");
+      "what that moves places by is not in the expected errors");
 }
 
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,

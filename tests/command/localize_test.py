@@ -673,7 +673,8 @@ def reads_that_do_not_fit_in_memory(context):
         check_in(words, result.err, "what it says")
         check(not (context.folder / "new").exists(), f"{arguments}: results")
     os.mkfifo(context.folder / "pipe")
-    result = context.run("localize", "pipe", "--poses", "poses.csv", "--part-reads", "100", "--out", "new")
+    result = context.run("localize", "pipe", "--poses", "poses.csv", "--part-reads", "100",
+                         "--out", "new")
     check_equal(result.code, 2, "exit code with a pipe")
     check_in("pipe: is no file that can be read twice", result.err, "what it says")
 

@@ -217,11 +217,7 @@ Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
   const Eigen::Index count = tag.rssi_dbm.size();
   const Eigen::Index slope = law.mean.size() - 1;
   // design() of every cell differs only in its last column, less the distances' logarithms.
-  Eigen::MatrixXd levels = Eigen::MatrixXd::Zero(count, slope);
-  levels.col(0).setOnes();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    levels(i, 1 + static_cast<Eigen::Index>(tag.antennas[static_cast<std::size_t>(i)])) = 1.0;
-  }
+  const Eigen::MatrixXd levels = design(tag, 0, law.mean.size()).leftCols(slope);
   const Eigen::MatrixXd of_levels =
       scatter(count, law.fading_db, prior.tag_sigma_db) +
       levels * law.covariance.topLeftCorner(slope, slope) * levels.transpose();

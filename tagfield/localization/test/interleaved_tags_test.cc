@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/localization/locate.h"
 #include "tagfield/localization/test/reflections.h"
 
 namespace tagfield {

@@ -65,12 +65,14 @@ std::string swapped_antennas(const FixedScene& scene, const std::vector<std::siz
     const auto exchanged = with_exchanged(scene, some, *pairs[i].first, *pairs[i].second, options);
     evidences[i] = learn_law(exchanged, scene.antennas.size(), options).evidence;
   });
-  const double told = learn_law(grids, scene.antennas.size(), options).evidence;
+  const double told = some.size() == numbers.size()
+                          ? scene.law.evidence
+                          : learn_law(grids, scene.antennas.size(), options).evidence;
   const auto best = std::max_element(evidences.begin(), evidences.end());
   if (best == evidences.end()) return "";
   const double by_chance = kLeastLogEvidence + std::log(static_cast<double>(pairs.size()));
   // Reflections and lobes that nothing is known of make another order likelier in true rooms, too,
-  // by up to two thirds of what the order as told explains: so it has to explain twice as much.
+  // but seldom by as much as the order as told explains (docs/methods.md).
   if (*best - told < std::max(by_chance, told)) return "";
   const auto& [one, other] = pairs[static_cast<std::size_t>(best - evidences.begin())];
   return fmt::format("'{}' and '{}'", one->antenna, other->antenna);
