@@ -317,8 +317,8 @@ int localize(const LocalizeArguments& arguments) {
   if (recording.overview.count == 0) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
   }
-  if (!loaded && recording.overview.count > 0) {
-    warn_of_unknown_heights(options.known.heights, diagnostics);
+  if (!loaded || !options.known.heights.of_tag.empty()) {
+    warn_of_unknown_heights(options.known, recording.overview.tags, diagnostics);
   }
   try_folder(out);
   const std::vector<std::string> order = order_of(loaded);

@@ -15,6 +15,7 @@
 #include "tagfield/experiment/judge.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/tracking_run.h"
+#include "tagfield/files/read_overview.h"
 #include "tagfield/scenario/calibration_profile.h"
 
 namespace tagfield::python {
@@ -184,7 +185,9 @@ MethodSettings settings_of(const std::vector<std::pair<std::string, std::string>
 Localized located(const Tables& tables, const LocalizationOptions& options, bool of_scenario) {
   Localized localized;
   Diagnostics diagnostics;
-  if (!of_scenario) warn_of_unknown_heights(options.known.heights, diagnostics);
+  if (!of_scenario) {
+    warn_of_unknown_heights(options.known, overview_of(tables.reads).tags, diagnostics);
+  }
   LocalizationResult& result = localized.result;
   result = locate_tags(tables.reads, tables.poses, options, diagnostics);
   localized.outcomes = judged(with_all_tags(result.estimates, tables.truth, {}), tables.reads,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/problem.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tagfield/base/range_check.h"
@@ -122,11 +124,24 @@ std::optional<double> known_height(const LocalizationProblem& problem, const std
 
 }  // namespace
 
-void warn_of_unknown_heights(const TagHeights& heights, Diagnostics& diagnostics) {
-  if (heights.of_all || !heights.of_tag.empty() || heights.estimated) return;
-  diagnostics.warn(
-      "nothing is said of the tags' heights: they are taken to be as high as the antennas, and "
-      "what that moves places by is not in the expected errors");
+void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std::string>& tags,
+                             Diagnostics& diagnostics) {
+  const TagHeights& heights = known.heights;
+  if (heights.of_all || heights.estimated) return;
+  std::vector<std::string> without;
+  for (const std::string& tag : tags) {
+    const bool is_told = heights.of_tag.count(tag) > 0 || known.reference_tags.count(tag) > 0;
+    if (!is_told) without.push_back(tag);
+  }
+  if (without.empty()) return;
+  const std::string whose =
+      heights.of_tag.empty()
+          ? "nothing is said of the tags' heights"
+          : fmt::format("nothing is said of the heights of {} of {} tags, '{}' for one",
+                        without.size(), tags.size(), without.front());
+  diagnostics.warn(whose +
+                   ": they are taken to be as high as the antennas, and what that moves places by "
+                   "is not in the expected errors");
 }
 
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,

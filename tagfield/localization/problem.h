@@ -106,9 +106,6 @@ struct TagHeights {
   std::optional<HeightSide> estimated;  ///< Heights that are not known are estimated, on this side.
 };
 
-/// Warns where nothing is known of any tag's height, nor is it estimated.
-void warn_of_unknown_heights(const TagHeights& heights, Diagnostics& diagnostics);
-
 /// Error of the believed poses: an Ornstein-Uhlenbeck process in x, y and yaw, with variances σ²
 /// and the correlation e^(−|Δt|/τ).
 struct PoseErrorModel {
@@ -223,6 +220,10 @@ struct KnownBeforehand {
   double world_sigma_m = 0.0;
   std::map<std::string, Hand> circular{};  ///< Antennas that are known to be circularly polarized.
 };
+
+/// Warns of tags whose height is neither known nor to be estimated; reference tags need none.
+void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std::string>& tags,
+                             Diagnostics& diagnostics);
 
 /// Joins reads (in any order) with the antennas' believed poses, interpolated at each read's stamp,
 /// takes known offsets out, doubles phases with half turns and merges reads at stops (stops.h).

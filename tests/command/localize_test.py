@@ -194,6 +194,24 @@ def heights_are_estimated_on_a_side(context):
 
 
 @case
+def tags_of_unknown_height_are_warned_of(context):
+    """As many as there are, but for references, and none where all heights are known."""
+    reads = read_rows(TAGS)
+    context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
+    first, *others = (tag for tag in TAGS if tag != "one")
+    context.write("some.csv", "tag,height_m\n" + "".join(f"{tag},{HEIGHT}\n" for tag in others))
+    words = ("--tag-heights", "some.csv", "--method", "ml", "--pose-sigma", "0")
+    result, _, _ = localize(context, reads, pose_rows(), *words, "--reference", "known.csv")
+    check_in(f"the heights of 1 of {len(TAGS)} tags, '{first}' for one", result.err, "some heights")
+    context.write("some.csv", "tag,height_m\n" + "".join(f"{tag},{HEIGHT}\n" for tag in TAGS))
+    result, _, _ = localize(context, reads, pose_rows(), *words)
+    check("height" not in result.err, f"all heights known: {result.err!r}")
+    result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out",
+                              *words[2:])
+    check_in("nothing is said of the tags' heights", result.err, "no height")
+
+
+@case
 def reference_tags_and_offsets(context):
     context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
     _, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--reference",
