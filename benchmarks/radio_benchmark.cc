@@ -164,6 +164,25 @@ void link_budget(benchmark::State& state, const RadioModel& model) {
   count_links(state, tags.size());
 }
 
+/// The same as RadioAir asks for them in empty space.
+void straight_links(benchmark::State& state, const RadioModel& model) {
+  const TagPopulation tags = tags_around(1000, Eigen::Vector3d::Zero());
+  const auto world = world_at("");
+  const RadioView view = view_from(model, *world, from_translation({0.0, 0.0, 1.5}), 865.7e6, 1, 1);
+  std::vector<TagInView> seen;
+  std::vector<RadioLink> links(tags.size());
+  for (auto _ : state) {
+    seen.clear();
+    tags.for_each([&](std::uint32_t slot) {
+      seen.push_back({&tags.model(slot), {&tags.rotation(slot), &tags.position(slot)}});
+    });
+    straight_links_of(view, seen, links);
+    benchmark::DoNotOptimize(links.data());
+    benchmark::ClobberMemory();
+  }
+  count_links(state, tags.size());
+}
+
 /// The budget with patterns and polarization of upright dipoles on tags that stand as they like,
 /// by a loop over arrays: what link_budget is to be measured by.
 struct DipoleArrays {
@@ -268,6 +287,16 @@ RadioModel in_free_space() {
   return model;
 }
 
+/// A portal's antenna.
+RadioModel circular_patch() {
+  RadioModel model = in_free_space();
+  model.antenna.shape = PatternShape::kPatch;
+  model.antenna.beam_width_rad = radians(65.0);
+  model.antenna.vertical_beam_width_rad = radians(65.0);
+  model.antenna.polarization = PolarizationKind::kRightCircular;
+  return model;
+}
+
 RadioModel without_any_effect() {
   RadioModel model = strong_model();
   model.effects = no_effects();
@@ -345,6 +374,10 @@ BENCHMARK(paper_model_by_hand)->Arg(1000)->Arg(10000)->Arg(100000);
 BENCHMARK(link_budget_by_hand);
 BENCHMARK_CAPTURE(link_budget, all_effects_but_occlusion, in_free_space());
 BENCHMARK_CAPTURE(link_budget, no_effect, without_any_effect());
+BENCHMARK_CAPTURE(straight_links, all_effects_but_occlusion, in_free_space());
+BENCHMARK_CAPTURE(straight_links, circular_patch, circular_patch());
+BENCHMARK_CAPTURE(straight_links, no_effect, without_any_effect());
+BENCHMARK_CAPTURE(link_budget, circular_patch, circular_patch());
 BENCHMARK_CAPTURE(link_budget, all_effects, strong_model());
 BENCHMARK(aws)
     ->ArgNames({"order", "tags"})

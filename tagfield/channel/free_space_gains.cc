@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 
 #include "tagfield/base/lane_math.h"
@@ -13,94 +15,157 @@ namespace tagfield {
 namespace {
 
 using Eigen::Vector3d;
+using Lane = StraightLinks::Lane;
+using Vectors = StraightLinks::Vectors;
 
-/// So many links at a time that all of theirs stays in the nearest cache.
-constexpr std::size_t kLinks = 64;
-using Lane = std::array<double, kLinks>;
-struct Vectors {
-  Lane x;
-  Lane y;
-  Lane z;
+inline double x_of(const Vectors& v, std::size_t i) { return v.x[i]; }
+inline double y_of(const Vectors& v, std::size_t i) { return v.y[i]; }
+inline double z_of(const Vectors& v, std::size_t i) { return v.z[i]; }
+inline double x_of(const Vector3d& v, std::size_t /*i*/) { return v.x(); }
+inline double y_of(const Vector3d& v, std::size_t /*i*/) { return v.y(); }
+inline double z_of(const Vector3d& v, std::size_t /*i*/) { return v.z(); }
+
+template <class Axis>
+inline double along(const Axis& axis, const Vectors& way, std::size_t i) {
+  return x_of(axis, i) * way.x[i] + y_of(axis, i) * way.y[i] + z_of(axis, i) * way.z[i];
+}
+
+/// The antenna's axes in W, the same for all links. Passed by value: loops then hold it in
+/// registers.
+struct AntennaFrame {
+  Vector3d boresight;
+  Vector3d left;
+  Vector3d up;
 };
 
-/// Rotations as unit quaternions.
-struct Rotations {
+/// Rotations as unit quaternions, and of their columns those that patterns ask for.
+struct TagFrames {
   Lane w;
   Vectors v;
-};
-
-/// Of one end of each link, in W: its axes, the way from it, and what it makes of that.
-struct EndLanes {
-  Rotations R_WE;  ///< What the axes are columns of.
   Vectors boresight;
   Vectors left;
   Vectors up;
-  Vectors way;      ///< Unit vectors.
-  Vectors way_own;  ///< The same in the end's frame.
-  Lane power;       ///< Gain.
-  Vectors re;       ///< Of the field's direction.
-  Vectors im;
-  Lane across;  ///< Length of what of the wires lies across the way.
+  Vectors wire;
 };
 
-struct Links {
+/// What one end of each link makes of the way.
+struct EndLanes {
+  Vectors way_own;  ///< From this end, in its frame, where needs_frame().
+  Lane along_wire;  ///< Cosine between the way from this end and the wire, where has_wire().
+  Lane power;       ///< Gain, times
+  Lane divisor;     ///< this: a division for both ends does.
+};
+
+struct Work {
+  Vectors p_WT;
+  Vectors way;  ///< Unit vectors in W, from the antenna.
+  TagFrames frames;
   Lane length;
-  Lane re;  ///< Of the gain.
-  Lane im;
+  Lane inverse_length;
   EndLanes antenna;
   EndLanes tag;
 };
 
-/// The rotations' columns.
-void set_axes(std::size_t count, EndLanes& end) {
-  const Rotations& R = end.R_WE;
+/// A wire along of_left·left + of_up·up.
+struct Wire {
+  double of_left;
+  double of_up;
+};
+Wire wire_of(const AntennaPattern& pattern) {
+  return {std::sin(pattern.tilt_rad), std::cos(pattern.tilt_rad)};
+}
+
+bool has_wire(const AntennaPattern& pattern) {
+  return pattern.shape == PatternShape::kDipole ||
+         pattern.polarization == PolarizationKind::kLinear;
+}
+
+/// Has a gain over direction that is none about its wire.
+bool is_directed(const AntennaPattern& pattern, const ChannelEffects& effects) {
+  return effects.patterns && pattern.shape != PatternShape::kIsotropic &&
+         pattern.shape != PatternShape::kDipole;
+}
+
+bool needs_frame(const AntennaPattern& pattern, const ChannelEffects& effects) {
+  return is_directed(pattern, effects) || !has_wire(pattern);
+}
+
+/// A rotation's columns; Eigen's function doesn't keep to one order of sums.
+AntennaFrame frame_of(const Eigen::Quaterniond& q) {
+  const double w = q.w();
+  const double x = q.x();
+  const double y = q.y();
+  const double z = q.z();
+  return {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)},
+          {2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)},
+          {2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)}};
+}
+
+void set_boresights(std::size_t count, TagFrames& frames) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double w = R.w[i];
-    const double x = R.v.x[i];
-    const double y = R.v.y[i];
-    const double z = R.v.z[i];
-    end.boresight.x[i] = 1.0 - 2.0 * (y * y + z * z);
-    end.boresight.y[i] = 2.0 * (x * y + w * z);
-    end.boresight.z[i] = 2.0 * (x * z - w * y);
-    end.left.x[i] = 2.0 * (x * y - w * z);
-    end.left.y[i] = 1.0 - 2.0 * (x * x + z * z);
-    end.left.z[i] = 2.0 * (y * z + w * x);
-    end.up.x[i] = 2.0 * (x * z + w * y);
-    end.up.y[i] = 2.0 * (y * z - w * x);
-    end.up.z[i] = 1.0 - 2.0 * (x * x + y * y);
+    const double w = frames.w[i];
+    const double x = frames.v.x[i];
+    const double y = frames.v.y[i];
+    const double z = frames.v.z[i];
+    frames.boresight.x[i] = 1.0 - 2.0 * (y * y + z * z);
+    frames.boresight.y[i] = 2.0 * (x * y + w * z);
+    frames.boresight.z[i] = 2.0 * (x * z - w * y);
   }
 }
 
-void set_ways(const Vector3d& p_WA, const Vectors& p_WT, std::size_t count, Links& links) {
+void set_sides(std::size_t count, TagFrames& frames) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double w = frames.w[i];
+    const double x = frames.v.x[i];
+    const double y = frames.v.y[i];
+    const double z = frames.v.z[i];
+    frames.left.x[i] = 2.0 * (x * y - w * z);
+    frames.left.y[i] = 1.0 - 2.0 * (x * x + z * z);
+    frames.left.z[i] = 2.0 * (y * z + w * x);
+    frames.up.x[i] = 2.0 * (x * z + w * y);
+    frames.up.y[i] = 2.0 * (y * z - w * x);
+    frames.up.z[i] = 1.0 - 2.0 * (x * x + y * y);
+  }
+}
+
+void set_wires(Wire wire, std::size_t count, TagFrames& frames) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double w = frames.w[i];
+    const double x = frames.v.x[i];
+    const double y = frames.v.y[i];
+    const double z = frames.v.z[i];
+    frames.wire.x[i] =
+        wire.of_left * (2.0 * (x * y - w * z)) + wire.of_up * (2.0 * (x * z + w * y));
+    frames.wire.y[i] =
+        wire.of_left * (1.0 - 2.0 * (x * x + z * z)) + wire.of_up * (2.0 * (y * z - w * x));
+    frames.wire.z[i] =
+        wire.of_left * (2.0 * (y * z + w * x)) + wire.of_up * (1.0 - 2.0 * (x * x + y * y));
+  }
+}
+
+void set_ways(const Vector3d& p_WA, std::size_t count, Work& work) {
+  Vectors& way = work.way;
   const double from_x = p_WA.x();
   const double from_y = p_WA.y();
   const double from_z = p_WA.z();
   for (std::size_t i = 0; i < count; ++i) {
-    const double x = p_WT.x[i] - from_x;
-    const double y = p_WT.y[i] - from_y;
-    const double z = p_WT.z[i] - from_z;
+    const double x = work.p_WT.x[i] - from_x;
+    const double y = work.p_WT.y[i] - from_y;
+    const double z = work.p_WT.z[i] - from_z;
     const double length = std::sqrt(x * x + y * y + z * z);
-    const double inverse = 1.0 / length;
-    links.length[i] = length;
-    links.antenna.way.x[i] = x * inverse;
-    links.antenna.way.y[i] = y * inverse;
-    links.antenna.way.z[i] = z * inverse;
-    links.tag.way.x[i] = -(x * inverse);
-    links.tag.way.y[i] = -(y * inverse);
-    links.tag.way.z[i] = -(z * inverse);
+    const double inverse = choose(length > 0.0, 1.0 / length, 0.0);
+    work.length[i] = length;
+    work.inverse_length[i] = inverse;
+    way.x[i] = x * inverse;
+    way.y[i] = y * inverse;
+    way.z[i] = z * inverse;
   }
 }
 
-inline double along(const Vectors& axis, const Vectors& way, std::size_t i) {
-  return axis.x[i] * way.x[i] + axis.y[i] * way.y[i] + axis.z[i] * way.z[i];
-}
-
-void turn_ways(std::size_t count, EndLanes& end) {
-  for (std::size_t i = 0; i < count; ++i) {
-    end.way_own.x[i] = along(end.boresight, end.way, i);
-    end.way_own.y[i] = along(end.left, end.way, i);
-    end.way_own.z[i] = along(end.up, end.way, i);
-  }
+/// `sign` is -1 at the end that the ways lead to.
+template <class Axis>
+void turn_ways(Axis axis, double sign, const Vectors& way, std::size_t count, Lane& own) {
+  for (std::size_t i = 0; i < count; ++i) own[i] = sign * along(axis, way, i);
 }
 
 /// What the patterns of patches need, of all directions.
@@ -129,13 +194,14 @@ void add_patch_gains(const PatchLobe& lobe, std::size_t count, EndLanes& end) {
   }
 }
 
-void add_dipole_gains(double peak, double of_left, double of_up, std::size_t count, EndLanes& end) {
+void add_dipole_gains(double peak, std::size_t count, EndLanes& end) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double cosine = of_left * end.way_own.y[i] + of_up * end.way_own.z[i];
+    const double cosine = end.along_wire[i];
     const double sine_squared = 1.0 - cosine * cosine;
     const double amplitude = lane_sine_cosine(0.5 * kPi * cosine).cosine;
-    const double safe = choose(sine_squared > 1e-15, sine_squared, 1.0);
-    end.power[i] = choose(sine_squared > 1e-15, peak * (amplitude * amplitude / safe), 0.0);
+    const bool is_beside = sine_squared > 1e-15;
+    end.power[i] = choose(is_beside, peak * (amplitude * amplitude), 0.0);
+    end.divisor[i] = choose(is_beside, sine_squared, 1.0);
   }
 }
 
@@ -143,6 +209,7 @@ void add_gains(const AntennaPattern& pattern, const ChannelEffects& effects, Ins
                std::size_t count, EndLanes& end) {
   const bool is_even = !effects.patterns || pattern.shape == PatternShape::kIsotropic;
   const double peak = peak_gain(pattern);
+  std::fill_n(end.divisor.begin(), count, 1.0);
   if (is_even) {
     std::fill_n(end.power.begin(), count, peak);
   } else if (pattern.shape == PatternShape::kPatch) {
@@ -151,9 +218,7 @@ void add_gains(const AntennaPattern& pattern, const ChannelEffects& effects, Ins
                          lobe_exponent_of(pattern.vertical_beam_width_rad)};
     in_lanes(set, [&] { add_patch_gains(lobe, count, end); });
   } else if (pattern.shape == PatternShape::kDipole) {
-    const double of_left = std::sin(pattern.tilt_rad);
-    const double of_up = std::cos(pattern.tilt_rad);
-    in_lanes(set, [&] { add_dipole_gains(peak, of_left, of_up, count, end); });
+    in_lanes(set, [&] { add_dipole_gains(peak, count, end); });
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       end.power[i] = gain(pattern, {end.way_own.x[i], end.way_own.y[i], end.way_own.z[i]});
@@ -161,140 +226,236 @@ void add_gains(const AntennaPattern& pattern, const ChannelEffects& effects, Ins
   }
 }
 
-/// What of a wire along of_left·left + of_up·up lies across the way, of length 1.
-void add_linear_fields(double of_left, double of_up, std::size_t count, EndLanes& end) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double part = of_left * end.way_own.y[i] + of_up * end.way_own.z[i];
-    const auto across = [&](const Lane& left, const Lane& up, const Lane& way) {
-      return (of_left * left[i] + of_up * up[i]) - part * way[i];
-    };
-    const double x = across(end.left.x, end.up.x, end.way.x);
-    const double y = across(end.left.y, end.up.y, end.way.y);
-    const double z = across(end.left.z, end.up.z, end.way.z);
-    const double length = std::sqrt(x * x + y * y + z * z);
-    end.across[i] = length;
-    const double inverse = 1.0 / length;
-    end.re.x[i] = x * inverse;
-    end.re.y[i] = y * inverse;
-    end.re.z[i] = z * inverse;
-    end.im.x[i] = 0.0;
-    end.im.y[i] = 0.0;
-    end.im.z[i] = 0.0;
-  }
-}
-
+/// What of a wire lies across the way, and its squared length.
+struct WireField {
+  double x, y, z;
+  double across;
+};
 /// Of crossed wires along up + j·hand·left.
-void add_circular_fields(double hand, std::size_t count, EndLanes& end) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double u_y = end.way_own.y[i];
-    const double u_z = end.way_own.z[i];
+struct CircularField {
+  double re_x, re_y, re_z;
+  double im_x, im_y, im_z;
+  double across;
+};
+
+/// `sign` is -1 at the end that the ways lead to.
+template <class Axis>
+struct WireEnd {
+  Axis wire;
+  double sign;
+  const Lane& along_wire;
+
+  [[nodiscard]] WireField field(const Vectors& way, std::size_t i) const {
+    const double part = sign * along_wire[i];
+    const double x = x_of(wire, i) - part * way.x[i];
+    const double y = y_of(wire, i) - part * way.y[i];
+    const double z = z_of(wire, i) - part * way.z[i];
+    return {x, y, z, x * x + y * y + z * z};
+  }
+};
+
+template <class Axis>
+struct CircularEnd {
+  Axis left;
+  Axis up;
+  double sign;
+  double hand;
+  const Lane& along_left;
+  const Lane& along_up;
+
+  [[nodiscard]] CircularField field(const Vectors& way, std::size_t i) const {
+    const double of_left = sign * along_left[i];
+    const double of_up = sign * along_up[i];
     // Each wire's part across the way has the square 1 − u², of both 2 − u_y² − u_z² ≥ 1.
-    const double length = std::sqrt(2.0 - u_y * u_y - u_z * u_z);
-    end.across[i] = length;
-    const double inverse = 1.0 / length;
-    end.re.x[i] = (end.up.x[i] - u_z * end.way.x[i]) * inverse;
-    end.re.y[i] = (end.up.y[i] - u_z * end.way.y[i]) * inverse;
-    end.re.z[i] = (end.up.z[i] - u_z * end.way.z[i]) * inverse;
-    end.im.x[i] = hand * (end.left.x[i] - u_y * end.way.x[i]) * inverse;
-    end.im.y[i] = hand * (end.left.y[i] - u_y * end.way.y[i]) * inverse;
-    end.im.z[i] = hand * (end.left.z[i] - u_y * end.way.z[i]) * inverse;
+    const double across = 2.0 - along_left[i] * along_left[i] - along_up[i] * along_up[i];
+    return {x_of(up, i) - of_up * way.x[i],
+            y_of(up, i) - of_up * way.y[i],
+            z_of(up, i) - of_up * way.z[i],
+            hand * (x_of(left, i) - of_left * way.x[i]),
+            hand * (y_of(left, i) - of_left * way.y[i]),
+            hand * (z_of(left, i) - of_left * way.z[i]),
+            across};
   }
+};
+
+/// What one end takes in of the other's field, as a factor, times √square; and the least of what
+/// lies across.
+struct Taken {
+  double re, im;
+  double square;
+  double across;
+};
+
+inline double lesser(double one, double other) { return choose(one < other, one, other); }
+
+inline Taken taken(const WireField& a, const WireField& t) {
+  return {a.x * t.x + a.y * t.y + a.z * t.z, 0.0, a.across * t.across, lesser(a.across, t.across)};
+}
+inline Taken taken(const CircularField& a, const WireField& t) {
+  return {a.re_x * t.x + a.re_y * t.y + a.re_z * t.z, a.im_x * t.x + a.im_y * t.y + a.im_z * t.z,
+          a.across * t.across, t.across};
+}
+inline Taken taken(const WireField& a, const CircularField& t) { return taken(t, a); }
+inline Taken taken(const CircularField& a, const CircularField& t) {
+  const double re = (a.re_x * t.re_x + a.re_y * t.re_y + a.re_z * t.re_z) -
+                    (a.im_x * t.im_x + a.im_y * t.im_y + a.im_z * t.im_z);
+  const double im = (a.re_x * t.im_x + a.re_y * t.im_y + a.re_z * t.im_z) +
+                    (a.im_x * t.re_x + a.im_y * t.re_y + a.im_z * t.re_z);
+  return {re, im, a.across * t.across, 1.0};
 }
 
-void add_fields(const AntennaPattern& pattern, std::size_t count, EndLanes& end) {
-  const bool is_wire =
-      pattern.shape == PatternShape::kDipole || pattern.polarization == PolarizationKind::kLinear;
-  if (is_wire) {
-    add_linear_fields(std::sin(pattern.tilt_rad), std::cos(pattern.tilt_rad), count, end);
-  } else {
-    add_circular_fields(pattern.polarization == PolarizationKind::kRightCircular ? 1.0 : -1.0,
-                        count, end);
-  }
-}
-
-/// √(G G')·λ/(4πd)·e^{−jkd} times what the tag takes in of the field.
-void add_links(const Carrier& carrier, bool polarization, std::size_t count, Links& links) {
-  const EndLanes& a = links.antenna;
-  const EndLanes& t = links.tag;
+/// √(G G')·λ/(4πd)·e^{−jkd} times `taken_at(i)`; its power as to_db() has it, to the last bits; and
+/// the slope. True where some link is beyond the loop's functions: too far, in one place, or along
+/// a wire. Those have 1 in `unsure`.
+template <class TakenAt>
+bool add_links(const Carrier& carrier, const TakenAt& taken_at, std::size_t count, const Work& work,
+               StraightLinks& links, std::array<std::uint64_t, kStraightLinks>& unsure) {
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  constexpr double kMostTurn_rad = 1e5;  // of lane_sine_cosine()
   const double at_a_metre = carrier.lambda_m / (4.0 * kPi);
   const double wave_number = carrier.wave_number;
+  std::uint64_t any = 0;
+  // What is written is read nowhere here, which compilers don't see of so many arrays.
+#pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
-    const double amplitude = std::sqrt(a.power[i] * t.power[i]) * (at_a_metre / links.length[i]);
-    const SineCosine phase = lane_sine_cosine(wave_number * links.length[i]);
-    links.re[i] = amplitude * phase.cosine;
-    links.im[i] = -(amplitude * phase.sine);
+    const double length = work.length[i];
+    const Taken of = taken_at(i);
+    const double divisor = work.antenna.divisor[i] * work.tag.divisor[i] * of.square;
+    const double amplitude = std::sqrt(work.antenna.power[i] * work.tag.power[i] / divisor) *
+                             (at_a_metre * work.inverse_length[i]);
+    const SineCosine phase = lane_sine_cosine(wave_number * length);
+    const double free_re = amplitude * phase.cosine;
+    const double free_im = -(amplitude * phase.sine);
+    const double re = free_re * of.re - free_im * of.im;
+    const double im = free_re * of.im + free_im * of.re;
+    const double power = re * re + im * im;
+    const double db = 10.0 * lane_log10(choose(power > kLeast, power, kLeast));
+    const double towards = choose(db > kNothing_db, -wave_number, 0.0);
+    links.re[i] = re;
+    links.im[i] = im;
+    links.power_db[i] = choose(db > kNothing_db, db, kNothing_db);
+    links.slope_W.x[i] = towards * work.way.x[i];
+    links.slope_W.y[i] = towards * work.way.y[i];
+    links.slope_W.z[i] = towards * work.way.z[i];
+    unsure[i] = static_cast<std::uint64_t>(!(length > 1e-150)) |
+                static_cast<std::uint64_t>(!(wave_number * length <= kMostTurn_rad)) |
+                static_cast<std::uint64_t>(!(of.across > 1e-18));
+    any |= unsure[i];
   }
-  if (!polarization) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double re = along(a.re, t.re, i) - along(a.im, t.im, i);
-    const double im = along(a.re, t.im, i) + along(a.im, t.re, i);
-    const double both = links.re[i] * re - links.im[i] * im;
-    links.im[i] = links.re[i] * im + links.im[i] * re;
-    links.re[i] = both;
+  return any != 0;
+}
+
+double hand_of(const AntennaPattern& pattern) {
+  return pattern.polarization == PolarizationKind::kRightCircular ? 1.0 : -1.0;
+}
+
+void fill(std::span<const PoseRef> tags, Work& work) {
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const Eigen::Quaterniond& R_WT = *tags[i].R_WT;
+    const Vector3d& p_WT = *tags[i].p_WT;
+    work.frames.w[i] = R_WT.w();
+    work.frames.v.x[i] = R_WT.x();
+    work.frames.v.y[i] = R_WT.y();
+    work.frames.v.z[i] = R_WT.z();
+    work.p_WT.x[i] = p_WT.x();
+    work.p_WT.y[i] = p_WT.y();
+    work.p_WT.z[i] = p_WT.z();
   }
 }
 
-/// Whether the loops' functions hold: neither too far, nor in one place, nor along a wire.
-bool holds(const Links& links, const Carrier& carrier, bool polarization, std::size_t i) {
-  const double length = links.length[i];
-  constexpr double kMostTurn_rad = 1e5;  // of lane_sine_cosine()
-  if (!(length > 1e-150 && carrier.wave_number * length <= kMostTurn_rad)) return false;
-  return !polarization || (links.antenna.across[i] > 1e-9 && links.tag.across[i] > 1e-9);
+/// The ways as the antenna sees them: what its pattern asks for,
+void look_from_antenna(const AntennaPattern& pattern, const ChannelEffects& effects,
+                       const AntennaFrame& frame, const Vector3d& wire, const Vectors& way,
+                       std::size_t count, EndLanes& end) {
+  if (has_wire(pattern)) turn_ways<Vector3d>(wire, 1.0, way, count, end.along_wire);
+  if (!needs_frame(pattern, effects)) return;
+  turn_ways<Vector3d>(frame.boresight, 1.0, way, count, end.way_own.x);
+  turn_ways<Vector3d>(frame.left, 1.0, way, count, end.way_own.y);
+  turn_ways<Vector3d>(frame.up, 1.0, way, count, end.way_own.z);
 }
 
-void add_some(const RadioEnd& antenna, const AntennaPattern& tag,
-              std::span<const RigidTransform* const> X_WT, const Carrier& carrier,
-              const ChannelEffects& effects, std::span<std::complex<double>> gains,
-              InstructionSet set) {
-  const std::size_t count = X_WT.size();
-  Links links;
-  Vectors p_WT;
-  const auto fill = [](const Eigen::Quaterniond& q, std::size_t i, Rotations& R) {
-    R.w[i] = q.w();
-    R.v.x[i] = q.x();
-    R.v.y[i] = q.y();
-    R.v.z[i] = q.z();
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    fill(antenna.X_WA.rotation, i, links.antenna.R_WE);
-    fill(X_WT[i]->rotation, i, links.tag.R_WE);
-    p_WT.x[i] = X_WT[i]->translation.x();
-    p_WT.y[i] = X_WT[i]->translation.y();
-    p_WT.z[i] = X_WT[i]->translation.z();
+/// and as tags do.
+void look_from_tags(const AntennaPattern& pattern, const ChannelEffects& effects,
+                    const Vectors& way, std::size_t count, TagFrames& frames, EndLanes& end) {
+  if (has_wire(pattern)) {
+    set_wires(wire_of(pattern), count, frames);
+    turn_ways<const Vectors&>(frames.wire, -1.0, way, count, end.along_wire);
   }
-  in_lanes(set, [&] {
-    set_axes(count, links.antenna);
-    set_axes(count, links.tag);
-    set_ways(antenna.X_WA.translation, p_WT, count, links);
-    turn_ways(count, links.antenna);
-    turn_ways(count, links.tag);
-  });
-  add_gains(antenna.pattern, effects, set, count, links.antenna);
-  add_gains(tag, effects, set, count, links.tag);
-  in_lanes(set, [&] {
-    if (effects.polarization) {
-      add_fields(antenna.pattern, count, links.antenna);
-      add_fields(tag, count, links.tag);
-    }
-    add_links(carrier, effects.polarization, count, links);
-  });
-  for (std::size_t i = 0; i < count; ++i) {
-    gains[i] = holds(links, carrier, effects.polarization, i)
-                   ? std::complex<double>(links.re[i], links.im[i])
-                   : free_space_gain(antenna, {tag, *X_WT[i]}, carrier, effects);
-  }
+  if (!needs_frame(pattern, effects)) return;
+  set_boresights(count, frames);
+  set_sides(count, frames);
+  turn_ways<const Vectors&>(frames.boresight, -1.0, way, count, end.way_own.x);
+  turn_ways<const Vectors&>(frames.left, -1.0, way, count, end.way_own.y);
+  turn_ways<const Vectors&>(frames.up, -1.0, way, count, end.way_own.z);
+}
+
+void set_alone(const RadioEnd& antenna, const RadioEnd& tag, const Carrier& carrier,
+               const ChannelEffects& effects, std::size_t i, StraightLinks& links) {
+  const std::complex<double> gain = free_space_gain(antenna, tag, carrier, effects);
+  links.re[i] = gain.real();
+  links.im[i] = gain.imag();
+  links.power_db[i] = to_db(std::norm(gain));
+  const Vector3d way = tag.X_WA.translation - antenna.X_WA.translation;
+  const Vector3d slope =
+      gain == 0.0 ? Vector3d::Zero().eval() : Vector3d(-carrier.wave_number * way.normalized());
+  links.slope_W.x[i] = slope.x();
+  links.slope_W.y[i] = slope.y();
+  links.slope_W.z[i] = slope.z();
 }
 
 }  // namespace
 
 void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
-                      std::span<const RigidTransform* const> X_WT, const Carrier& carrier,
-                      const ChannelEffects& effects, std::span<std::complex<double>> gains,
-                      InstructionSet set) {
-  for (std::size_t begin = 0; begin < X_WT.size(); begin += kLinks) {
-    const std::size_t count = std::min(kLinks, X_WT.size() - begin);
-    add_some(antenna, tag, X_WT.subspan(begin, count), carrier, effects,
-             gains.subspan(begin, count), set);
+                      std::span<const PoseRef> tags, const Carrier& carrier,
+                      const ChannelEffects& effects, StraightLinks& links, InstructionSet set) {
+  const std::size_t count = tags.size();
+  Work work;
+  std::array<std::uint64_t, kStraightLinks> unsure;
+  const AntennaFrame frame = frame_of(antenna.X_WA.rotation);
+  const Wire in_frame = wire_of(antenna.pattern);
+  const Vector3d wire = in_frame.of_left * frame.left + in_frame.of_up * frame.up;
+  fill(tags, work);
+  in_lanes(set, [&] {
+    set_ways(antenna.X_WA.translation, count, work);
+    look_from_antenna(antenna.pattern, effects, frame, wire, work.way, count, work.antenna);
+    look_from_tags(tag, effects, work.way, count, work.frames, work.tag);
+  });
+  add_gains(antenna.pattern, effects, set, count, work.antenna);
+  add_gains(tag, effects, set, count, work.tag);
+  const auto add = [&](const auto& taken_at) {
+    bool any = false;
+    in_lanes(set, [&] { any = add_links(carrier, taken_at, count, work, links, unsure); });
+    return any;
+  };
+  const auto coupled = [&](const auto& from, const auto& to) {
+    const auto a = from;
+    const auto t = to;
+    return add(
+        [&, a, t](std::size_t i) { return taken(a.field(work.way, i), t.field(work.way, i)); });
+  };
+  const auto with_tag = [&](const auto& from) {
+    const Vectors& own = work.tag.way_own;
+    const TagFrames& frames = work.frames;
+    if (has_wire(tag)) {
+      return coupled(from, WireEnd<const Vectors&>{frames.wire, -1.0, work.tag.along_wire});
+    }
+    return coupled(from, CircularEnd<const Vectors&>{frames.left, frames.up, -1.0, hand_of(tag),
+                                                     own.y, own.z});
+  };
+  bool any_unsure = false;
+  if (!effects.polarization) {
+    any_unsure = add([](std::size_t /*i*/) { return Taken{1.0, 0.0, 1.0, 1.0}; });
+  } else if (has_wire(antenna.pattern)) {
+    any_unsure = with_tag(WireEnd<Vector3d>{wire, 1.0, work.antenna.along_wire});
+  } else {
+    const Vectors& own = work.antenna.way_own;
+    any_unsure = with_tag(
+        CircularEnd<Vector3d>{frame.left, frame.up, 1.0, hand_of(antenna.pattern), own.y, own.z});
+  }
+  for (std::size_t i = 0; any_unsure && i < count; ++i) {
+    if (unsure[i] == 0) continue;
+    const RigidTransform X_WT{*tags[i].R_WT, *tags[i].p_WT};
+    set_alone(antenna, {tag, X_WT}, carrier, effects, i, links);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -117,6 +118,25 @@ void make_room(const std::vector<std::uint32_t>& slots, const RadioView& view,
   if (antenna.memories.size() < count) antenna.memories.resize(count);
   if (view.model.X_AR && antenna.receiver_memories.size() < count) {
     antenna.receiver_memories.resize(count);
+  }
+}
+
+/// Calls `visit(slot, tag, link)` for each tag in the slots, in empty space.
+template <class Visit>
+void for_each_straight_link(const std::vector<std::uint32_t>& slots, const TagPopulation& tags,
+                            const RadioView& view, const Visit& visit) {
+  std::array<TagInView, kStraightLinks> some;
+  std::array<RadioLink, kStraightLinks> links;
+  for (std::size_t begin = 0; begin < slots.size(); begin += kStraightLinks) {
+    const std::span<const std::uint32_t> now =
+        std::span(slots).subspan(begin, std::min(kStraightLinks, slots.size() - begin));
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      some[i] = {&tags.model(now[i]), {&tags.rotation(now[i]), &tags.position(now[i])}};
+    }
+    straight_links_of(view, {some.data(), now.size()}, {links.data(), now.size()});
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      visit(now[i], TagEnd{tags.model(now[i]), tags.pose(now[i]), tags.key(now[i])}, links[i]);
+    }
   }
 }
 
@@ -490,20 +510,15 @@ Disturbance RadioAir::disturbance_of(const AirAntenna& antenna,
 template <class Visit>
 void RadioAir::for_each_link(AirAntenna& antenna, const TagPopulation& tags, RadioView& view,
                              const Visit& visit) {
-  make_room(slots_, view, antenna);
-  // What surrounds a tag, and images of its own, hold until the next one's are asked for.
-  if (couples_tags(antenna.model()) || tags.size() <= kFewTags) {
-    for (const std::uint32_t slot : slots_) {
-      const TagEnd tag = tag_end(antenna, slot, tags, view);
-      visit(slot, tag, link_of(view, tag, paths_));
-    }
+  if (is_empty_space(view) && !couples_tags(antenna.model())) {
+    for_each_straight_link(slots_, tags, view, visit);
     return;
   }
-  ends_.clear();
-  for (const std::uint32_t slot : slots_) ends_.push_back(tag_end(antenna, slot, tags, view));
-  links_.resize(slots_.size());
-  links_of(view, ends_, paths_, links_);
-  for (std::size_t i = 0; i < slots_.size(); ++i) visit(slots_[i], ends_[i], links_[i]);
+  make_room(slots_, view, antenna);
+  for (const std::uint32_t slot : slots_) {
+    const TagEnd tag = tag_end(antenna, slot, tags, view);
+    visit(slot, tag, link_of(view, tag, paths_));
+  }
 }
 
 void RadioAir::read_all(AirAntenna& antenna, const RigidTransform& X_WA, Time now,

@@ -119,8 +119,6 @@ class RadioAir {
   TagSurroundings around_;        ///< Of the link in work.
   std::vector<RadioPath> paths_;  ///< Workspace, like these.
   std::vector<std::uint32_t> slots_;
-  std::vector<TagEnd> ends_;
-  std::vector<RadioLink> links_;
   std::vector<TagOnAir> field_;
   std::vector<Singulation> read_;
 };

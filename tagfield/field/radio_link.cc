@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "tagfield/base/lane_math.h"
-#include "tagfield/base/lanes.h"
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
-#include "tagfield/channel/free_space_gains.h"
 
 namespace tagfield {
 namespace {
@@ -190,12 +186,6 @@ Vector3d slope_of(const Gain& gain) {
   return (gain.gradient / gain.h).imag();
 }
 
-/// Along the straight way alone, so that many can be computed together.
-bool is_empty_space(const RadioView& view) {
-  return is_plain(view) && view.edges == nullptr && view.bodies.empty() &&
-         !(view.model.effects.diffuse && view.model.diffuse_k_db);
-}
-
 /// Over all of the view's ways.
 RadioLink traced_link(const RadioView& view, const TagEnd& tag, std::vector<RadioPath>& paths) {
   const RadioModel& model = view.model;
@@ -214,92 +204,35 @@ RadioLink traced_link(const RadioView& view, const TagEnd& tag, std::vector<Radi
   return link;
 }
 
-/// Tags of one kind whose links are computed together.
-constexpr std::size_t kTagsAtOnce = 64;
-using Lane = std::array<double, kTagsAtOnce>;
-using Gains = std::array<Complex, kTagsAtOnce>;
-
-/// to_db() of the gains' squares, to the last bits.
-void add_powers_db(const Gains& gains, std::size_t count, Lane& power_db) {
-  Lane power;
-  for (std::size_t i = 0; i < count; ++i) power[i] = std::norm(gains[i]);
-  in_lanes(instruction_sets().back(), [&] {
-    constexpr double kLeast = std::numeric_limits<double>::min();
-    for (std::size_t i = 0; i < count; ++i) {
-      const double db = 10.0 * lane_log10(choose(power[i] > kLeast, power[i], kLeast));
-      power_db[i] = choose(db > kNothing_db, db, kNothing_db);
-    }
-  });
-}
-
-/// −∂ arg h / ∂p_WA of straight ways: the wave number towards the antenna.
-struct Slopes {
-  Lane x;
-  Lane y;
-  Lane z;
-};
-
-void add_slopes(double wave_number, const Vector3d& p_WA, std::span<const TagEnd> tags,
-                Slopes& slopes) {
-  const std::size_t count = tags.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    slopes.x[i] = p_WA.x() - tags[i].X_WT.translation.x();
-    slopes.y[i] = p_WA.y() - tags[i].X_WT.translation.y();
-    slopes.z[i] = p_WA.z() - tags[i].X_WT.translation.z();
-  }
-  in_lanes(instruction_sets().back(), [&] {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double x = slopes.x[i];
-      const double y = slopes.y[i];
-      const double z = slopes.z[i];
-      const double length = std::sqrt(x * x + y * y + z * z);
-      const double scale = choose(length > 0.0, wave_number / length, 0.0);
-      slopes.x[i] = x * scale;
-      slopes.y[i] = y * scale;
-      slopes.z[i] = z * scale;
-    }
-  });
-}
-
-/// One of the two ways of up to kTagsAtOnce links.
-struct OneWay {
-  Gains gains;
-  Lane power_db;
-  Slopes slopes;
-};
-
-void add_one_way(const RadioView& view, const RigidTransform& X_WA, std::span<const TagEnd> tags,
-                 OneWay& way) {
-  const std::size_t count = tags.size();
+/// Of one of the two ways of tags of one kind, at most kStraightLinks of them.
+void add_one_way(const RadioView& view, const RigidTransform& X_WA, std::span<const TagInView> tags,
+                 StraightLinks& way) {
   const ChannelEffects effects{view.model.effects.patterns, view.model.effects.polarization};
-  std::array<const RigidTransform*, kTagsAtOnce> X_WT;
-  for (std::size_t i = 0; i < count; ++i) X_WT[i] = &tags[i].X_WT;
-  free_space_gains({view.model.antenna, X_WA}, tags.front().model.antenna, {X_WT.data(), count},
-                   view.carrier, effects, {way.gains.data(), count});
-  add_powers_db(way.gains, count, way.power_db);
-  add_slopes(view.carrier.wave_number, X_WA.translation, tags, way.slopes);
+  std::array<PoseRef, kStraightLinks> poses;
+  for (std::size_t i = 0; i < tags.size(); ++i) poses[i] = tags[i].pose;
+  free_space_gains({view.model.antenna, X_WA}, tags.front().model->antenna,
+                   {poses.data(), tags.size()}, view.carrier, effects, way);
 }
 
-Vector3d slope_at(const OneWay& way, std::size_t i) {
-  if (!(way.power_db[i] > kNothing_db)) return Vector3d::Zero();
-  return {way.slopes.x[i], way.slopes.y[i], way.slopes.z[i]};
+Vector3d slope_at(const StraightLinks& way, std::size_t i) {
+  return {way.slope_W.x[i], way.slope_W.y[i], way.slope_W.z[i]};
 }
 
-/// traced_link() of up to kTagsAtOnce tags of one kind in empty space.
-void add_straight_links(const RadioView& view, std::span<const TagEnd> tags,
+/// traced_link() of up to kStraightLinks tags of one kind in empty space.
+void add_straight_links(const RadioView& view, std::span<const TagInView> tags,
                         std::span<RadioLink> links) {
   const RadioModel& model = view.model;
-  const TagModel& kind = tags.front().model;
-  OneWay forward;
-  OneWay received;
+  const TagModel& kind = *tags.front().model;
+  StraightLinks forward;
+  StraightLinks received;
   add_one_way(view, view.X_WA, tags, forward);
   if (model.X_AR) add_one_way(view, view.X_WR, tags, received);
-  const OneWay& backward = model.X_AR ? received : forward;
+  const StraightLinks& backward = model.X_AR ? received : forward;
   const double radiated_dbm = model.transmit_power_dbm - model.cable_loss_db;
   for (std::size_t i = 0; i < tags.size(); ++i) {
     RadioLink& link = links[i];
-    link.forward = forward.gains[i];
-    link.backward = backward.gains[i];
+    link.forward = {forward.re[i], forward.im[i]};
+    link.backward = {backward.re[i], backward.im[i]};
     link.tag_dbm = radiated_dbm + forward.power_db[i] - kind.detuning_db;
     link.reply_dbm = link.tag_dbm + kind.modulation_db - kind.detuning_db + backward.power_db[i] -
                      model.cable_loss_db;
@@ -368,23 +301,39 @@ RadioLink link_of(const RadioView& view, const TagEnd& tag, std::vector<RadioPat
   return link;
 }
 
-void links_of(const RadioView& view, std::span<const TagEnd> tags, std::vector<RadioPath>& paths,
-              std::span<RadioLink> links) {
-  const auto is_single = [&](const TagEnd& tag) { return tag.around != nullptr; };
-  if (!is_empty_space(view) || std::any_of(tags.begin(), tags.end(), is_single)) {
-    for (std::size_t i = 0; i < tags.size(); ++i) links[i] = traced_link(view, tags[i], paths);
-    return;
-  }
+bool is_empty_space(const RadioView& view) {
+  return is_plain(view) && view.edges == nullptr && view.bodies.empty() &&
+         !(view.model.effects.diffuse && view.model.diffuse_k_db);
+}
+
+void straight_links_of(const RadioView& view, std::span<const TagInView> tags,
+                       std::span<RadioLink> links) {
   std::size_t begin = 0;
   while (begin < tags.size()) {
     // Those of one kind that follow one another.
+    const std::size_t most = std::min(tags.size(), begin + kStraightLinks);
     std::size_t end = begin + 1;
-    while (end < tags.size() && end - begin < kTagsAtOnce &&
-           &tags[end].model == &tags[begin].model) {
-      ++end;
-    }
+    while (end < most && tags[end].model == tags[begin].model) ++end;
     add_straight_links(view, tags.subspan(begin, end - begin), links.subspan(begin, end - begin));
     begin = end;
+  }
+}
+
+void links_of(const RadioView& view, std::span<const TagEnd> tags, std::vector<RadioPath>& paths,
+              std::span<RadioLink> links) {
+  const bool is_empty = is_empty_space(view);
+  std::array<TagInView, kStraightLinks> straight;
+  std::size_t begin = 0;
+  while (begin < tags.size()) {
+    std::size_t count = 0;
+    const std::size_t most = std::min(kStraightLinks, tags.size() - begin);
+    while (is_empty && count < most && tags[begin + count].around == nullptr) {
+      const TagEnd& tag = tags[begin + count];
+      straight[count++] = {&tag.model, {&tag.X_WT.rotation, &tag.X_WT.translation}};
+    }
+    straight_links_of(view, {straight.data(), count}, links.subspan(begin, count));
+    if (count == 0) links[begin] = traced_link(view, tags[begin], paths);
+    begin += std::max(count, std::size_t{1});
   }
 }
 

@@ -50,8 +50,11 @@ class TagPopulation {
   [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t slot) const {
     return index_.position(slot);
   }
+  [[nodiscard]] const Eigen::Quaterniond& rotation(std::uint32_t slot) const {
+    return tags_[slot].R_WT;
+  }
   [[nodiscard]] RigidTransform pose(std::uint32_t slot) const {
-    return {tags_[slot].R_WT, index_.position(slot)};
+    return {rotation(slot), position(slot)};
   }
   [[nodiscard]] const TagModel& model(std::uint32_t slot) const { return *tags_[slot].model; }
   /// All kinds of tags that were ever told of; the default one is the first.

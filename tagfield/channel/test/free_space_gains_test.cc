@@ -58,9 +58,16 @@ struct Links {
   [[nodiscard]] std::vector<std::complex<double>> some(std::size_t begin, std::size_t count,
                                                        InstructionSet set) const {
     std::vector<std::complex<double>> gains(count);
-    std::vector<const RigidTransform*> poses;
-    for (std::size_t i = 0; i < count; ++i) poses.push_back(&X_WT[begin + i]);
-    free_space_gains({antenna, X_WA}, tag, poses, carrier, effects, gains, set);
+    for (std::size_t i = 0; i < count; i += kStraightLinks) {
+      std::vector<PoseRef> poses;
+      const std::size_t end = std::min(count, i + kStraightLinks);
+      for (std::size_t k = i; k < end; ++k) {
+        poses.push_back({&X_WT[begin + k].rotation, &X_WT[begin + k].translation});
+      }
+      StraightLinks links;
+      free_space_gains({antenna, X_WA}, tag, poses, carrier, effects, links, set);
+      for (std::size_t k = i; k < end; ++k) gains[k] = {links.re[k - i], links.im[k - i]};
+    }
     return gains;
   }
   AntennaPattern antenna;
@@ -84,6 +91,24 @@ RC_GTEST_PROP(FreeSpaceGains, AreThoseOfEachLink, ()) {
     const double d = (tag.X_WA.translation - links.X_WA.translation).norm();
     const double most = d > 0.0 ? 10.0 * links.carrier.lambda_m / (4.0 * kPi * d) : 0.0;
     RC_ASSERT(std::abs(gains[i] - alone) <= 1e-12 * std::abs(alone) + 1e-14 * most);
+  }
+}
+
+RC_GTEST_PROP(FreeSpaceGains, ComeWithTheirPowerAndSlope, ()) {
+  RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), Purpose::kPlaces);
+  const Links of(stream, 30);
+  std::vector<PoseRef> poses;
+  for (const RigidTransform& X : of.X_WT) poses.push_back({&X.rotation, &X.translation});
+  StraightLinks links;
+  free_space_gains({of.antenna, of.X_WA}, of.tag, poses, of.carrier, of.effects, links);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const double power_db = to_db(std::norm(std::complex<double>(links.re[i], links.im[i])));
+    RC_ASSERT(std::abs(links.power_db[i] - power_db) <= 1e-11);
+    const Eigen::Vector3d way = of.X_WT[i].translation - of.X_WA.translation;
+    Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+    if (links.power_db[i] > kNothing_db) expected = -of.carrier.wave_number * way.normalized();
+    const Eigen::Vector3d found(links.slope_W.x[i], links.slope_W.y[i], links.slope_W.z[i]);
+    RC_ASSERT((found - expected).norm() <= 1e-13);
   }
 }
 

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "tagfield/base/units.h"
 #include "tagfield/channel/paper_model.h"
 #include "tagfield/field/radio_port.h"
+#include "tagfield/field/tag_population.h"
 
 namespace tagfield {
 namespace {
@@ -348,6 +350,53 @@ TEST(LinksOf, AreThoseThatAreTracedOneByOneInEmptySpace) {
       EXPECT_EQ(alone.reply_dbm, links[i].reply_dbm);
       EXPECT_EQ(alone.phase_slope_W, links[i].phase_slope_W);
     }
+  }
+}
+
+// A tag among neighbours is not computed with the others, whose links stay the same bits.
+TEST(LinksOf, AreTheSameBesideTagsThatCouple) {
+  const RadioWorld world = empty_world();
+  TagModel dipole = tag(2.15, -18.0);
+  dipole.antenna.shape = PatternShape::kDipole;
+  std::vector<TagEnd> tags = tags_on_a_spiral(dipole, dipole);
+  const RadioModel model = antenna(33.0, 865.7e6);
+  const RadioView view = view_from(model, world, from_translation({0.2, 0.1, 1.5}), 865.7e6, 0, 1);
+  std::vector<RadioPath> paths;
+  std::vector<RadioLink> alone(tags.size());
+  links_of(view, tags, paths, alone);
+  TagSurroundings halved;
+  halved.own = 0.5;
+  for (std::size_t i = 0; i < tags.size(); i += 37) tags[i].around = &halved;
+  std::vector<RadioLink> links(tags.size());
+  links_of(view, tags, paths, links);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const double share = tags[i].around != nullptr ? 0.5 : 1.0;
+    EXPECT_NEAR(links[i].tag_dbm, alone[i].tag_dbm + to_db(share * share), 1e-9);
+    if (share == 1.0) {
+      EXPECT_EQ(links[i].forward, alone[i].forward) << i;
+    }
+  }
+}
+
+TEST(StraightLinksOf, AreThoseOfATagOfThePopulation) {
+  const RadioWorld world = empty_world();
+  const RadioModel model = antenna(33.0, 865.7e6);
+  const RadioView view = view_from(model, world, from_translation({0.2, 0.1, 1.5}), 865.7e6, 0, 1);
+  TagPopulation tags(3.5);
+  std::vector<TagInView> seen;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    tags.add(i, std::to_string(i), {0.1 * i, 3.0, 1.0});
+  }
+  tags.for_each([&](std::uint32_t slot) {
+    seen.push_back({&tags.model(slot), {&tags.rotation(slot), &tags.position(slot)}});
+  });
+  std::vector<RadioLink> links(seen.size());
+  straight_links_of(view, seen, links);
+  std::vector<RadioPath> paths;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const RadioLink link = link_of(view, {tags.model(i), tags.pose(i), tags.key(i)}, paths);
+    EXPECT_EQ(links[i].forward, link.forward);
+    EXPECT_EQ(links[i].reply_dbm, link.reply_dbm);
   }
 }
 
