@@ -104,7 +104,7 @@ std::vector<MethodSummary> compared_methods(const RecordingToLocalize& recording
     options.method = name;
     Diagnostics unheard;  // What there is to warn of, the first method has said.
     const LocalizationResult result =
-        locate_tags(recording.reads, recording.poses.poses, options, unheard);
+        locate_tags(reads_of(recording), recording.poses.poses, options, unheard);
     const bool is_new = std::none_of(methods.begin(), methods.end(), [&](const MethodSummary& of) {
       return of.method == result.method;
     });
@@ -123,7 +123,7 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
   if (recording.other.poses.empty()) return std::nullopt;
   Diagnostics of_other;  // Would be taken for warnings about the run's own poses.
   const std::vector<TagEstimate> estimates = with_all_tags(
-      locate_tags(recording.reads, recording.other.poses, options, of_other).estimates,
+      locate_tags(reads_of(recording), recording.other.poses, options, of_other).estimates,
       recording.truth, order);
   Summary summary;
   summary.tags = outcomes_of(recording, options, estimates);
@@ -162,6 +162,8 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
            StagedFolder& folder) {
   if (recording.stored) {
     folder.add_copy("reads.csv", recording.stored->table);
+  } else if (!recording.table.empty()) {
+    folder.add_copy("reads.csv", recording.table);
   } else {
     folder.add("reads.csv", reads_to_csv(recording.reads));
   }
@@ -247,7 +249,9 @@ RecordingToLocalize recording_of(const LocalizeArguments& arguments, const std::
     return bag_recording(arguments, diagnostics);
   }
   refuse_options_of_bags(arguments);
-  RecordingToLocalize recording = csv_recording(arguments, out, references, diagnostics);
+  // A calibration changes them.
+  const bool keep = !arguments.calibration.empty();
+  RecordingToLocalize recording = csv_recording(arguments, out, references, keep, diagnostics);
   warn_of_odd_reads(arguments.recording, recording.overview, diagnostics);
   warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);
   return recording;
@@ -284,7 +288,7 @@ LocalizationResult located_with_progress(const RecordingToLocalize& recording,
     bars.show("locating " + what, share);
   };
   if (!recording.stored) {
-    return locate_tags(recording.reads, recording.poses.poses, options, diagnostics);
+    return locate_tags(reads_of(recording), recording.poses.poses, options, diagnostics);
   }
   return locate_in_parts(parts_of(*recording.stored, calibration), recording.poses.poses, options,
                          diagnostics);

@@ -12,6 +12,8 @@
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
 #include "tagfield/files/poses_csv.h"
+#include "tagfield/files/read_overview.h"
+#include "tagfield/files/reads_csv.h"
 
 namespace tagfield {
 namespace {
@@ -94,8 +96,20 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
 
 }  // namespace
 
+EachRead reads_of(const RecordingToLocalize& recording) {
+  if (recording.table.empty()) return each_of(recording.reads);
+  return EachRead([&recording](const EachRead::Take& take) {
+    std::size_t count = 0;
+    for_each_read(recording.table, [&](const TagRead& read) {
+      ++count;
+      take(read);
+    });
+    require_same_count(recording.table, recording.overview.count, count);
+  });
+}
+
 RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references,
+                                  const std::set<std::string>& references, bool keep,
                                   Diagnostics& diagnostics) {
   RecordingToLocalize recording;
   const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.recording);
@@ -112,6 +126,13 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std:
     recording.poses = {"given", read_poses_csv(files.poses)};
     recording.stored = store_reads(files.reads, out, *part, references, diagnostics);
     recording.overview = recording.stored->overview;
+  } else if (can_be_stored && !keep && is_read_anew(files.reads)) {
+    recording.poses = {"given", read_poses_csv(files.poses)};
+    recording.table = files.reads;
+    ProgressBar bar("reading");
+    for_each_read(
+        files.reads, [&](const TagRead& read) { add(read, recording.overview); },
+        [&](double share) { bar.show(share); });
   } else {
     ReadsAndPoses tables =
         read_tables("localize", arguments.recording, arguments.poses, arguments.format);

@@ -11,6 +11,7 @@
 #include "apps/tagfield/localize.h"
 #include "apps/tagfield/stored_reads.h"
 #include "tagfield/base/error.h"
+#include "tagfield/localization/problem.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 #include "tagfield/stream/truth.h"
@@ -24,7 +25,9 @@ struct NamedPoses {
 };
 
 struct RecordingToLocalize {
-  std::vector<TagRead> reads;         ///< All, or none where they are stored.
+  std::vector<TagRead> reads;  ///< All, or none where they are stored or not kept.
+  /// The table, where its reads are not kept: they are read anew each time they are asked for.
+  std::string table;
   std::optional<StoredReads> stored;  ///< More than fit in memory.
   ReadOverview overview;
   NamedPoses poses;
@@ -34,11 +37,16 @@ struct RecordingToLocalize {
   double duration_s = 0.0;  ///< 0 where unknown.
 };
 
-/// Reads and poses as CSV. `references`: tags at known places, which all parts have of reads that
-/// are stored on the way to `out`. Throws Error where `--poses` is missing, or --part-reads goes
-/// with an archive or other people's tables.
+/// The reads that are in memory or in `table`, whose rows are counted each time: throws Error where
+/// it has changed. `recording` must outlive it.
+EachRead reads_of(const RecordingToLocalize& recording);
+
+/// Reads and poses as CSV. Reads of a table over kTableToReadAnew are not kept unless `keep` is
+/// set. `references`: tags at known places, which all parts have of reads that are stored on the
+/// way to `out`. Throws Error where `--poses` is missing, or --part-reads goes with an archive or
+/// other people's tables.
 RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references,
+                                  const std::set<std::string>& references, bool keep,
                                   Diagnostics& diagnostics);
 
 /// A rosbag, with a progress bar. Throws Error where it has not the poses that were asked for.

@@ -66,6 +66,20 @@ std::optional<std::size_t> part_of_table(const std::string& table,
   return kReadsOfPart;
 }
 
+bool is_read_anew(const std::string& table) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(table, unknown)) return false;
+  const std::uintmax_t size = fs::file_size(table, unknown);
+  return !unknown && size >= kTableToReadAnew;
+}
+
+void require_same_count(const std::string& table, std::size_t at_first, std::size_t again) {
+  if (again == at_first) return;
+  fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: expected "
+                               "a file that stays as it is",
+                               at_first, again));
+}
+
 StoredReads store_reads(const std::string& table, const std::string& out, std::size_t part_reads,
                         const std::set<std::string>& everywhere, Diagnostics& diagnostics) {
   StoredReads reads;
@@ -85,11 +99,7 @@ StoredReads store_reads(const std::string& table, const std::string& out, std::s
         ++again;
       },
       [&](double share) { bars.show("sorting reads by tag", share); });
-  if (again != reads.overview.count) {
-    fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: expected "
-                                 "a file that stays as it is",
-                                 reads.overview.count, again));
-  }
+  require_same_count(table, reads.overview.count, again);
   warn_of_thinned_tags(reads, diagnostics);
   return reads;
 }

@@ -21,6 +21,8 @@ namespace tagfield {
 /// Tables from this size on are not held in memory [bytes]: about five million reads, which take
 /// 1.5 GB and more while they are localized.
 inline constexpr std::uintmax_t kLargeTable = 400'000'000;
+/// Reads of tables from this size on are not kept in memory beside what is made of them [bytes].
+inline constexpr std::uintmax_t kTableToReadAnew = 100'000'000;
 /// Reads of a part, and the most of one tag.
 inline constexpr std::size_t kReadsOfPart = 250'000;
 
@@ -31,6 +33,12 @@ void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads);
 /// `part_reads`: as on the command line; throws Error where it is told of a pipe.
 std::optional<std::size_t> part_of_table(const std::string& table,
                                          std::optional<std::size_t> part_reads);
+
+/// Whether a table is a file from kTableToReadAnew on.
+bool is_read_anew(const std::string& table);
+
+/// Throws Error where a table has other reads when it is read again.
+void require_same_count(const std::string& table, std::size_t at_first, std::size_t again);
 
 struct StoredReads {
   std::string table;  ///< File.

@@ -148,8 +148,13 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
 LocalizationResult locate_tags(const std::vector<TagRead>& reads,
                                const std::vector<AntennaPose>& poses,
                                const LocalizationOptions& options, Diagnostics& diagnostics) {
+  return locate_tags(each_of(reads), poses, options, diagnostics);
+}
+
+LocalizationResult locate_tags(const EachRead& each_read, const std::vector<AntennaPose>& poses,
+                               const LocalizationOptions& options, Diagnostics& diagnostics) {
   const Method method = configured(find_method(options.methods, options.method), options.settings);
-  LocalizationProblem problem = make_problem(reads, poses, options.known, diagnostics);
+  LocalizationProblem problem = make_problem(each_read, poses, options.known, diagnostics);
   problem.on_locating = options.on_locating;
   return locate_problem(method, problem, options.threads, diagnostics);
 }

@@ -43,5 +43,7 @@ LocalizationResult locate_problem(const Method& method, const LocalizationProble
 LocalizationResult locate_tags(const std::vector<TagRead>& reads,
                                const std::vector<AntennaPose>& poses,
                                const LocalizationOptions& options, Diagnostics& diagnostics);
+LocalizationResult locate_tags(const EachRead& each_read, const std::vector<AntennaPose>& poses,
+                               const LocalizationOptions& options, Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -47,11 +47,10 @@ std::size_t sort_and_drop_repeats(std::vector<const AntennaPose*>& poses) {
 
 using StampRanges = std::map<std::string, StampRange>;
 
+using StampsByAntenna = std::map<std::string, std::vector<Time>>;
+
 /// When each antenna had rows, but for those of a wrong clock.
-template <typename Row>
-StampRanges ranges_of(const std::vector<Row>& rows) {
-  std::map<std::string, std::vector<Time>> stamps;
-  for (const Row& row : rows) stamps[row.antenna].push_back(row.stamp);
+StampRanges ranges_of(StampsByAntenna stamps) {
   StampRanges ranges;
   for (auto& [antenna, of_antenna] : stamps) {
     ranges[antenna] = range_without_strays(std::move(of_antenna));
@@ -66,13 +65,8 @@ bool is_stray(const Row& row, const StampRanges& ranges) {
 }
 
 /// Warns of an antenna's rows that is_stray() finds. `what`: "reads" or "poses".
-template <typename Row>
-void warn_of_strays(const std::vector<Row>& rows, const StampRanges& ranges, const char* what,
+void warn_of_strays(const StampsByAntenna& strays, const StampRanges& ranges, const char* what,
                     Diagnostics& diagnostics) {
-  std::map<std::string, std::vector<Time>> strays;
-  for (const Row& row : rows) {
-    if (is_stray(row, ranges)) strays[row.antenna].push_back(row.stamp);
-  }
   for (const auto& [antenna, stamps] : strays) {
     const StampRange& range = ranges.at(antenna);
     diagnostics.warn(fmt::format(
@@ -162,22 +156,51 @@ std::size_t put_in_order(std::vector<PhaseSample>& samples) {
   return before - samples.size();
 }
 
+/// What a first look at reads tells.
+struct FirstLook {
+  StampRanges ranges;
+  std::map<std::string, std::map<std::string, std::size_t>> counts;  ///< By tag and antenna.
+  bool has_phases = true;
+};
+
+FirstLook first_look(const EachRead& each_read) {
+  constexpr std::size_t kEnough = 8;
+  FirstLook look;
+  StampsByAntenna stamps;
+  std::size_t count = 0;
+  double first_phase = 0.0;
+  bool differ = false;
+  each_read([&](const TagRead& read) {
+    stamps[read.antenna].push_back(read.stamp);
+    ++look.counts[read.tag][read.antenna];
+    if (count++ == 0) first_phase = read.phase_rad;
+    differ = differ || read.phase_rad != first_phase;
+  });
+  look.ranges = ranges_of(std::move(stamps));
+  look.has_phases = count < kEnough || differ;
+  return look;
+}
+
 }  // namespace
 
 std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
                                                Diagnostics& diagnostics) {
   std::map<std::string, std::vector<const AntennaPose*>> by_antenna;
   std::map<std::string, std::size_t> broken;
-  const StampRanges ranges = ranges_of(poses);
-  warn_of_strays(poses, ranges, "poses", diagnostics);
+  StampsByAntenna stamps;
+  for (const AntennaPose& pose : poses) stamps[pose.antenna].push_back(pose.stamp);
+  const StampRanges ranges = ranges_of(std::move(stamps));
+  StampsByAntenna strays;
   for (const AntennaPose& pose : poses) {
-    if (is_stray(pose, ranges)) continue;
-    if (is_finite(pose)) {
+    if (is_stray(pose, ranges)) {
+      strays[pose.antenna].push_back(pose.stamp);
+    } else if (is_finite(pose)) {
       by_antenna[pose.antenna].push_back(&pose);
     } else {
       ++broken[pose.antenna];
     }
   }
+  warn_of_strays(strays, ranges, "poses", diagnostics);
   for (const auto& [antenna, count] : broken) {
     diagnostics.warn(
         fmt::format("antenna '{}': {} poses are not finite and are left out", antenna, count));
@@ -194,32 +217,42 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
   return tracks;
 }
 
-bool has_phases(const std::vector<TagRead>& reads) {
-  constexpr std::size_t kEnough = 8;
-  if (reads.size() < kEnough) return true;
-  return std::any_of(reads.begin(), reads.end(), [&](const TagRead& read) {
-    return read.phase_rad != reads.front().phase_rad;
+EachRead each_of(const std::vector<TagRead>& reads) {
+  return EachRead([&reads](const EachRead::Take& take) {
+    for (const TagRead& read : reads) take(read);
   });
 }
+
+bool has_phases(const std::vector<TagRead>& reads) { return first_look(each_of(reads)).has_phases; }
 
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics) {
+  return join_reads_with_tracks(each_of(reads), tracks, max_pose_gap_s, diagnostics).samples;
+}
+
+JoinedReads join_reads_with_tracks(const EachRead& each_read,
+                                   const std::map<std::string, BelievedTrack>& tracks,
+                                   double max_pose_gap_s, Diagnostics& diagnostics) {
   const Duration max_gap = duration_from_seconds(max_pose_gap_s);
-  SamplesByTag joined;
+  const FirstLook look = first_look(each_read);
+  JoinedReads joined;
+  joined.has_phases = look.has_phases;
   std::map<std::string, ReadCount> counts;
-  const StampRanges ranges = ranges_of(reads);
-  warn_of_strays(reads, ranges, "reads", diagnostics);
-  for (const TagRead& read : reads) {
-    SamplesOfTag& of_tag = joined[read.tag];
+  StampsByAntenna strays;
+  each_read([&](const TagRead& read) {
+    SamplesOfTag& of_tag = joined.samples[read.tag];
     ReadCount& count = counts[read.antenna];
     ++count.all;
-    if (is_stray(read, ranges)) continue;
+    if (is_stray(read, look.ranges)) {
+      strays[read.antenna].push_back(read.stamp);
+      return;
+    }
     count.first = std::min(count.first, read.stamp);
     count.last = std::max(count.last, read.stamp);
     if (!is_usable(read)) {
       ++count.broken;
-      continue;
+      return;
     }
     const auto track = tracks.find(read.antenna);
     std::optional<RigidTransform> X_WA;
@@ -228,13 +261,16 @@ SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
     }
     if (!X_WA) {
       ++count.without_pose;
-      continue;
+      return;
     }
-    of_tag[read.antenna].push_back({read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz,
-                                    X_WA->translation,
-                                    std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
-  }
-  for (auto& [tag, of_tag] : joined) {
+    std::vector<PhaseSample>& samples = of_tag[read.antenna];
+    // No more than there are: of many tags, room for more would take as much as the reads.
+    if (samples.empty()) samples.reserve(look.counts.at(read.tag).at(read.antenna));
+    samples.push_back({read.stamp, wrap_to_two_pi(read.phase_rad), read.frequency_hz,
+                       X_WA->translation, std::isfinite(read.rssi_dbm) ? read.rssi_dbm : kNoRssi});
+  });
+  warn_of_strays(strays, look.ranges, "reads", diagnostics);
+  for (auto& [tag, of_tag] : joined.samples) {
     for (auto& [antenna, samples] : of_tag) counts[antenna].repeated += put_in_order(samples);
   }
   warn_of_reads_left_out(counts, tracks, max_pose_gap_s, diagnostics);

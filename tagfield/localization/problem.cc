@@ -147,13 +147,19 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,
                                  const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics) {
+  return make_problem(each_of(reads), poses, known, diagnostics);
+}
+
+LocalizationProblem make_problem(const EachRead& each_read, const std::vector<AntennaPose>& poses,
+                                 const KnownBeforehand& known, Diagnostics& diagnostics) {
   check(known);
   LocalizationProblem problem;
   problem.tracks = tracks_of(poses, diagnostics);
-  problem.samples =
-      join_reads_with_tracks(reads, problem.tracks, known.max_pose_gap_s, diagnostics);
+  JoinedReads joined =
+      join_reads_with_tracks(each_read, problem.tracks, known.max_pose_gap_s, diagnostics);
+  problem.samples = std::move(joined.samples);
   problem.offset_known = take_out_offsets(known.offsets, problem.samples);
-  problem.has_phases = has_phases(reads);
+  problem.has_phases = joined.has_phases;
   problem.half_turns =
       problem.has_phases && known.half_turns.value_or(has_half_turns(problem.samples));
   if (problem.half_turns) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tagfield/base/error.h"
@@ -80,6 +81,17 @@ struct BelievedTrack;
 std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& poses,
                                                Diagnostics& diagnostics);
 
+/// Calls what it is given for each read, every time in the same order: reads in memory, or of a
+/// table that is read anew each time.
+struct EachRead {
+  using Take = std::function<void(const TagRead&)>;
+  explicit EachRead(std::function<void(const Take&)> of_all) : call(std::move(of_all)) {}
+  void operator()(const Take& take) const { call(take); }
+  std::function<void(const Take&)> call;
+};
+/// Those in memory, which must outlive it.
+EachRead each_of(const std::vector<TagRead>& reads);
+
 /// Whether the reads have phases: false of eight or more whose phases are all one, as of readers
 /// and tables that have none and say 0.
 bool has_phases(const std::vector<TagRead>& reads);
@@ -93,6 +105,14 @@ bool has_phases(const std::vector<TagRead>& reads);
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,
                                     double max_pose_gap_s, Diagnostics& diagnostics);
+/// Samples, and has_phases() of the reads, which are gone through twice.
+struct JoinedReads {
+  SamplesByTag samples;
+  bool has_phases = true;
+};
+JoinedReads join_reads_with_tracks(const EachRead& each_read,
+                                   const std::map<std::string, BelievedTrack>& tracks,
+                                   double max_pose_gap_s, Diagnostics& diagnostics);
 
 /// On which side of the antennas' heights a tag of unknown height is: from a level path only its
 /// distance from that level can be told.
@@ -231,6 +251,8 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
 /// it is not finite or out of range.
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,
                                  const std::vector<AntennaPose>& poses,
+                                 const KnownBeforehand& known, Diagnostics& diagnostics);
+LocalizationProblem make_problem(const EachRead& each_read, const std::vector<AntennaPose>& poses,
                                  const KnownBeforehand& known, Diagnostics& diagnostics);
 
 /// Height of a tag's plane [m]: known, or else that of the antennas that moved while they read it,

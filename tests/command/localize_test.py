@@ -698,6 +698,24 @@ def reads_that_do_not_fit_in_memory(context):
 
 
 @case
+def reads_that_are_not_kept(context):
+    """Of a table of over 100 MB, which is read anew each time: the same results, and the table as it was."""
+    reads = read_rows(TAGS)
+    words = ("--method", "joint")
+    _, expected, _ = localize(context, reads, pose_rows(), *words)
+    zeros = "0" * (100_000_000 // len(reads))
+    rows = [row.split(",") for row in reads]
+    long = [",".join([*row[:5], (row[5] if "." in row[5] else row[5] + ".") + zeros, row[6]]) for row in rows]
+    result, estimates, summary = localize(context, long, pose_rows(), *words)
+    check_equal(estimates, expected, "estimates")
+    check_equal(summary["reads"], len(reads), "reads")
+    table = context.folder / "reads.csv"
+    check(table.stat().st_size > 100_000_000, "the table is too small for this test")
+    check_equal((context.folder / "out/reads.csv").stat().st_size, table.stat().st_size, "copy")
+    check((context.folder / "out/report.html").stat().st_size < 5_000_000, "the page holds all of the table")
+
+
+@case
 def a_known_world_and_how_well(context):
     """Of a run its world is known to the letter; of tables to a centimetre, or as the command line says."""
     scenario = context.shipped("warehouse_physics")

@@ -137,17 +137,15 @@ void add_mirrored_where_straight(JointState& state) {
 }  // namespace
 
 void find_alternatives(JointState& state, int threads) {
-  const std::vector<UnwrappedFit> fits = fit_all_corrected(state, threads);
-  for (std::size_t i = 0; i < fits.size(); ++i) {
+  for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
+    if (fit.fits.empty()) return;
     const JointTag& tag = state.system.tags[i];
-    if (tag.fixed || fits[i].fits.empty()) continue;
-    for (const Candidate& candidate :
-         make_candidates(fits[i].phases, fits[i].height, fits[i].fits)) {
+    for (const Candidate& candidate : make_candidates(fit.phases, fit.height, fit.fits)) {
       if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
         state.alternatives[i].push_back(candidate);
       }
     }
-  }
+  });
   add_mirrored(state, threads);
   add_mirrored_where_straight(state);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Learns how strong the pose error is, and how slow.
 #include <utility>
+#include <vector>
 
 #include "tagfield/localization/joint/internal/joint_state.h"
 
@@ -24,23 +25,44 @@ void rescale(JointSystem& system, const PoseKnots& knots) {
   system.knots = knots;
 }
 
+/// Where a system stands, without its reads.
+struct Standing {
+  PoseKnots knots;
+  Eigen::VectorXd u;
+  std::vector<TagFit> fits;
+};
+
+Standing standing_of(const JointSystem& system) {
+  Standing at{system.knots, system.u, {}};
+  at.fits.reserve(system.tags.size());
+  for (const JointTag& tag : system.tags) at.fits.push_back(tag.fit);
+  return at;
+}
+
+void put(const Standing& at, JointSystem& system) {
+  system.knots = at.knots;
+  system.u = at.u;
+  for (std::size_t i = 0; i < at.fits.size(); ++i) system.tags[i].fit = at.fits[i];
+}
+
 /// A model of the pose error under trial.
 struct Trial {
   double factor = 1.0;  ///< On the standard deviations.
   double time_constant_s = 5.0;
   double evidence = 0.0;
-  JointSystem system;
+  Standing at;
 };
 
-Trial tried(const JointSystem& from, const PoseKnots& knots, double factor, double time_constant_s,
-            int threads) {
-  Trial trial{factor, time_constant_s, 0.0, from};
+/// From where `from` is; the system is left where that leads.
+Trial tried(JointSystem& system, const Standing& from, const PoseKnots& knots, double factor,
+            double time_constant_s, int threads) {
+  put(from, system);
   PoseKnots changed = scaled(knots, factor);
   changed.time_constant_s = time_constant_s;
-  rescale(trial.system, changed);
-  const double cost = minimize(trial.system, 6, threads);
-  trial.evidence = evidence(trial.system, cost, log_determinant_of(trial.system, threads));
-  return trial;
+  rescale(system, changed);
+  const double cost = minimize(system, 6, threads);
+  const double value = evidence(system, cost, log_determinant_of(system, threads));
+  return {factor, time_constant_s, value, standing_of(system)};
 }
 
 }  // namespace
@@ -48,10 +70,10 @@ Trial tried(const JointSystem& from, const PoseKnots& knots, double factor, doub
 void learn_pose_error(JointState& state, int threads) {
   constexpr double kStep = 1.6;
   constexpr int kMostTrials = 24;
-  const JointSystem& start = state.system;
-  if (start.knots.count() == 0) return;
-  const PoseKnots knots = start.knots;
-  Trial best = tried(start, knots, 1.0, knots.time_constant_s, threads);
+  JointSystem& system = state.system;
+  if (system.knots.count() == 0) return;
+  const PoseKnots knots = system.knots;
+  Trial best = tried(system, standing_of(system), knots, 1.0, knots.time_constant_s, threads);
   int trials = 1;
   // Each of the two is made greater or smaller as long as that is more likely.
   for (bool any = true; any && trials < kMostTrials;) {
@@ -62,7 +84,7 @@ void learn_pose_error(JointState& state, int threads) {
         const double factor = of_time ? best.factor : best.factor * by;
         const double time_constant = of_time ? best.time_constant_s * by : best.time_constant_s;
         if (factor < 0.02 || factor > 20.0 || time_constant < 0.2 || time_constant > 200.0) break;
-        Trial next = tried(best.system, knots, factor, time_constant, threads);
+        Trial next = tried(system, best.at, knots, factor, time_constant, threads);
         ++trials;
         if (!(next.evidence < best.evidence)) break;
         best = std::move(next);
@@ -70,8 +92,8 @@ void learn_pose_error(JointState& state, int threads) {
       }
     }
   }
-  state.system = std::move(best.system);
-  minimize(state.system, kMostRoundsOfJointFit, threads);
+  put(best.at, system);
+  minimize(system, kMostRoundsOfJointFit, threads);
 }
 
 }  // namespace tagfield

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tagfield/base/median.h"
 #include "tagfield/base/parallel.h"
@@ -280,12 +281,11 @@ void fit_unwrapped_jointly(JointState& state, int threads) {
   minimize(system, kMostRoundsOfJointFit, threads);
 }
 
-std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads) {
-  std::vector<UnwrappedFit> fits(state.system.tags.size());
-  parallel_for(fits.size(), threads, [&](std::size_t i) {
-    if (!state.system.tags[i].fixed) fits[i] = fit_corrected(state, i);
+void for_each_corrected_fit(const JointState& state, int threads,
+                            const std::function<void(std::size_t, const UnwrappedFit&)>& use) {
+  parallel_for(state.system.tags.size(), threads, [&](std::size_t i) {
+    if (!state.system.tags[i].fixed) use(i, fit_corrected(state, i));
   });
-  return fits;
 }
 
 void find_better_places(JointState& state, int threads) {
@@ -293,16 +293,18 @@ void find_better_places(JointState& state, int threads) {
   constexpr double kMoved = 0.03;   // [m]
   constexpr double kBetter = 0.85;  // Of the cost.
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<UnwrappedFit> fits = fit_all_corrected(state, threads);
+    std::vector<std::optional<TagFit>> best(state.system.tags.size());
+    for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
+      if (!fit.fits.empty()) best[i] = fit.fits.front();
+    });
     bool any = false;
-    for (std::size_t i = 0; i < fits.size(); ++i) {
+    for (std::size_t i = 0; i < best.size(); ++i) {
       JointTag& tag = state.system.tags[i];
-      if (tag.fixed || fits[i].fits.empty()) continue;
-      const TagFit& best = fits[i].fits.front();
-      const bool elsewhere = (best.unknowns - tag.fit.unknowns).head<2>().norm() > kMoved;
-      if (!elsewhere || best.cost > kBetter * tag.fit.cost) continue;
-      tag.fit.unknowns = best.unknowns;
-      tag.fit.offsets = offsets_at(tag.phases, tag.height, best.unknowns);
+      if (!best[i]) continue;
+      const bool elsewhere = (best[i]->unknowns - tag.fit.unknowns).head<2>().norm() > kMoved;
+      if (!elsewhere || best[i]->cost > kBetter * tag.fit.cost) continue;
+      tag.fit.unknowns = best[i]->unknowns;
+      tag.fit.offsets = offsets_at(tag.phases, tag.height, best[i]->unknowns);
       any = true;
     }
     if (!any) return;

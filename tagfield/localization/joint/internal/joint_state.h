@@ -3,6 +3,7 @@
 /// The steps of the joint estimate.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -51,9 +52,11 @@ void fit_unwrapped_jointly(JointState& state, int threads);
 /// Strength and time constant of the pose error by which the reads are most likely.
 void learn_pose_error(JointState& state, int threads);
 
-/// Each tag by itself on its unwrapped phase, as if the corrected poses were the believed ones; of
-/// reference tags nothing.
-std::vector<UnwrappedFit> fit_all_corrected(const JointState& state, int threads);
+/// Calls `use(index, fit)` for each tag but reference tags, by several threads: the tag by itself
+/// on its unwrapped phase, as if the corrected poses were the believed ones. No fit is kept, as
+/// those of all tags take as much memory as their reads.
+void for_each_corrected_fit(const JointState& state, int threads,
+                            const std::function<void(std::size_t, const UnwrappedFit&)>& use);
 
 /// Looks for each tag's place anew from the corrected poses, and goes on from better ones.
 void find_better_places(JointState& state, int threads);
