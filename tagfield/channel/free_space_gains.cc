@@ -428,10 +428,9 @@ void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
     return any;
   };
   const auto coupled = [&](const auto& from, const auto& to) {
-    const auto a = from;
-    const auto t = to;
-    return add(
-        [&, a, t](std::size_t i) { return taken(a.field(work.way, i), t.field(work.way, i)); });
+    return add([&, from, to](std::size_t i) {
+      return taken(from.field(work.way, i), to.field(work.way, i));
+    });
   };
   const auto with_tag = [&](const auto& from) {
     const Vectors& own = work.tag.way_own;

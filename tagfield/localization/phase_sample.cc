@@ -50,7 +50,7 @@ using StampRanges = std::map<std::string, StampRange>;
 using StampsByAntenna = std::map<std::string, std::vector<Time>>;
 
 /// When each antenna had rows, but for those of a wrong clock.
-StampRanges ranges_of(StampsByAntenna stamps) {
+StampRanges ranges_of(StampsByAntenna&& stamps) {
   StampRanges ranges;
   for (auto& [antenna, of_antenna] : stamps) {
     ranges[antenna] = range_without_strays(std::move(of_antenna));
