@@ -403,6 +403,63 @@ void set_alone(const RadioEnd& antenna, const RadioEnd& tag, const Carrier& carr
   links.slope_W.z[i] = slope.z();
 }
 
+using Unsure = std::array<std::uint64_t, kStraightLinks>;
+
+/// Links of one antenna with tags of one pattern.
+struct Batch {
+  const AntennaPattern& antenna;
+  const AntennaPattern& tag;
+  const Carrier& carrier;
+  InstructionSet set;
+  std::size_t count;
+};
+
+template <class TakenAt>
+bool add_in_lanes(const Batch& batch, const TakenAt& taken_at, const Work& work,
+                  StraightLinks& links, Unsure& unsure) {
+  bool any = false;
+  in_lanes(batch.set,
+           [&] { any = add_links(batch.carrier, taken_at, batch.count, work, links, unsure); });
+  return any;
+}
+
+/// `from`: the antenna, as WireEnd or CircularEnd.
+template <class From>
+bool add_from(const Batch& batch, From from, const Work& work, StraightLinks& links,
+              Unsure& unsure) {
+  const Vectors& way = work.way;
+  const TagFrames& frames = work.frames;
+  if (has_wire(batch.tag)) {
+    const WireEnd<const Vectors&> to{frames.wire, -1.0, work.tag.along_wire};
+    const auto at = [&, to, from](std::size_t i) {
+      return taken(from.field(way, i), to.field(way, i));
+    };
+    return add_in_lanes(batch, at, work, links, unsure);
+  }
+  const CircularEnd<const Vectors&> to{frames.left,        frames.up,          -1.0,
+                                       hand_of(batch.tag), work.tag.way_own.y, work.tag.way_own.z};
+  const auto at = [&, to, from](std::size_t i) {
+    return taken(from.field(way, i), to.field(way, i));
+  };
+  return add_in_lanes(batch, at, work, links, unsure);
+}
+
+/// `wire`: the antenna's in W, if it has one.
+bool add_all_links(const Batch& batch, const AntennaFrame& frame, const Vector3d& wire,
+                   bool polarization, const Work& work, StraightLinks& links, Unsure& unsure) {
+  if (!polarization) {
+    const auto all = [](std::size_t /*i*/) { return Taken{1.0, 0.0, 1.0, 1.0}; };
+    return add_in_lanes(batch, all, work, links, unsure);
+  }
+  if (has_wire(batch.antenna)) {
+    return add_from(batch, WireEnd<Vector3d>{wire, 1.0, work.antenna.along_wire}, work, links,
+                    unsure);
+  }
+  const Vectors& own = work.antenna.way_own;
+  const CircularEnd<Vector3d> from{frame.left, frame.up, 1.0, hand_of(batch.antenna), own.y, own.z};
+  return add_from(batch, from, work, links, unsure);
+}
+
 }  // namespace
 
 void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
@@ -410,7 +467,6 @@ void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
                       const ChannelEffects& effects, StraightLinks& links, InstructionSet set) {
   const std::size_t count = tags.size();
   Work work;
-  std::array<std::uint64_t, kStraightLinks> unsure;
   const AntennaFrame frame = frame_of(antenna.X_WA.rotation);
   const Wire in_frame = wire_of(antenna.pattern);
   const Vector3d wire = in_frame.of_left * frame.left + in_frame.of_up * frame.up;
@@ -422,36 +478,10 @@ void free_space_gains(const RadioEnd& antenna, const AntennaPattern& tag,
   });
   add_gains(antenna.pattern, effects, set, count, work.antenna);
   add_gains(tag, effects, set, count, work.tag);
-  const auto add = [&](const auto& taken_at) {
-    bool any = false;
-    in_lanes(set, [&] { any = add_links(carrier, taken_at, count, work, links, unsure); });
-    return any;
-  };
-  const auto coupled = [&](const auto& from, const auto& to) {
-    return add([&, from, to](std::size_t i) {
-      return taken(from.field(work.way, i), to.field(work.way, i));
-    });
-  };
-  const auto with_tag = [&](const auto& from) {
-    const Vectors& own = work.tag.way_own;
-    const TagFrames& frames = work.frames;
-    if (has_wire(tag)) {
-      return coupled(from, WireEnd<const Vectors&>{frames.wire, -1.0, work.tag.along_wire});
-    }
-    return coupled(from, CircularEnd<const Vectors&>{frames.left, frames.up, -1.0, hand_of(tag),
-                                                     own.y, own.z});
-  };
-  bool any_unsure = false;
-  if (!effects.polarization) {
-    any_unsure = add([](std::size_t /*i*/) { return Taken{1.0, 0.0, 1.0, 1.0}; });
-  } else if (has_wire(antenna.pattern)) {
-    any_unsure = with_tag(WireEnd<Vector3d>{wire, 1.0, work.antenna.along_wire});
-  } else {
-    const Vectors& own = work.antenna.way_own;
-    any_unsure = with_tag(
-        CircularEnd<Vector3d>{frame.left, frame.up, 1.0, hand_of(antenna.pattern), own.y, own.z});
-  }
-  for (std::size_t i = 0; any_unsure && i < count; ++i) {
+  Unsure unsure;
+  const Batch batch{antenna.pattern, tag, carrier, set, count};
+  if (!add_all_links(batch, frame, wire, effects.polarization, work, links, unsure)) return;
+  for (std::size_t i = 0; i < count; ++i) {
     if (unsure[i] == 0) continue;
     const RigidTransform X_WT{*tags[i].R_WT, *tags[i].p_WT};
     set_alone(antenna, {tag, X_WT}, carrier, effects, i, links);
