@@ -156,6 +156,23 @@ std::size_t put_in_order(std::vector<PhaseSample>& samples) {
   return before - samples.size();
 }
 
+/// Whether phases are all one.
+class PhasesSeen {
+ public:
+  void add(double phase_rad) {
+    if (count_++ == 0) first_ = phase_rad;
+    differ_ = differ_ || phase_rad != first_;
+  }
+  /// See has_phases().
+  [[nodiscard]] bool any() const { return count_ < kEnough || differ_; }
+
+ private:
+  static constexpr std::size_t kEnough = 8;
+  std::size_t count_ = 0;
+  double first_ = 0.0;
+  bool differ_ = false;
+};
+
 /// What a first look at reads tells.
 struct FirstLook {
   StampRanges ranges;
@@ -164,20 +181,16 @@ struct FirstLook {
 };
 
 FirstLook first_look(const EachRead& each_read) {
-  constexpr std::size_t kEnough = 8;
   FirstLook look;
   StampsByAntenna stamps;
-  std::size_t count = 0;
-  double first_phase = 0.0;
-  bool differ = false;
+  PhasesSeen phases;
   each_read([&](const TagRead& read) {
     stamps[read.antenna].push_back(read.stamp);
     ++look.counts[read.tag][read.antenna];
-    if (count++ == 0) first_phase = read.phase_rad;
-    differ = differ || read.phase_rad != first_phase;
+    phases.add(read.phase_rad);
   });
   look.ranges = ranges_of(std::move(stamps));
-  look.has_phases = count < kEnough || differ;
+  look.has_phases = phases.any();
   return look;
 }
 
@@ -223,7 +236,11 @@ EachRead each_of(const std::vector<TagRead>& reads) {
   });
 }
 
-bool has_phases(const std::vector<TagRead>& reads) { return first_look(each_of(reads)).has_phases; }
+bool has_phases(const std::vector<TagRead>& reads) {
+  PhasesSeen phases;
+  for (const TagRead& read : reads) phases.add(read.phase_rad);
+  return phases.any();
+}
 
 SamplesByTag join_reads_with_tracks(const std::vector<TagRead>& reads,
                                     const std::map<std::string, BelievedTrack>& tracks,

@@ -7,6 +7,7 @@ The reads are made here, by eq. 3 of the paper along an S, so that the places ar
 """
 
 import cmath
+import filecmp
 import math
 import os
 import random
@@ -711,7 +712,7 @@ def reads_that_are_not_kept(context):
     check_equal(summary["reads"], len(reads), "reads")
     table = context.folder / "reads.csv"
     check(table.stat().st_size > 100_000_000, "the table is too small for this test")
-    check_equal((context.folder / "out/reads.csv").stat().st_size, table.stat().st_size, "copy")
+    check(filecmp.cmp(context.folder / "out/reads.csv", table, shallow=False), "the copy differs from the table")
     check((context.folder / "out/report.html").stat().st_size < 5_000_000, "the page holds all of the table")
 
 

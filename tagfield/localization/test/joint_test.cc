@@ -140,8 +140,7 @@ TEST(Joint, HasHonestCovariancesWithPausesInWhichThePoseErrorIsForgotten) {
     made::pause(hall, 36.0, 86400.0);
     add(hall, run(joint_method(), hall.problem), errors);
   }
-  // Of 96; another mathematical library's last digits may make one ambiguous.
-  EXPECT_LE(errors.not_located, 1U);
+  EXPECT_EQ(errors.not_located, 0U);
   // Expected 2; errors of a run are correlated, so that the mean of 12 runs strays by a fifth.
   const double nees = errors.nees / static_cast<double>(errors.all.size());
   EXPECT_GT(nees, 1.2);
