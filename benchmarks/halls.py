@@ -3,14 +3,15 @@
 """Localization amid reflections, in halls that nothing was tuned to.
 
     benchmarks/halls.py [--tagfield build/release/bin/tagfield] [--halls 8] [--first 1] [--seeds 2]
-                        [--methods auto,sar,ml] [--pose true|noisy] [--order 2] [--out DIR] [--threads 2]
+                        [--methods auto,sar,ml] [--pose true|noisy] [--world known|unknown] [--order 2]
+                        [--out DIR] [--threads 2]
 
 Halls are drawn at random, from their number alone: size, materials, rows of racks with goods on their shelves,
 pillars, cabinets. A robot with an antenna to each side drives round all rows, past tags on the racks' faces;
 the reader hops between channels, and phases have the π ambiguity. The real command simulates and locates
 (`tagfield bench`). For each method: tags that are located, those of them that are off by over 0.3 m, the
 median and 95 % of errors, the rms of error over expected error, and the mean NEES a degree of freedom.
-auto takes multipath, as a simulated hall is known; --methods robust shows what is told without that.
+auto takes multipath, as a simulated hall is known; --world unknown shows what it tells without that.
 """
 
 import argparse
@@ -178,10 +179,15 @@ world:
 
 def write_suite(name, scenarios, options, folder):
     """Of scenarios by the names of their conditions."""
-    pose = "" if options.pose == "true" else (
-        "\n    set: {pose.source: noisy, pose.sigma_m: 0.01, pose.yaw_sigma_deg: 0.5, "
-        "pose.time_constant_s: 5}\n    believed: unknown")
-    conditions = [f"  - name: {condition}\n    scenario: {scenario}{pose}" for condition, scenario in scenarios.items()]
+    changes = []
+    if options.pose == "noisy":
+        changes += ["pose.source: noisy", "pose.sigma_m: 0.01", "pose.yaw_sigma_deg: 0.5", "pose.time_constant_s: 5"]
+    if options.world == "unknown":
+        changes += ["localization.known_world: false"]
+    under = f"\n    set: {{{', '.join(changes)}}}" if changes else ""
+    if options.pose == "noisy":
+        under += "\n    believed: unknown"
+    conditions = [f"  - name: {condition}\n    scenario: {scenario}{under}" for condition, scenario in scenarios.items()]
     suite = folder / f"{name}.yaml"
     suite.write_text(f"name: {name}\nseeds: {options.seeds}\nmethods: [{options.methods}]\n"
                      "conditions:\n" + "\n".join(conditions) + "\n")
@@ -230,6 +236,7 @@ def main():
     parser.add_argument("--order", type=int, default=2)
     parser.add_argument("--methods", default="auto,sar,ml")
     parser.add_argument("--pose", choices=("true", "noisy"), default="true")
+    parser.add_argument("--world", choices=("known", "unknown"), default="known", help="what auto may make use of")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--out", type=pathlib.Path, help="keep the halls and the bench there")
     options = parser.parse_args()

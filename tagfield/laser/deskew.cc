@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -34,10 +35,10 @@ MovedBeam moved_beam(const LaserScan& scan, std::size_t i, const RigidTransform&
   if (beam.kind == Beam::kInvalid) return beam;
   beam.measured_m = std::min(static_cast<double>(scan.ranges_m[i]), scan.most_range_m);
   const double angle = beam_angle(scan, i);
-  const Eigen::Vector3d p_E = X_EL * Eigen::Vector3d(beam.measured_m * std::cos(angle),
-                                                     beam.measured_m * std::sin(angle), 0.0);
+  const Eigen::Vector3d p_E =
+      X_EL * Eigen::Vector3d(beam.measured_m * cosine(angle), beam.measured_m * sine(angle), 0.0);
   beam.end = p_E.head<2>();
-  const double turned = wrap_to_pi(std::atan2(beam.end.y(), beam.end.x()) - angle);
+  const double turned = wrap_to_pi(arc_tangent(beam.end.y(), beam.end.x()) - angle);
   beam.place = static_cast<double>(i) + turned / scan.angle_step_rad;
   if (!beam.end.allFinite() || !std::isfinite(beam.place)) beam.kind = Beam::kInvalid;
   return beam;
@@ -84,7 +85,7 @@ class Resampling {
     const Eigen::Vector2d along = b.end - a.end;
     each_between(a, b, [&](std::size_t k) {
       const double angle = beam_angle(scan_, k);
-      const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d direction(cosine(angle), sine(angle));
       const double range = cross(a.end, along) / cross(direction, along);
       if (range > 0.0) returns_[k] = std::min(returns_[k], range);
     });

@@ -11,6 +11,7 @@
 
 #include "tagfield/base/random.h"
 #include "tagfield/base/range_check.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -57,8 +58,7 @@ struct Slabs {
 };
 
 Slabs slabs_of(const Rectangle& rectangle) {
-  const double c = std::cos(rectangle.yaw);
-  const double s = std::sin(rectangle.yaw);
+  const auto [s, c] = sine_cosine(rectangle.yaw);
   Eigen::Matrix2d axes;
   axes << c, s, -s, c;
   return {rectangle.centre, axes, 0.5 * rectangle.size};
@@ -150,7 +150,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
   // A little beyond, so that a wall just there is met.
   const float most_m = nothing_range(laser.most_range_m);
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
-  Eigen::Vector2d direction_L(std::cos(scan.first_angle_rad), std::sin(scan.first_angle_rad));
+  Eigen::Vector2d direction_L(cosine(scan.first_angle_rad), sine(scan.first_angle_rad));
   Beams beams;
   beams.rays.reserve(scan.ranges_m.size());
   beams.to_obstacles.reserve(scan.ranges_m.size());

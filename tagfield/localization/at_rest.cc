@@ -225,11 +225,13 @@ enum class Moved { kNo, kPerhaps, kSurely };
 
 /// Poses that are off for a while, each by `pose_error_m`, look like a motion too. But they are not
 /// six times that off at either end, and with one velocity they seldom leave nothing: a random walk
-/// leaves under 0.02 of its variance in one case of 10⁴.
+/// leaves under 0.02 of its variance in one case of 10⁴. A tag that went half a metre has no place,
+/// however little is claimed of it.
 Moved has_moved(const DepartureFit& fit, const Candidate& claim, double pose_error_m) {
   constexpr double kNothing = 0.02;
+  constexpr double kFar = 0.5;  // [m]
   const double moved_m = fit.departure.norm() * fit.duration_s;
-  if (moved_m <= kElsewhere * claim.expected_error_m ||
+  if (moved_m <= std::min(kFar, kElsewhere * claim.expected_error_m) ||
       distance_of(fit.departure, fit.covariance.bottomRightCorner<2, 2>()) <= kCertainOfTwo) {
     return Moved::kNo;
   }
@@ -348,10 +350,19 @@ Objection of_motion(const DepartureFit& fit, Moved moved) {
           std::nullopt, moved};
 }
 
+/// Whether what phases leave at the place itself tells of it: not where it is known to no better
+/// than λ/8, as by strengths.
+bool is_sharp(const Candidate& claim, const SamplesOfTag& samples) {
+  const double frequency_hz = samples.begin()->second.front().frequency_hz;
+  return claim.expected_error_m < wavelength(frequency_hz) / 8.0;
+}
+
 Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& samples,
                        const TagEstimate& estimate) {
   const Candidate& claim = estimate.candidates.front();
-  if (!leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) return {};
+  if (is_sharp(claim, samples) && !leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) {
+    return {};
+  }
   const auto motion = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kMotion);
   const auto late = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kLateness);
   const double of_late = late && is_elsewhere(*late, claim) ? gain_of(*late) : -kCertainGain;

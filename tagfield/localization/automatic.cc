@@ -134,9 +134,9 @@ void look_at_all(const LocalizationProblem& problem, DataTraits& traits) {
   traits.channels = carriers.size();
 }
 
-/// Misfit of the tags that were located, or nearly, over the noise.
+/// Misfit of the tags that were located, or nearly, or refused together, over the noise.
 double misfit_left(const LocalizationResult& result, double noise_m) {
-  std::vector<double> misfits;
+  std::vector<double> misfits = result.misfits_m;
   for (const TagEstimate& estimate : result.estimates) {
     if (!estimate.candidates.empty()) misfits.push_back(estimate.candidates.front().rms_m);
   }
@@ -186,6 +186,17 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
   choice = {"joint", fmt::format("the pose is not exact, and with its error estimated the phases "
                                  "can be followed, over {:.0f} reads in the mean",
                                  traits.reads_a_stretch)};
+}
+
+/// With all reads as they were given: phases that fade where waves cancel are no outliers.
+LocalizationResult locate_robustly(const std::vector<Method>& methods,
+                                   const LocalizationProblem& given, double misfit, int threads,
+                                   Diagnostics& diagnostics, Choice& choice) {
+  choice = {"robust",
+            fmt::format("even with the pose error estimated the misfit is {:.1f} times the noise, "
+                        "as reflections make it",
+                        misfit)};
+  return find_method(methods, choice.method).locate(given, threads, diagnostics);
 }
 
 /// Tags that are located through a known world unasked: each takes seconds.
@@ -242,16 +253,15 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
         }
         const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
         Choice choice = choose_method(traits, problem.reference_tags.size());
+        Diagnostics of_choice;
         LocalizationResult result =
-            find_method(methods, choice.method).locate(problem, threads, diagnostics);
+            find_method(methods, choice.method).locate(problem, threads, of_choice);
         const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;
         if (misfit > kLeftOver) {
-          choice = {"robust",
-                    fmt::format("even with the pose error estimated the misfit is {:.1f} times "
-                                "the noise, as reflections make it",
-                                misfit)};
-          result = find_method(methods, choice.method).locate(problem, threads, diagnostics);
+          of_choice = {};
+          result = locate_robustly(methods, given, misfit, threads, of_choice, choice);
         }
+        for (const std::string& warning : of_choice.warnings()) diagnostics.warn(warning);
         const bool is_by_waves = choice.method == "sar" || choice.method == "robust";
         if (is_by_waves && misfit == 0.0 && !traits.pose_is_exact) {
           try_jointly(methods, problem, traits, threads, diagnostics, choice, result);

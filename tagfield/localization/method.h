@@ -28,6 +28,9 @@ struct LocalizationResult {
   /// Of tags whose phases a method's model explains beyond the distance, as by the paths of a known
   /// world: their samples without that. Places are held against these.
   SamplesByTag explained{};
+  /// Where all tags were refused for what they have in common: the rms that each one's best place
+  /// left of its phases [m].
+  std::vector<double> misfits_m{};
 };
 
 /// `threads`: on how many a method may work; its result must not depend on it.

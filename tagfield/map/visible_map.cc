@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -67,7 +68,7 @@ std::vector<Eigen::Vector2d> directions() {
   std::vector<Eigen::Vector2d> all;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = i * kTwoPi / kDirections;
-    all.emplace_back(std::cos(angle), std::sin(angle));
+    all.emplace_back(cosine(angle), sine(angle));
   }
   return all;
 }

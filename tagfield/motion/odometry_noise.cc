@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/range_check.h"
+#include "tagfield/base/trigonometry.h"
 
 namespace tagfield {
 namespace {
@@ -25,7 +26,7 @@ Variances variances_of(const PlanarPose& increment, const OdometryNoise& noise) 
 /// The chord of an arc has the arc's middle heading. Not taken from x and y, which have no
 /// direction where a robot turns on the spot.
 Eigen::Vector2d middle_heading(const PlanarPose& increment) {
-  return {std::cos(0.5 * increment.yaw), std::sin(0.5 * increment.yaw)};
+  return {cosine(0.5 * increment.yaw), sine(0.5 * increment.yaw)};
 }
 
 }  // namespace
@@ -65,8 +66,7 @@ Eigen::Matrix3d increment_covariance(const PlanarPose& increment, const Odometry
 
 Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance, const PlanarPose& q_OB,
                                    const PlanarPose& increment, const OdometryNoise& noise) {
-  const double c = std::cos(q_OB.yaw);
-  const double s = std::sin(q_OB.yaw);
+  const auto [s, c] = sine_cosine(q_OB.yaw);
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Identity();
   by_pose(0, 2) = -s * increment.x - c * increment.y;
   by_pose(1, 2) = c * increment.x - s * increment.y;

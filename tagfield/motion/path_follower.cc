@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -73,7 +74,7 @@ BodyVelocity PathFollower::next(const PlanarPose& pose, double seconds) {
   }
   const Eigen::Vector2d target = point_at(progress_ + style_.look_ahead_m);
   const Eigen::Vector2d to_target = target - position;
-  const double bearing = wrap_to_pi(std::atan2(to_target.y(), to_target.x()) - pose.yaw);
+  const double bearing = wrap_to_pi(arc_tangent(to_target.y(), to_target.x()) - pose.yaw);
   const double most_turn = style_.most_turn_rad_s;
   if (std::abs(bearing) > kBeginTurnInPlace) turning_in_place_ = true;
   if (turning_in_place_ && std::abs(bearing) < kEndTurnInPlace) turning_in_place_ = false;
@@ -81,7 +82,7 @@ BodyVelocity PathFollower::next(const PlanarPose& pose, double seconds) {
     return {0.0, std::clamp(bearing / seconds, -most_turn, most_turn)};
   }
   // The arc through the target that starts along the heading has curvature 2 sin(bearing)/distance.
-  const double curvature = 2.0 * std::sin(bearing) / std::max(to_target.norm(), 1e-9);
+  const double curvature = 2.0 * sine(bearing) / std::max(to_target.norm(), 1e-9);
   const double forward =
       std::min(style_.speed_m_s, most_turn / std::max(std::abs(curvature), 1e-9));
   return {forward, forward * curvature};

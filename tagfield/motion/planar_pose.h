@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/unicycle.h"
 #include "tagfield/poses/rigid_transform.h"
@@ -14,15 +15,13 @@ namespace tagfield {
 
 /// q_AC of q_AB and q_BC.
 inline PlanarPose compose(const PlanarPose& q_AB, const PlanarPose& q_BC) {
-  const double c = std::cos(q_AB.yaw);
-  const double s = std::sin(q_AB.yaw);
+  const auto [s, c] = sine_cosine(q_AB.yaw);
   return {q_AB.x + c * q_BC.x - s * q_BC.y, q_AB.y + s * q_BC.x + c * q_BC.y, q_AB.yaw + q_BC.yaw};
 }
 
 /// q_BC of q_AB and q_AC: what leads from B to C. Its yaw is in [-π, π).
 inline PlanarPose between(const PlanarPose& q_AB, const PlanarPose& q_AC) {
-  const double c = std::cos(q_AB.yaw);
-  const double s = std::sin(q_AB.yaw);
+  const auto [s, c] = sine_cosine(q_AB.yaw);
   const double dx = q_AC.x - q_AB.x;
   const double dy = q_AC.y - q_AB.y;
   return {c * dx + s * dy, -s * dx + c * dy, wrap_to_pi(q_AC.yaw - q_AB.yaw)};
@@ -30,8 +29,7 @@ inline PlanarPose between(const PlanarPose& q_AB, const PlanarPose& q_AC) {
 
 /// p_A of p_B.
 inline Eigen::Vector2d transformed(const PlanarPose& q_AB, const Eigen::Vector2d& p_B) {
-  const double c = std::cos(q_AB.yaw);
-  const double s = std::sin(q_AB.yaw);
+  const auto [s, c] = sine_cosine(q_AB.yaw);
   return {q_AB.x + c * p_B.x() - s * p_B.y(), q_AB.y + s * p_B.x() + c * p_B.y()};
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
+
 namespace tagfield {
 
 BodyVelocity body_velocity(const DriveGeometry& drive, const WheelSpeeds& wheels) {
@@ -20,9 +22,9 @@ PlanarPose advance(const PlanarPose& pose, const BodyVelocity& velocity, double 
   const double turned = velocity.turn * seconds;
   // Chord of the arc: length v·t·sin(θ/2)/(θ/2), along the mean heading.
   const double half = turned / 2.0;
-  const double shortening = std::abs(half) < 1e-6 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  const double shortening = std::abs(half) < 1e-6 ? 1.0 - half * half / 6.0 : sine(half) / half;
   const double chord = velocity.forward * seconds * shortening;
-  return {pose.x + chord * std::cos(pose.yaw + half), pose.y + chord * std::sin(pose.yaw + half),
+  return {pose.x + chord * cosine(pose.yaw + half), pose.y + chord * sine(pose.yaw + half),
           pose.yaw + turned};
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
+
 namespace tagfield {
 
 WheelAngles WheelOdometry::encoded(const WheelAngles& angles) const {
@@ -28,8 +30,7 @@ void WheelOdometry::update(const WheelAngles& angles) {
 /// First order in the step: P' = F P Fᵀ + G Q Gᵀ, Q the variances of the two sides' travel.
 void WheelOdometry::grow_covariance(const BodyVelocity& moved, const WheelSpeeds& turned) {
   const double heading = pose_.yaw + moved.turn / 2.0;
-  const double c = std::cos(heading);
-  const double s = std::sin(heading);
+  const auto [s, c] = sine_cosine(heading);
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(0, 2) = -moved.forward * s;
   F(1, 2) = moved.forward * c;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/floor_room.h"
@@ -117,7 +118,7 @@ void for_all_that_see(const OccupancyGrid& grid, const Eigen::Vector2i& unknown,
   for (int i = 0; i < rays; ++i) {
     const double angle = i * kTwoPi / rays;
     bool is_out = false;  // Of the unknown.
-    along_line(grid, from, from + sight_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)),
+    along_line(grid, from, from + sight_m * Eigen::Vector2d(cosine(angle), sine(angle)),
                [&](int x, int y, double) {
                  if (!grid.contains(x, y)) return false;
                  const std::int8_t cell = grid.at(x, y);
@@ -219,7 +220,7 @@ std::optional<Viewpoint> new_look(const Reach& reach, const Eigen::Vector2i& tar
   const std::optional<Eigen::Vector2i> place = standing_place(reach, target);
   if (!place) return std::nullopt;
   const Eigen::Vector2d from = grid.centre_of(place->x(), place->y());
-  const Viewpoint look{{from.x(), from.y(), std::atan2(at.y() - from.y(), at.x() - from.x())}, at};
+  const Viewpoint look{{from.x(), from.y(), arc_tangent(at.y() - from.y(), at.x() - from.x())}, at};
   const auto is_known = [&](const Viewpoint& other) { return is_same(look, other); };
   if (std::any_of(looks.begin(), looks.end(), is_known)) return std::nullopt;
   return look;

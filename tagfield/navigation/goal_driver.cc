@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/drive_route.h"
 #include "tagfield/navigation/drive_senses.h"
@@ -117,7 +118,7 @@ bool GoalDriver::Impl::has_arrived(const PlanarPose& pose_M) const {
   const Eigen::Vector2d to_goal = position_of(goal_M) - position_of(pose_M);
   const double distance = to_goal.norm();
   if (distance < kAim * settings.goal_tolerance_m) return true;
-  const Eigen::Vector2d heading(std::cos(pose_M.yaw), std::sin(pose_M.yaw));
+  const Eigen::Vector2d heading(cosine(pose_M.yaw), sine(pose_M.yaw));
   const bool is_past = to_goal.dot(heading) <= 0.0;
   const bool is_held = last && last->hindrance != Hindrance::kNone;
   return distance < kNearlyThere * settings.goal_tolerance_m && (is_past || is_held);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/lane_math.h"
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/random.h"
 #include "tagfield/motion/planar_pose.h"
@@ -120,7 +121,7 @@ void GridMapper::advance(Particle& particle, std::size_t index, const PlanarPose
     particle.pose_M = drawn_near(match, stream);
     // Laplace's approximation of ∫ p(scan | x, map) p(x | odometry) dx, less what all share.
     const double evidence =
-        -match.cost + 0.5 * std::log(prior.determinant() / match.information.determinant());
+        -match.cost + 0.5 * lane_log(prior.determinant() / match.information.determinant());
     particle.log_weight += evidence;
     particle.score += evidence;
   }
@@ -161,14 +162,14 @@ void GridMapper::normalize_weights() {
   double most = particles_.front().log_weight;
   for (const Particle& particle : particles_) most = std::max(most, particle.log_weight);
   double sum = 0.0;
-  for (const Particle& particle : particles_) sum += std::exp(particle.log_weight - most);
-  const double norm = most + std::log(sum);
+  for (const Particle& particle : particles_) sum += lane_exp(particle.log_weight - most);
+  const double norm = most + lane_log(sum);
   for (Particle& particle : particles_) particle.log_weight -= norm;
 }
 
 double GridMapper::effective_particles() const {
   double squares = 0.0;
-  for (const Particle& particle : particles_) squares += std::exp(2.0 * particle.log_weight);
+  for (const Particle& particle : particles_) squares += lane_exp(2.0 * particle.log_weight);
   return 1.0 / squares;
 }
 

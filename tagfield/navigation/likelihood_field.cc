@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/lane_math.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
@@ -46,8 +48,9 @@ LikelihoodField::LikelihoodField(const OccupancyGrid& map, double sigma_m)
   logs_.reserve(map.cells.size());
   for (const long square : squared_distances(map, kReach * sigma_m)) {
     const auto square_m2 = static_cast<float>(static_cast<double>(square) * cell_m * cell_m);
-    const float likelihood = kNotOnMap + kHit * std::exp(falloff * square_m2);
-    logs_.push_back(std::log(static_cast<double>(likelihood)));
+    const float likelihood =
+        kNotOnMap + kHit * static_cast<float>(lane_exp(static_cast<double>(falloff * square_m2)));
+    logs_.push_back(lane_log(static_cast<double>(likelihood)));
   }
   const auto reach = static_cast<float>(kReach * sigma_m);
   off_map_ = std::log(kNotOnMap + kHit * std::exp(static_cast<double>(falloff) * (reach * reach)));
@@ -67,8 +70,7 @@ double LikelihoodField::log_at(double x, double y) const {
 
 double LikelihoodField::log_likelihood(const PlanarPose& pose_M,
                                        const std::vector<Eigen::Vector2f>& ends_R) const {
-  const double c = std::cos(wrap_to_pi(pose_M.yaw));
-  const double s = std::sin(wrap_to_pi(pose_M.yaw));
+  const auto [s, c] = sine_cosine(wrap_to_pi(pose_M.yaw));
   double sum = 0.0;
   for (const Eigen::Vector2f& end_R : ends_R) {
     const Eigen::Vector2d p = end_R.cast<double>();

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/lane_math.h"
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/likelihood_field.h"
 #include "tagfield/navigation/pose_particles.h"
@@ -199,7 +201,7 @@ PoseEstimate MonteCarloLocalizer::Impl::mean_near(PlanarPose centre) const {
       const PlanarPose& q = particle.pose_M;
       const Eigen::Vector3d d(q.x - centre.x, q.y - centre.y, wrap_to_pi(q.yaw - centre.yaw));
       if (d.head<2>().norm() > kCluster_m || std::abs(d.z()) > kCluster_rad) continue;
-      const double w = std::exp(particle.log_weight);
+      const double w = lane_exp(particle.log_weight);
       weight += w;
       mean += w * d;
       squares += w * d * d.transpose();
@@ -226,9 +228,9 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
     const PlanarPose& q = particle.pose_M;
     Bin& bin = bins[{cell(q.x, kCluster_m), cell(q.y, kCluster_m),
                      cell(wrap_to_two_pi(q.yaw), kCluster_rad)}];
-    const double w = std::exp(particle.log_weight);
+    const double w = lane_exp(particle.log_weight);
     bin.weight += w;
-    bin.sum += w * Eigen::Vector4d(q.x, q.y, std::cos(q.yaw), std::sin(q.yaw));
+    bin.sum += w * Eigen::Vector4d(q.x, q.y, cosine(q.yaw), sine(q.yaw));
   }
   std::vector<Bin> sorted;
   sorted.reserve(bins.size());
@@ -240,7 +242,7 @@ std::vector<PlanarPose> MonteCarloLocalizer::Impl::opinions() const {
   poses.reserve(sorted.size());
   for (const Bin& bin : sorted) {
     const Eigen::Vector4d mean = bin.sum / bin.weight;
-    poses.push_back({mean.x(), mean.y(), std::atan2(mean.w(), mean.z())});
+    poses.push_back({mean.x(), mean.y(), arc_tangent(mean.w(), mean.z())});
   }
   return poses;
 }

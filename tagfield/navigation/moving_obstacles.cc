@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -93,12 +94,12 @@ void fit_disc(const ScanInMap& scan, ReturnGroup& group) {
   const double step = scan.angle_step_rad;
   const double half_angle = 0.5 * step * static_cast<double>(last.beam - first.beam + 1);
   const double near = middle_range(scan, group.returns);
-  const double sine = std::sin(std::min(half_angle, 1.0));
-  group.radius_m = std::clamp(near * sine / (1.0 - sine), kLeastRadius, kMostRadius);
+  const double of_half = sine(std::min(half_angle, 1.0));
+  group.radius_m = std::clamp(near * of_half / (1.0 - of_half), kLeastRadius, kMostRadius);
   const double angle = scan.q_ML.yaw + scan.first_angle_rad +
                        0.5 * step * static_cast<double>(first.beam + last.beam);
   group.centre_M = position_of(scan.q_ML) +
-                   (near + group.radius_m) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+                   (near + group.radius_m) * Eigen::Vector2d(cosine(angle), sine(angle));
   group.is_cut = is_cut_at(scan, static_cast<std::ptrdiff_t>(first.beam) - 1, first.range_m) ||
                  is_cut_at(scan, static_cast<std::ptrdiff_t>(last.beam) + 1, last.range_m);
   if (group.is_cut) fit_part(scan, group);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 
@@ -39,7 +40,7 @@ void PathPursuit::follow(const PlanarPose& pose_M) {
 double PathPursuit::bearing(const PlanarPose& pose_M) const {
   const Eigen::Vector2d ahead = way_.at(along_m_ + style_.look_ahead_m) - position_of(pose_M);
   if (ahead.norm() < 1e-6) return 0.0;
-  return wrap_to_pi(std::atan2(ahead.y(), ahead.x()) - pose_M.yaw);
+  return wrap_to_pi(arc_tangent(ahead.y(), ahead.x()) - pose_M.yaw);
 }
 
 double PathPursuit::to_turn_rad(const PlanarPose& pose_M) const {
@@ -56,7 +57,7 @@ BodyVelocity PathPursuit::wanted(const PlanarPose& pose_M) {
   const double distance = (way_.at(along_m_ + style_.look_ahead_m) - here).norm();
   const double remaining = std::max(remaining_m(), (way_.points().back() - here).norm());
   // The arc through the point ahead that starts along the heading.
-  const double curvature = 2.0 * std::sin(angle) / std::max(distance, 1e-3);
+  const double curvature = 2.0 * sine(angle) / std::max(distance, 1e-3);
   const double most_turn = kShareOfTurn * style_.limits.turn_rad_s;
   const double braking = kShareOfBraking * style_.limits.acceleration_m_s2;
   const double speed = std::min({style_.speed_m_s, style_.limits.speed_m_s,

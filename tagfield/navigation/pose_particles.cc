@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/resampling.h"
@@ -28,10 +29,9 @@ Bin bin_of(const PlanarPose& pose, const KldOptions& options) {
 PlanarPose moved(const PlanarPose& pose, const PlanarPose& step) {
   const PlanarPose wrapped{pose.x, pose.y, wrap_to_pi(pose.yaw)};
   PlanarPose next = compose(wrapped, step);
-  const double c = std::cos(wrapped.yaw);
-  const double s = std::sin(wrapped.yaw);
-  next.yaw = std::atan2(s * std::cos(step.yaw) + c * std::sin(step.yaw),
-                        c * std::cos(step.yaw) - s * std::sin(step.yaw));
+  const auto [s, c] = sine_cosine(wrapped.yaw);
+  const auto [step_s, step_c] = sine_cosine(step.yaw);
+  next.yaw = arc_tangent(s * step_c + c * step_s, c * step_c - s * step_s);
   return next;
 }
 
@@ -47,7 +47,8 @@ std::vector<double> log_weights_of(const std::vector<PoseParticle>& particles) {
 int kld_sample_size(std::size_t bins) {
   const auto freedom = static_cast<double>(bins - 1);
   const double spread = 2.0 / (9.0 * freedom);
-  const double chi2 = freedom * std::pow(1.0 - spread + std::sqrt(spread) * kQuantile, 3);
+  const double root = 1.0 - spread + std::sqrt(spread) * kQuantile;
+  const double chi2 = freedom * root * root * root;
   return static_cast<int>(std::lrint(chi2 / (2.0 * kKldError)));
 }
 

@@ -2,7 +2,8 @@
 #include "tagfield/navigation/resampling.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "tagfield/base/lane_math.h"
 
 namespace tagfield {
 namespace {
@@ -30,7 +31,7 @@ std::vector<double> shares_of(const std::vector<double>& log_weights) {
   shares.reserve(log_weights.size());
   double sum = 0.0;
   for (const double log_weight : log_weights) {
-    shares.push_back(std::exp(log_weight - most));
+    shares.push_back(lane_exp(log_weight - most));
     sum += shares.back();
   }
   const double norm = 1.0 / sum;

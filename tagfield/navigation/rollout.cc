@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 
@@ -57,7 +58,7 @@ bool Rollouts::is_ground_known_behind(const PlanarPose& pose) const {
   constexpr int kPoints = 7;
   for (int i = 0; i < kPoints; ++i) {
     const double angle = pose.yaw + kPi / 2.0 + kPi * i / (kPoints - 1);
-    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d direction(cosine(angle), sine(angle));
     if (!around_.is_known_free(position_of(pose) + settings_.size.radius_m * direction)) {
       return false;
     }

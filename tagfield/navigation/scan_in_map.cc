@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
 namespace {
 
 Eigen::Vector2d polar(double angle_rad, double range_m) {
-  return {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
+  return {range_m * cosine(angle_rad), range_m * sine(angle_rad)};
 }
 
 /// Points at the least range where a row of neighbouring beams is invalid.
@@ -46,7 +47,7 @@ void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVe
   const double interval_s = to_seconds(scan.beam_interval);
   // Directions of neighbouring beams follow from each other by a turn, which is quicker than sines.
   const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
-  Eigen::Vector2d direction_M(std::cos(first_angle), std::sin(first_angle));
+  Eigen::Vector2d direction_M(cosine(first_angle), sine(first_angle));
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (beam_of(scan, scan.ranges_m[i]) == Beam::kReturn) {
@@ -70,7 +71,7 @@ bool is_sound(const LaserScan& scan) {
 
 double ScanInMap::clear_towards(const Eigen::Vector2d& p_M, double half_width_rad) const {
   const Eigen::Vector2d away = p_M - position_of(q_ML);
-  const double bearing = wrap_to_pi(std::atan2(away.y(), away.x()) - q_ML.yaw - first_angle_rad);
+  const double bearing = wrap_to_pi(arc_tangent(away.y(), away.x()) - q_ML.yaw - first_angle_rad);
   // Beams may begin anywhere in a turn; those of a view past the half turn are a turn further on.
   const double past = bearing < -half_width_rad ? bearing + kTwoPi : bearing;
   const double first = std::floor((past - half_width_rad) / angle_step_rad);

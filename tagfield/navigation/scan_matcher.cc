@@ -8,6 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -75,8 +76,8 @@ Surface surface_at(const HitGrid& map, const Eigen::Vector2i& cell, double most_
   Surface surface{middle + mean, Eigen::Vector2d::Zero()};
   const double least = map.resolution_m() * map.resolution_m() / 8.0;
   if (half + root < least || half + root < kLineRatio * std::max(half - root, 0.0)) return surface;
-  const double angle = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  surface.normal = {-std::sin(angle), std::cos(angle)};
+  const double angle = 0.5 * arc_tangent(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  surface.normal = {-sine(angle), cosine(angle)};
   return surface;
 }
 
@@ -125,8 +126,7 @@ struct Sums {
 Sums sums_at(const HitGrid& map, const std::vector<Eigen::Vector2d>& points_R,
              const PlanarPose& pose, int reach, const MatchOptions& options, Surfaces& surfaces) {
   Sums sums;
-  const double c = std::cos(pose.yaw);
-  const double s = std::sin(pose.yaw);
+  const auto [s, c] = sine_cosine(pose.yaw);
   // A point without a surface costs as one at the edge of the search.
   const double missed = map.resolution_m() * (options.search_cells + 1) / options.outlier_m;
   const double missed_cost = 0.5 * options.trust * options.outlier_m * options.outlier_m /

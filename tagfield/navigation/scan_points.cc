@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -28,7 +29,7 @@ std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
     const float range = scan.ranges_m[i * skip];
     if (beam_of(scan, range) != Beam::kReturn) continue;
     const double angle = step * static_cast<double>(i) - half;
-    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d direction(cosine(angle), sine(angle));
     ends[i] = sensor_R + R * (range * direction.cast<float>());
   }
   return ends;
@@ -45,7 +46,7 @@ ScanPoints scan_points(const LaserScan& scan, const RigidTransform& X_RL, double
   const double clear_m = std::min(most_clear_m, scan.most_range_m);
   double angle = scan.first_angle_rad;
   for (const float range : scan.ranges_m) {
-    const Eigen::Vector2d direction_L(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d direction_L(cosine(angle), sine(angle));
     angle += scan.angle_step_rad;
     switch (beam_of(scan, range)) {
       case Beam::kReturn:

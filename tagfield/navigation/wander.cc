@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/base/units.h"
 #include "tagfield/motion/planar_pose.h"
 #include "tagfield/navigation/scan_points.h"
@@ -48,7 +49,7 @@ double yaw_of_sector(std::size_t sector) {
   return static_cast<double>(sector) * kTwoPi / static_cast<double>(kSectors);
 }
 
-Eigen::Vector2d direction_of(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
+Eigen::Vector2d direction_of(double yaw) { return {cosine(yaw), sine(yaw)}; }
 
 /// Whether the beam nearest to `angle_L` says anything, and is not one of the first or last.
 bool is_in_view(const LaserScan& scan, double angle_L) {

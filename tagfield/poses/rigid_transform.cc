@@ -3,7 +3,33 @@
 
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
+
 namespace tagfield {
+namespace {
+
+Eigen::Quaterniond turned_about(const Eigen::Vector3d& axis, double angle_rad) {
+  const auto [s, c] = sine_cosine(0.5 * angle_rad);
+  return {c, s * axis.x(), s * axis.y(), s * axis.z()};
+}
+
+/// By quaternions' own angle, the shorter way round.
+Eigen::Quaterniond on_great_arc(const Eigen::Quaterniond& from, Eigen::Quaterniond to,
+                                double fraction) {
+  if (from.dot(to) < 0.0) to.coeffs() = -to.coeffs();
+  const double angle =
+      2.0 * arc_tangent((to.coeffs() - from.coeffs()).norm(), (to.coeffs() + from.coeffs()).norm());
+  const double whole = sine(angle);
+  // So near to each other the arc is its chord.
+  if (!(whole > 1e-9)) {
+    return Eigen::Quaterniond(from.coeffs() + fraction * (to.coeffs() - from.coeffs()));
+  }
+  return Eigen::Quaterniond(
+      (sine((1.0 - fraction) * angle) * from.coeffs() + sine(fraction * angle) * to.coeffs()) /
+      whole);
+}
+
+}  // namespace
 
 std::optional<Eigen::Quaterniond> as_rotation(const Eigen::Quaterniond& quaternion) {
   const double length_error = std::abs(quaternion.norm() - 1.0);
@@ -17,23 +43,23 @@ RigidTransform from_translation(const Eigen::Vector3d& translation) {
 }
 
 RigidTransform from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy) {
-  const Eigen::Quaterniond rotation = Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
+  const Eigen::Quaterniond rotation = turned_about(Eigen::Vector3d::UnitZ(), rpy.z()) *
+                                      turned_about(Eigen::Vector3d::UnitY(), rpy.y()) *
+                                      turned_about(Eigen::Vector3d::UnitX(), rpy.x());
   return {rotation.normalized(), xyz};
 }
 
 RigidTransform from_planar(double x, double y, double yaw) {
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, 0.0}};
+  return {turned_about(Eigen::Vector3d::UnitZ(), yaw), {x, y, 0.0}};
 }
 
 double yaw_of(const Eigen::Quaterniond& rotation) {
   const Eigen::Vector3d forward = rotation * Eigen::Vector3d::UnitX();
-  return std::atan2(forward.y(), forward.x());
+  return arc_tangent(forward.y(), forward.x());
 }
 
 RigidTransform interpolate(const RigidTransform& from, const RigidTransform& to, double fraction) {
-  return {from.rotation.slerp(fraction, to.rotation),
+  return {on_great_arc(from.rotation, to.rotation, fraction),
           from.translation + fraction * (to.translation - from.translation)};
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/laser/simulated_laser.h"
 #include "tagfield/scenario/scenario.h"
 
@@ -12,8 +13,7 @@ constexpr double kFarAway = 1e9;
 
 double distance_to(const Rectangle& box, const Eigen::Vector2d& p_W) {
   const Eigen::Vector2d d = p_W - box.centre;
-  const double c = std::cos(box.yaw);
-  const double s = std::sin(box.yaw);
+  const auto [s, c] = sine_cosine(box.yaw);
   const Eigen::Vector2d beyond =
       Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y()).cwiseAbs() - box.size / 2.0;
   const double outside = beyond.cwiseMax(0.0).norm();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tagfield/base/lane_math.h"
 #include "tagfield/base/random.h"
 
 namespace tagfield {
@@ -24,7 +25,7 @@ PoseError first_pose_error(const PoseBelief& belief, std::uint64_t seed, std::ui
 PoseError next_pose_error(const PoseBelief& belief, const PoseError& error, double seconds,
                           std::uint64_t seed, std::uint64_t robot_key, std::uint64_t step) {
   RandomStream stream(seed, Purpose::kPoseError, robot_key, step + 1);
-  const double kept = std::exp(-seconds / belief.time_constant_s);
+  const double kept = lane_exp(-seconds / belief.time_constant_s);
   const double fresh = std::sqrt(-std::expm1(-2.0 * seconds / belief.time_constant_s));
   const PoseError drawn = stationary_draw(belief, stream);
   return {kept * error.x + fresh * drawn.x, kept * error.y + fresh * drawn.y,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/simulator/remote_driver.h"
 
-#include <cmath>
-
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -35,7 +34,7 @@ OdometryReport RemoteDriver::report(Time now) {
   const PlanarPose moved = between(last_.pose, report.pose);
   const PlanarPose driven = advance({}, velocity_, seconds);
   report.covariance = carried_covariance(last_.covariance, last_.pose, driven, noise_);
-  const double forward = moved.x * std::cos(0.5 * moved.yaw) + moved.y * std::sin(0.5 * moved.yaw);
+  const double forward = moved.x * cosine(0.5 * moved.yaw) + moved.y * sine(0.5 * moved.yaw);
   report.velocity = {forward / seconds, moved.yaw / seconds};
   report.velocity_variance = increment_variances(driven, noise_) / (seconds * seconds);
   return report;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/simulator/self_driver.h"
 
-#include <cmath>
-
+#include "tagfield/base/trigonometry.h"
 #include "tagfield/motion/planar_pose.h"
 
 namespace tagfield {
@@ -53,7 +52,7 @@ std::vector<PlanarPose> goals_at(const PlanarPose& start,
   double yaw = start.yaw;
   for (const Eigen::Vector2d& waypoint : waypoints) {
     const Eigen::Vector2d way = waypoint - from;
-    if (way.norm() > 1e-6) yaw = std::atan2(way.y(), way.x());
+    if (way.norm() > 1e-6) yaw = arc_tangent(way.y(), way.x());
     goals.push_back({waypoint.x(), waypoint.y(), yaw});
     from = waypoint;
   }

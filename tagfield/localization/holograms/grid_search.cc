@@ -59,6 +59,15 @@ bool is_brighter(const SearchCell& a, const SearchCell& b) {
   return a.i != b.i ? a.i < b.i : a.j < b.j;
 }
 
+/// The brightest tenth.
+void keep_brightest(Cells& cells) {
+  constexpr std::size_t kOneOf = 10;
+  const auto end =
+      cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + kOneOf - 1) / kOneOf);
+  std::nth_element(cells.begin(), end, cells.end(), is_brighter);
+  cells.erase(end, cells.end());
+}
+
 /// The bright ones of the cells, each split.
 Cells split(Cells cells) {
   const std::size_t most = std::min(cells.size(), kMostKept);
@@ -120,9 +129,14 @@ std::vector<GridMaximum> apart(const Cells& maxima, double size, const Eigen::Ve
 
 std::vector<GridMaximum> search_grid(const Grid& grid,
                                      const std::function<bool(const Eigen::Vector2d& p)>& within,
-                                     const std::vector<GridLevel>& levels, std::size_t count) {
+                                     const std::vector<GridLevel>& levels, std::size_t count,
+                                     const GridLevel& glance) {
   Cells cells = all_cells(grid, within);
   double size = grid.cell_m;
+  if (glance && !cells.empty()) {
+    illuminate(glance, size, cells);
+    keep_brightest(cells);
+  }
   for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
     illuminate(levels[level], size, cells);
     cells = split(std::move(cells));

@@ -59,9 +59,11 @@ struct GridMaximum {
 
 /// The brightest local maxima on the finest grid, at least 5 cm apart, brightest first, at most
 /// `count`. The first level is of the cells that are `within`, each further one of cells a third as
-/// wide, where the one before was bright. None where there is no cell. At least one level.
+/// wide, where the one before was bright. None where there is no cell. At least one level. A
+/// `glance` that is not empty leaves the first level the brightest tenth of its cells.
 std::vector<GridMaximum> search_grid(const Grid& grid,
                                      const std::function<bool(const Eigen::Vector2d& p)>& within,
-                                     const std::vector<GridLevel>& levels, std::size_t count);
+                                     const std::vector<GridLevel>& levels, std::size_t count,
+                                     const GridLevel& glance = {});
 
 }  // namespace tagfield

@@ -96,6 +96,7 @@ void refuse_other_poses(const LocalizationProblem& problem, double lambda,
   for (TagEstimate& estimate : result.estimates) {
     const bool is_known = problem.reference_tags.count(estimate.tag) > 0;
     if (is_known || estimate.verdict == Verdict::kNotLocated) continue;
+    result.misfits_m.push_back(estimate.candidates.front().rms_m);
     estimate = not_located(std::move(estimate), why);
   }
 }

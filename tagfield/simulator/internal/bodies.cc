@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/simulator/internal/bodies.h"
 
-#include <cmath>
+#include "tagfield/base/trigonometry.h"
 
 namespace tagfield {
 namespace {
@@ -24,7 +24,7 @@ MovingBody body_of(const std::string& robot, const RobotBody& body, const RigidT
   const Eigen::Vector3d ahead = X_WB.rotation * Eigen::Vector3d::UnitX();
   MovingBody moving{robot, body.material, X_WB.translation, 0.5 * body.size_m};
   moving.p_W.z() += moving.half_m.z();
-  moving.yaw_rad = std::atan2(ahead.y(), ahead.x());
+  moving.yaw_rad = arc_tangent(ahead.y(), ahead.x());
   return moving;
 }
 
