@@ -352,15 +352,24 @@ Objection of_motion(const DepartureFit& fit, Moved moved) {
 
 /// Whether what phases leave at the place itself tells of it: not where it is known to no better
 /// than λ/8, as by strengths.
-bool is_sharp(const Candidate& claim, const SamplesOfTag& samples) {
-  const double frequency_hz = samples.begin()->second.front().frequency_hz;
-  return claim.expected_error_m < wavelength(frequency_hz) / 8.0;
+bool is_sharp(const Candidate& claim, double lambda) {
+  return claim.expected_error_m < lambda / 8.0;
+}
+
+/// Of a place that is vaguely known: even the best one nearby leaves more than half a cycle, where
+/// reflections bend phases by a radian and poses are off by centimetres.
+Objection of_no_place(double misfit_m) {
+  return {fmt::format("the phase fits no tag at rest near there: {:.0f} cm rms are left, over half "
+                      "a cycle",
+                      100.0 * misfit_m),
+          std::nullopt};
 }
 
 Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& samples,
                        const TagEstimate& estimate) {
   const Candidate& claim = estimate.candidates.front();
-  if (is_sharp(claim, samples) && !leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) {
+  const double lambda = wavelength(samples.begin()->second.front().frequency_hz);
+  if (is_sharp(claim, lambda) && !leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) {
     return {};
   }
   const auto motion = fit_departure(problem, estimate.tag, samples, claim.p_WT, Departure::kMotion);
@@ -372,7 +381,12 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
   if (std::max(of_late, of_moving) >= kCertainGain) {
     objection = of_late > of_moving ? of_lateness(*late, claim) : of_motion(*motion, moved);
   }
-  if (motion) objection.misfit_m = motion->misfit_at_rest_m;
+  if (!motion) return objection;
+  if (objection.why.empty() && !is_sharp(claim, lambda) &&
+      motion->misfit_at_rest_m > lambda / 4.0) {
+    objection = of_no_place(motion->misfit_at_rest_m);
+  }
+  objection.misfit_m = motion->misfit_at_rest_m;
   return objection;
 }
 

@@ -60,12 +60,14 @@ bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& t
 void warn_of_latency(double late_s, Diagnostics& diagnostics);
 
 /// Refuses tags whose phases show that they moved while they were read, by more than three times
-/// what their places are expected to be off, and those that are elsewhere by as much once reads and
-/// poses are shifted in time against one another: where chance does so in less than one case of a
-/// million, amid reflections too, and hardly any slow errors are left; a motion, where a tag at
-/// rest would leave more than pose errors do, or where it leaves nothing and the other tags say
-/// that it was not the poses. Where most tags agree in a shift a warning says by how much. Not of
-/// methods that correct poses.
+/// what their places are expected to be off or by half a metre, and those that are elsewhere by
+/// three times what they are expected to be off once reads and poses are shifted in time against
+/// one another: where chance does so in less than one case of a million, amid reflections too, and
+/// hardly any slow errors are left; a motion, where a tag at rest would leave more than pose errors
+/// do, or where it leaves nothing and the other tags say that it was not the poses. Of places that
+/// are known to no better than λ/8 those too where the best place nearby leaves over half a cycle
+/// of the phase. Where most tags agree in a shift a warning says by how much. Not of methods that
+/// correct poses.
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics);
 

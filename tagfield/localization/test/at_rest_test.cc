@@ -134,6 +134,19 @@ TEST(AtRest, TagsThatMoveAreRefusedHoweverLittleIsClaimedOfThem) {
   }
 }
 
+TEST(AtRest, PlacesByStrengthsAreRefusedWherePosesAreOfAnotherDrive) {
+  Rng rng(7);
+  const made::Path path = made::s_curve(8.0, 0.02);
+  made::Path another = path;
+  for (Eigen::Vector3d& p_WA : another) p_WA.y() = -0.5 * p_WA.y() + 0.1 * p_WA.x();
+  made::Hall hall = made::hall(path, another, kTags, {}, rng);
+  hall.problem.pose_error.reset();
+  LocalizationResult result = vague_claims(hall);
+  Diagnostics diagnostics;
+  refuse_departures(hall.problem, 2, result, diagnostics);
+  EXPECT_LE(located_tags(result), std::size_t{kTags} / 20);
+}
+
 // Nothing is told of the poses. Some of these motions leave less at the best place than poses are
 // usually off; but a velocity explains all of it, and other tags surely move. In 20 to 36 places of
 // each method, all of them wrong.
