@@ -356,8 +356,13 @@ bool is_sharp(const Candidate& claim, double lambda) {
   return claim.expected_error_m < lambda / 8.0;
 }
 
-/// Of a place that is vaguely known: even the best one nearby leaves more than half a cycle, where
-/// reflections bend phases by a radian and poses are off by centimetres.
+/// Of a place that is vaguely known: even the best one nearby leaves more than half a cycle of
+/// phases that can be followed (noise under an eighth of one), where reflections bend them by a
+/// radian and poses are off by centimetres.
+bool has_no_place(const DepartureFit& fit, double lambda) {
+  return fit.misfit_at_rest_m > lambda / 4.0 && fit.noise_m < lambda / 16.0;
+}
+
 Objection of_no_place(double misfit_m) {
   return {fmt::format("the phase fits no tag at rest near there: {:.0f} cm rms are left, over half "
                       "a cycle",
@@ -382,8 +387,7 @@ Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& s
     objection = of_late > of_moving ? of_lateness(*late, claim) : of_motion(*motion, moved);
   }
   if (!motion) return objection;
-  if (objection.why.empty() && !is_sharp(claim, lambda) &&
-      motion->misfit_at_rest_m > lambda / 4.0) {
+  if (objection.why.empty() && !is_sharp(claim, lambda) && has_no_place(*motion, lambda)) {
     objection = of_no_place(motion->misfit_at_rest_m);
   }
   objection.misfit_m = motion->misfit_at_rest_m;
@@ -477,6 +481,7 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
   const TagFit at_rest = fit_tag(of.phases, of.height, start);
   const Eigen::ArrayXd errors = residuals_of(of.phases, of.height, at_rest);
   fit.misfit_at_rest_m = std::sqrt(errors.square().mean());
+  fit.noise_m = noise_of_one(of.phases.spans, end.errors);
   fit.left_over = left / slow_variance(of.phases, errors);
   fit.log_gain = log_gain_of(of, start, end.unknowns);
   return fit;

@@ -29,6 +29,7 @@ struct DepartureFit {
   Eigen::Vector2d departure = Eigen::Vector2d::Zero();  ///< Of a lateness the second is 0.
   /// Of both. Correlated residuals count as their correlation factor says (residuals.h).
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  double noise_m = 0.0;           ///< Of one read: noise_of_one().
   double misfit_at_rest_m = 0.0;  ///< rms of what the best place nearby without it leaves.
   /// Of the variance of slow errors that the best place nearby without it leaves.
   double left_over = 1.0;
@@ -66,8 +67,8 @@ void warn_of_latency(double late_s, Diagnostics& diagnostics);
 /// hardly any slow errors are left; a motion, where a tag at rest would leave more than pose errors
 /// do, or where it leaves nothing and the other tags say that it was not the poses. Of places that
 /// are known to no better than λ/8 those too where the best place nearby leaves over half a cycle
-/// of the phase. Where most tags agree in a shift a warning says by how much. Not of methods that
-/// correct poses.
+/// of phases that can be followed. Where most tags agree in a shift a warning says by how much. Not
+/// of methods that correct poses.
 void refuse_departures(const LocalizationProblem& problem, int threads, LocalizationResult& result,
                        Diagnostics& diagnostics);
 

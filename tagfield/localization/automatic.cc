@@ -14,6 +14,7 @@
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/outliers.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/residuals.h"
 #include "tagfield/localization/scan/scan_field.h"
 
 namespace tagfield {
@@ -52,19 +53,6 @@ struct Look {
   double reads_worth_one = 1.0;  ///< By the correlation of what the brightest place leaves.
 };
 
-/// Of one read [m], from the differences of neighbours, which slow errors leave alone.
-double noise_of(const UnwrappedFit& fit, const Eigen::ArrayXd& errors) {
-  double differences = 0.0;
-  double count = 0.0;
-  for (const TagPhases::Span& span : fit.phases.spans) {
-    for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
-      differences += (errors[i] - errors[i - 1]) * (errors[i] - errors[i - 1]);
-      count += 1.0;
-    }
-  }
-  return std::max(std::sqrt(0.5 * differences / std::max(count, 1.0)), 1e-6);
-}
-
 void look_at_brightest(const LocalizationProblem& problem, const std::string& tag,
                        const SamplesOfTag& samples, Look& look) {
   look.is_short_scan = scan_field(problem, tag, samples).why_not.empty();
@@ -85,7 +73,7 @@ Look look_at(const LocalizationProblem& problem, const std::string& tag,
   look_at_brightest(problem, tag, samples, look);
   if (!fit.why_not.empty()) return look;
   const Eigen::ArrayXd errors = residuals_of(fit.phases, fit.height, fit.fits.front());
-  look.noise_m = noise_of(fit, errors);
+  look.noise_m = std::max(noise_of_one(fit.phases.spans, errors), 1e-6);
   look.misfit = std::sqrt(errors.square().mean()) / look.noise_m;
   return look;
 }

@@ -40,6 +40,18 @@ double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals) {
   return factor;
 }
 
+double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const TagPhases::Span& span : spans) {
+    for (Eigen::Index i = span.begin + 1; i < span.begin + span.count; ++i) {
+      squares += (residuals[i] - residuals[i - 1]) * (residuals[i] - residuals[i - 1]);
+      count += 1.0;
+    }
+  }
+  return std::sqrt(0.5 * squares / std::max(count, 1.0));
+}
+
 double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals) {
   const auto reads = static_cast<double>(residuals.size());
   const auto unknowns = static_cast<double>(spans.size()) + 2.0;

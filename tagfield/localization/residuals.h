@@ -18,6 +18,10 @@ using Spans = std::vector<TagPhases::Span>;
 /// autocorrelation time 1 + 2 Σ ρ_k over the lags before the first ρ_k ≤ 0.
 double correlation_factor(const Spans& spans, const Eigen::ArrayXd& residuals);
 
+/// Noise of one residual [m], from the differences of neighbours in a span, which slow errors leave
+/// alone: √(½ mean Δ²). 0 where there are no neighbours.
+double noise_of_one(const Spans& spans, const Eigen::ArrayXd& residuals);
+
 /// Variance of one residual [m²], the fitted place and offsets allowed for.
 double residual_variance(const Spans& spans, const Eigen::ArrayXd& residuals);
 

@@ -36,8 +36,9 @@ OccupancyGrid numbered(const CoverageGrid& grid, const CoverageLayer& layer,
   return cells;
 }
 
+/// `words` of each colour.
 void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& cells,
-                const std::vector<std::string>& colors) {
+                const std::vector<std::string>& colors, const std::vector<std::string>& words) {
   const Place corner = place_in(map.axes, cells.origin.x(), cells.origin.y());
   const double size = map.scale * cells.resolution_m;
   begin_group(svg, fmt::format("shape-rendering=\"crispEdges\" "
@@ -47,9 +48,7 @@ void draw_cells(Svg& svg, const MapView& map, const OccupancyGrid& cells,
     if (colors[i].empty()) continue;
     const std::string data =
         cell_outline(cells, [&](std::int8_t cell) { return cell == static_cast<int>(i); });
-    Look look = filled(colors[i], 1.0);
-    look.attributes += " fill-rule=\"evenodd\"";
-    if (!data.empty()) add_path(svg, data, look);
+    if (!data.empty()) add_path(svg, data, band_look(colors[i], words[i]));
   }
   end_group(svg);
 }
@@ -152,7 +151,9 @@ void draw_quantity(Figure& figure, const Coverage& coverage, const CoverageLayer
     if (quantity != CoverageQuantity::kProbability && cell.antenna < 0) return kNotDrawn;
     return static_cast<std::int8_t>(band_of(bands, value_of(cell, quantity)));
   });
-  draw_cells(figure.svg, map, cells, bands.colors);
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < bands.colors.size(); ++i) words.push_back(words_of_band(bands, i));
+  draw_cells(figure.svg, map, cells, bands.colors, words);
   end_map(figure, map, top_view);
   draw_antennas(figure.svg, map, coverage);
 }
@@ -163,12 +164,14 @@ constexpr int kMostKinds = 100;
 void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& layer,
                const std::vector<Silhouette>& top_view) {
   std::vector<std::string> colors;
+  std::vector<std::string> words;
   double x = 2.0;
   double y = 2.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(coverage.antennas.size(), kMostKinds); ++i) {
     colors.push_back(color_of_kind(i));
     const std::string name = shortened(coverage.antennas[i].name, 18);
     const double width = 40.0 + text_width(name);
+    words.push_back(clean_text(coverage.antennas[i].name));
     if (x > 2.0 && x + width > kDrawingWidth) {
       x = 2.0;
       y += 22.0;
@@ -182,7 +185,7 @@ void draw_best(Figure& figure, const Coverage& coverage, const CoverageLayer& la
     const bool is_read = cell.antenna >= 0 && cell.probability >= kReadProbability;
     return is_read ? static_cast<std::int8_t>(cell.antenna % kMostKinds) : kNotDrawn;
   });
-  draw_cells(figure.svg, map, cells, colors);
+  draw_cells(figure.svg, map, cells, colors, words);
   end_map(figure, map, top_view);
   draw_antennas(figure.svg, map, coverage);
 }

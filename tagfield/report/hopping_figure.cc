@@ -138,9 +138,7 @@ void draw_hologram_cells(Svg& svg, const MapView& map, const std::vector<double>
   for (std::size_t i = 0; i < bands.colors.size(); ++i) {
     const std::string data =
         cell_outline(grid, [&](std::int8_t cell) { return cell == static_cast<int>(i); });
-    Look look = filled(bands.colors[i], 1.0);
-    look.attributes += " fill-rule=\"evenodd\"";
-    if (!data.empty()) add_path(svg, data, look);
+    if (!data.empty()) add_path(svg, data, band_look(bands.colors[i], words_of_band(bands, i)));
   }
   end_group(svg);
 }

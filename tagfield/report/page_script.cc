@@ -101,6 +101,12 @@ for(const svg of document.querySelectorAll("figure svg")){
   return best;
  };
  const hide=()=>{tip.hidden=true;ring.style.display="none"};
+ const tell=(event,lines)=>{
+  tip.textContent=lines.join("\n");tip.hidden=false;
+  const w=tip.offsetWidth,h=tip.offsetHeight;
+  tip.style.left=Math.max(4,Math.min(event.clientX+14,innerWidth-w-4))+"px";
+  tip.style.top=(event.clientY-h-12<4?event.clientY+18:event.clientY-h-12)+"px";
+ };
  const look=event=>{
   if(!marks)collect();
   const p=new DOMPoint(event.clientX,event.clientY).matrixTransform(svg.getScreenCTM().inverse());
@@ -110,8 +116,15 @@ for(const svg of document.querySelectorAll("figure svg")){
    const q=nearest(mark,p),d=Math.hypot(q[0]-p.x,q[1]-p.y)+(mark.text?0:2);
    if(d<least){least=d;found={mark,q}}
   }
-  if(!found)return hide();
-  const [x,y]=found.q,panel=panels.find(a=>within(a.x,x)&&within(a.y,y)),lines=[];
+  const cell=found?null:event.target.closest("[data-cell]");
+  if(!found&&!cell)return hide();
+  const [x,y]=found?found.q:[p.x,p.y],panel=panels.find(a=>within(a.x,x)&&within(a.y,y)),lines=[];
+  if(cell){
+   lines.push(cell.dataset.cell);
+   if(panel)lines.push((panel.xn||"x")+": "+spoken(value(panel.x,x)),(panel.yn||"y")+": "+spoken(value(panel.y,y)));
+   ring.style.display="none";
+   return tell(event,lines);
+  }
   const has=found.mark.e.classList,name=names[Object.keys(names).find(k=>k.split(" ").every(c=>has.contains(c)))];
   if(found.mark.text)lines.push(found.mark.text);
   else if(name)lines.push(name);
@@ -121,17 +134,14 @@ for(const svg of document.querySelectorAll("figure svg")){
    if(panel.yn)lines.push(panel.yn+": "+spoken(value(panel.y,y)));
   }
   if(!lines.length)return hide();
-  tip.textContent=lines.join("\n");tip.hidden=false;
-  const w=tip.offsetWidth,h=tip.offsetHeight;
-  tip.style.left=Math.max(4,Math.min(event.clientX+14,innerWidth-w-4))+"px";
-  tip.style.top=(event.clientY-h-12<4?event.clientY+18:event.clientY-h-12)+"px";
+  tell(event,lines);
   ring.setAttribute("cx",x);ring.setAttribute("cy",y);ring.style.display=found.mark.box?"none":"";
  };
  svg.addEventListener("pointermove",look);svg.addEventListener("pointerdown",look);svg.addEventListener("pointerleave",hide);
 }
 addEventListener("scroll",()=>{tip.hidden=true},{passive:true});
 })();)js",
-                                 "sha256-Ti2hSCWupsPC7ZazxaIGwlKQI7kauT79fE08rb6Okik="};
+                                 "sha256-aAjiRQq46UrQ25HhO+cBIcGAw6QRfrSVsIW+frkILjM="};
 
 constexpr PageScript kPlan = {R"js((()=>{
 const data=JSON.parse(document.getElementById("plan-data").textContent);

@@ -111,6 +111,32 @@ def figures_say_values_and_hide_series(context):
 
 
 @case
+def cells_say_what_they_hold(context):
+    context.run_well("coverage", context.shipped("portal"), "--out", "cover")
+    rows = read_csv(context.folder / "cover/coverage_0.90m.csv")
+    with browser(NO_WEBGL) as one:
+        open_page(one, context.folder / "cover/coverage.html")
+        heard = 0
+        for share_x in (0.3, 0.5, 0.7):
+            for share_y in (0.3, 0.45, 0.6):
+                lines = pointed_at(one, "margin_0\\.90m", share_x, share_y).split("\n")
+                if len(lines) != 3 or not lines[0].startswith("margin [dB]: "):
+                    continue  # On an antenna, or beside the map.
+                heard += 1
+                x, y = (float(line.split(": ")[1].replace("−", "-")) for line in lines[1:])
+                cell = min(rows, key=lambda row: abs(float(row["x_m"]) - x) + abs(float(row["y_m"]) - y))
+                check(abs(float(cell["x_m"]) - x) < 0.06 and abs(float(cell["y_m"]) - y) < 0.06, f"no cell at {x}, {y}")
+                edges = [float(edge) for edge in re.findall(r"-?[0-9]+", lines[0].split(": ")[1].replace("−", "-"))]
+                # The pointer may be on the edge between two cells, whose margins differ by little.
+                margin = float(cell["margin_db"])
+                low = -1e9 if "below" in lines[0] else edges[0]
+                high = 1e9 if "more" in lines[0] else edges[-1]
+                check(low - 1.5 <= margin <= high + 1.5, f"at {x}, {y} the margin is {margin}, and the page says {lines[0]}")
+        check(heard >= 6, f"of nine places the page says something at {heard}")
+        check_equal(one.complaints(), [], "the console")
+
+
+@case
 def tags_rows_and_marks_are_linked_and_figures_zoomed(context):
     context.run_well("run", context.shipped("paper_warehouse"), "--out", "run")
     with browser(NO_WEBGL) as one:

@@ -147,6 +147,18 @@ TEST(AtRest, PlacesByStrengthsAreRefusedWherePosesAreOfAnotherDrive) {
   EXPECT_LE(located_tags(result), std::size_t{kTags} / 20);
 }
 
+TEST(AtRest, PhasesThatSayNothingRefuseNoPlaceByStrengths) {
+  Rng rng(8);
+  made::Hall hall = hall_with(Eigen::Vector3d::Zero(), rng);
+  for (auto& [tag, samples] : hall.problem.samples) {
+    for (PhaseSample& sample : samples["a"]) sample.phase_rad = made::uniform(rng, 0.0, kTwoPi);
+  }
+  LocalizationResult result = vague_claims(hall);
+  Diagnostics diagnostics;
+  refuse_departures(hall.problem, 2, result, diagnostics);
+  EXPECT_EQ(located_tags(result), std::size_t{kTags});
+}
+
 // Nothing is told of the poses. Some of these motions leave less at the best place than poses are
 // usually off; but a velocity explains all of it, and other tags surely move. In 20 to 36 places of
 // each method, all of them wrong.

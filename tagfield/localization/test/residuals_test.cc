@@ -23,6 +23,20 @@ Eigen::ArrayXd series(Eigen::Index count, double keep, Rng& rng) {
   return values;
 }
 
+TEST(NoiseOfOne, IsThatOfNeighbours) {
+  Rng rng(9);
+  constexpr Eigen::Index kCount = 100000;
+  // ½ E Δ² = 1 − ρ; a slope adds half its square, and two spans have no step between them.
+  for (const double keep : {0.0, 0.5}) {
+    Eigen::ArrayXd values = series(kCount, keep, rng);
+    values += Eigen::ArrayXd::LinSpaced(kCount, 0.0, 1e-3 * kCount);
+    values.tail(kCount / 2) += 1e6;
+    const Spans halves{{0, kCount / 2}, {kCount / 2, kCount / 2}};
+    EXPECT_NEAR(noise_of_one(halves, values), std::sqrt(1.0 - keep), 0.02);
+  }
+  EXPECT_EQ(noise_of_one(one_span(1), Eigen::ArrayXd::Ones(1)), 0.0);
+}
+
 TEST(CorrelationFactor, IsThatOfAnAutoregressiveSeries) {
   Rng rng(8);
   constexpr Eigen::Index kCount = 100000;

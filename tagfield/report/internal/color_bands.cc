@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tagfield/report/internal/color_map.h"
+#include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
@@ -27,6 +28,21 @@ void label_edges(ColorBands& bands) {
 std::size_t band_of(const ColorBands& bands, double value) {
   const auto above = std::upper_bound(bands.edges.begin(), bands.edges.end(), value);
   return static_cast<std::size_t>(above - bands.edges.begin());
+}
+
+std::string words_of_band(const ColorBands& bands, std::size_t band) {
+  if (bands.edges.empty()) return bands.title;
+  if (band == 0) return fmt::format("{}: below {}", bands.title, bands.labels.front());
+  if (band == bands.edges.size()) {
+    return fmt::format("{}: {} or more", bands.title, bands.labels.back());
+  }
+  return fmt::format("{}: {} to {}", bands.title, bands.labels[band - 1], bands.labels[band]);
+}
+
+Look band_look(const std::string& color, const std::string& words) {
+  Look look = filled(color, 1.0);
+  look.attributes += fmt::format(" fill-rule=\"evenodd\" data-cell=\"{}\"", escaped(words));
+  return look;
 }
 
 ColorBands power_bands(const std::string& title, std::vector<double> values) {

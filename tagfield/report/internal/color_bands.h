@@ -21,6 +21,12 @@ struct ColorBands {
 
 std::size_t band_of(const ColorBands& bands, double value);
 
+/// What a band holds, with its title: "margin [dB]: 3 to 10", "below −30", "30 or more".
+std::string words_of_band(const ColorBands& bands, std::size_t band);
+
+/// How a band's cells look; pages say `words` where a pointer is over them.
+Look band_look(const std::string& color, const std::string& words);
+
 /// Blue to red in steps of 5 dB, or more where that would be over 12 bands, around `values`, which
 /// may be empty.
 ColorBands power_bands(const std::string& title, std::vector<double> values);

@@ -70,6 +70,15 @@ TEST(ColorBands, HoldTheirLowerEdge) {
   EXPECT_EQ(band_of(bands, 1e9), bands.edges.size());
 }
 
+TEST(ColorBands, AreSaidWithTheirEdges) {
+  const ColorBands bands = margin_bands();
+  EXPECT_EQ(words_of_band(bands, band_of(bands, -400.0)), "margin [dB]: below −30");
+  EXPECT_EQ(words_of_band(bands, band_of(bands, 5.0)), "margin [dB]: 3 to 10");
+  EXPECT_EQ(words_of_band(bands, band_of(bands, 1e9)), "margin [dB]: 30 or more");
+  EXPECT_NE(band_look("#123456", "a < b").attributes.find("data-cell=\"a &lt; b\""),
+            std::string::npos);
+}
+
 TEST(ColorBands, OfPowersAreFewAndRound) {
   const ColorBands bands = power_bands("power [dBm]", {-400.0, -63.0, -20.0, 12.0, 14.0});
   EXPECT_LE(bands.colors.size(), 13U);
