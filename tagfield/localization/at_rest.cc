@@ -350,6 +350,14 @@ Objection of_motion(const DepartureFit& fit, Moved moved) {
           std::nullopt, moved};
 }
 
+/// Of the first read; 0 where there is none.
+double wavelength_of(const SamplesOfTag& samples) {
+  for (const auto& [antenna, series] : samples) {
+    if (!series.empty()) return wavelength(series.front().frequency_hz);
+  }
+  return 0.0;
+}
+
 /// Whether what phases leave at the place itself tells of it: not where it is known to no better
 /// than λ/8, as by strengths.
 bool is_sharp(const Candidate& claim, double lambda) {
@@ -373,7 +381,7 @@ Objection of_no_place(double misfit_m) {
 Objection objection_to(const LocalizationProblem& problem, const SamplesOfTag& samples,
                        const TagEstimate& estimate) {
   const Candidate& claim = estimate.candidates.front();
-  const double lambda = wavelength(samples.begin()->second.front().frequency_hz);
+  const double lambda = wavelength_of(samples);
   if (is_sharp(claim, lambda) && !leaves_slow_errors(problem, estimate.tag, samples, claim.p_WT)) {
     return {};
   }

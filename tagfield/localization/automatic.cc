@@ -228,6 +228,7 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
           const std::string method = choose_method(traits, given.reference_tags.size()).method;
           return method == "scan" || method == "robust";
         };
+        Diagnostics of_choice;
         if (traits.has_outliers) {
           Diagnostics of_cleaning;
           cleaned = without_outliers(given, threads, of_cleaning);
@@ -236,12 +237,11 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
             cleaned = {};
             traits = as_given;
           } else {
-            for (const std::string& warning : of_cleaning.warnings()) diagnostics.warn(warning);
+            of_choice = std::move(of_cleaning);
           }
         }
         const LocalizationProblem& problem = cleaned.samples.empty() ? given : cleaned;
         Choice choice = choose_method(traits, problem.reference_tags.size());
-        Diagnostics of_choice;
         LocalizationResult result =
             find_method(methods, choice.method).locate(problem, threads, of_choice);
         const double misfit = choice.method == "joint" ? misfit_left(result, traits.noise_m) : 0.0;

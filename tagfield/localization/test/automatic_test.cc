@@ -58,6 +58,43 @@ TEST(Automatic, SeesReflectionsWhereNoPoseErrorExplainsThem) {
   EXPECT_NE(result.why.find("even with the pose error estimated"), std::string::npos) << result.why;
 }
 
+/// `joint` as if it had refused all tags for poses that are off, each with a misfit of `misfit_m`.
+std::vector<Method> with_refusing_joint(double misfit_m) {
+  std::vector<Method> methods = built_in_methods();
+  for (Method& method : methods) {
+    if (method.name != "joint") continue;
+    method.locate = [misfit_m](const LocalizationProblem& problem, int, Diagnostics& diagnostics) {
+      LocalizationResult result;
+      result.method = "joint";
+      diagnostics.warn("the poses seem to be off");
+      for (const auto& [tag, samples] : problem.samples) {
+        TagEstimate estimate;
+        estimate.tag = tag;
+        estimate.reason = "the poses seem to be off";
+        result.estimates.push_back(estimate);
+        result.misfits_m.push_back(misfit_m);
+      }
+      return result;
+    };
+  }
+  return methods;
+}
+
+TEST(Automatic, StaysWithJointThatRefusedAllUnlessItLeftMoreThanNoise) {
+  made::Hall hall = moving_hall({});
+  hall.problem.pose_error.reset();
+  const double noise_m = traits_of(hall.problem, 1).noise_m;
+  for (const bool is_noise : {true, false}) {
+    Diagnostics diagnostics;
+    const Method method = automatic_method(with_refusing_joint((is_noise ? 1.0 : 3.0) * noise_m));
+    const LocalizationResult result = method.locate(hall.problem, 2, diagnostics);
+    EXPECT_EQ(result.method, is_noise ? "joint" : "robust");
+    EXPECT_EQ(diagnostics.warnings().size(), is_noise ? 1U : 0U);
+    EXPECT_EQ(result.estimates.front().verdict,
+              is_noise ? Verdict::kNotLocated : Verdict::kLocated);
+  }
+}
+
 /// On ten carriers 0.5 MHz apart, 8 reads each, with an offset of each; the true phases anew.
 void hop(const made::Path& path, made::Hall& hall, made::Rng& rng) {
   for (auto& [tag, samples] : hall.problem.samples) {
