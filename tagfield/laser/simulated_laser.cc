@@ -149,7 +149,7 @@ Beams beams_of(const LaserParameters& laser, const LaserScan& scan,
                const std::function<Obstacles(Time)>& obstacles_at) {
   // A little beyond, so that a wall just there is met.
   const float most_m = nothing_range(laser.most_range_m);
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
+  const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
   Eigen::Vector2d direction_L(cosine(scan.first_angle_rad), sine(scan.first_angle_rad));
   Beams beams;
   beams.rays.reserve(scan.ranges_m.size());

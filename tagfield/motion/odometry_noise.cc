@@ -47,8 +47,8 @@ PlanarPose noisy_increment(const PlanarPose& increment, const OdometryNoise& noi
   const double first = sigma * first_draw;
   const double second = sigma * (0.5 * first_draw + std::sqrt(0.75) * second_draw);
   const double way = std::sqrt(variances.way) * standard_normal(stream);
-  const Eigen::Vector2d p = Eigen::Rotation2Dd(first) * (Eigen::Vector2d(increment.x, increment.y) +
-                                                         way * middle_heading(increment));
+  const Eigen::Vector2d p = rotation_in_plane(first) * (Eigen::Vector2d(increment.x, increment.y) +
+                                                        way * middle_heading(increment));
   return {p.x(), p.y(), increment.yaw + first + second};
 }
 

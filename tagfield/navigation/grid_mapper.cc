@@ -23,7 +23,7 @@ constexpr double kLeastSigma_rad = 0.001;
 Eigen::Matrix3d prior_information(const PlanarPose& from_M, const PlanarPose& increment,
                                   const OdometryNoise& noise) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(from_M.yaw).toRotationMatrix();
+  R.topLeftCorner<2, 2>() = rotation_in_plane(from_M.yaw);
   Eigen::Matrix3d covariance = R * increment_covariance(increment, noise) * R.transpose();
   covariance.diagonal() +=
       Eigen::Vector3d(kLeastSigma_m * kLeastSigma_m, kLeastSigma_m * kLeastSigma_m,

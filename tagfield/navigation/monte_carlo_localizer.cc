@@ -487,7 +487,7 @@ PoseEstimate MonteCarloLocalizer::estimate_at(const PlanarPose& odometry) const 
   PoseEstimate moved;
   moved.pose_M = compose(impl.estimate.pose_M, increment);
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(impl.estimate.pose_M.yaw).toRotationMatrix();
+  R.topLeftCorner<2, 2>() = rotation_in_plane(impl.estimate.pose_M.yaw);
   moved.covariance = impl.estimate.covariance +
                      R * increment_covariance(increment, impl.settings.odometry) * R.transpose();
   return moved;

@@ -48,7 +48,7 @@ void place_returns(const LaserScan& scan, const PlanarPose& pose_M, const BodyVe
   // Directions of neighbouring beams follow from each other by a turn, which is quicker than sines.
   const double first_angle = seen.q_ML.yaw + scan.first_angle_rad;
   Eigen::Vector2d direction_M(cosine(first_angle), sine(first_angle));
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(scan.angle_step_rad).toRotationMatrix();
+  const Eigen::Matrix2d turn = rotation_in_plane(scan.angle_step_rad);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (beam_of(scan, scan.ranges_m[i]) == Beam::kReturn) {
       const auto range = static_cast<double>(scan.ranges_m[i]);

@@ -21,8 +21,8 @@ std::vector<std::optional<Eigen::Vector2f>> ends_of_every(const LaserScan& scan,
   const double half = 0.5 * static_cast<double>(static_cast<float>(span));
   const double step = 2.0 * half / std::max(static_cast<double>(last), 1.0);
   // Angles count from the middle one.
-  const Eigen::Rotation2Dd turn(yaw_of(X_RL.rotation) + scan.first_angle_rad + 0.5 * span);
-  const Eigen::Matrix2f R = turn.toRotationMatrix().cast<float>();
+  const Eigen::Matrix2f R =
+      rotation_in_plane(yaw_of(X_RL.rotation) + scan.first_angle_rad + 0.5 * span).cast<float>();
   const Eigen::Vector2f sensor_R = X_RL.translation.head<2>().cast<float>();
   std::vector<std::optional<Eigen::Vector2f>> ends(last + 1);
   for (std::size_t i = 0; i <= last; ++i) {

@@ -53,6 +53,13 @@ RigidTransform from_planar(double x, double y, double yaw) {
   return {turned_about(Eigen::Vector3d::UnitZ(), yaw), {x, y, 0.0}};
 }
 
+Eigen::Matrix2d rotation_in_plane(double angle_rad) {
+  const auto [s, c] = sine_cosine(angle_rad);
+  Eigen::Matrix2d rotation;
+  rotation << c, -s, s, c;
+  return rotation;
+}
+
 double yaw_of(const Eigen::Quaterniond& rotation) {
   const Eigen::Vector3d forward = rotation * Eigen::Vector3d::UnitX();
   return arc_tangent(forward.y(), forward.x());

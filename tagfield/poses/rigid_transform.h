@@ -48,6 +48,9 @@ RigidTransform from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& r
 /// A pose in the plane z = 0: (x, y) [m] and yaw [rad].
 RigidTransform from_planar(double x, double y, double yaw);
 
+/// Turns vectors of the plane by an angle [rad], counterclockwise.
+Eigen::Matrix2d rotation_in_plane(double angle_rad);
+
 /// Heading about z [rad], in [-π, π].
 double yaw_of(const Eigen::Quaterniond& rotation);
 

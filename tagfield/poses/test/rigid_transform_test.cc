@@ -129,6 +129,26 @@ TEST(Interpolate, IsHalfWayInTheMiddle) {
   EXPECT_TRUE(near(middle, from_planar(2.0, 2.0, 0.6)));
 }
 
+RC_GTEST_PROP(Interpolate, TurnsAsEigensSlerp, ()) {
+  const auto angle = [] { return 1e-3 * *rc::gen::inRange(-3141, 3142); };
+  const auto any = [&] { return from_xyz_rpy({}, {angle(), angle(), angle()}); };
+  const RigidTransform from = any();
+  // Far from it, and as near as neighbouring poses are.
+  const RigidTransform near = from * from_xyz_rpy({}, {1e-6 * angle(), 0.0, 1e-9 * angle()});
+  for (const RigidTransform& to : {any(), near}) {
+    const double fraction = 0.01 * *rc::gen::inRange(0, 101);
+    const Eigen::Quaterniond slerp = from.rotation.slerp(fraction, to.rotation);
+    RC_ASSERT(interpolate(from, to, fraction).rotation.angularDistance(slerp) < 1e-7);
+    RC_ASSERT(std::abs(interpolate(from, to, fraction).rotation.norm() - 1.0) < 1e-12);
+  }
+}
+
+RC_GTEST_PROP(RotationInPlane, IsEigens, ()) {
+  const double angle = 1e-3 * *rc::gen::inRange(-10'000, 10'000);
+  RC_ASSERT((rotation_in_plane(angle) - Eigen::Rotation2Dd(angle).toRotationMatrix()).norm() <
+            1e-15);
+}
+
 TEST(Interpolate, TurnsTheShorterWay) {
   // From 170° to -170° through 180°, whichever sign the quaternions have.
   const RigidTransform from = from_planar(0.0, 0.0, radians(170.0));
