@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples do what they say, from the build tree and against the installed package."""
 
-import concurrent.futures
 import math
-import os
 import re
 import shlex
 import shutil
@@ -224,49 +222,14 @@ def a_component_needs_its_own_packages_alone(context):
     check_in("there is no component 'kitchen'", " ".join(result.err.split()), "what CMake says of it")
 
 
-EIGEN = "Eigen/Core"
-COMPILE = ["c++", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-isystem", "/usr/include/eigen3"]
-
-
-def precompile_eigen(folder):
-    """What takes the most time of all, to be put in front of the headers that include it anyway."""
-    header = folder / "eigen.h"
-    header.write_text(f"#include <{EIGEN}>\n", encoding="utf-8")
-    result = run([*COMPILE, "-x", "c++-header", header, "-o", folder / "eigen.h.gch"])
-    check_equal(result.code, 0, f"exit code of compiling {header}")
-    return header
-
-
-def includes_eigen(header, include):
-    """Whether an installed header includes EIGEN, by itself or through another of them."""
-    path = include / header
-    names = re.findall(r'^#include [<"](.*)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE)
-    return EIGEN in names or any((include / name).exists() and includes_eigen(name, include)
-                                 for name in names)
-
-
-def compile_alone(header, include, eigen):
-    """What the compiler says of a program of one line, or "" where it is well."""
-    program = eigen.parent / (header.replace("/", "_") + ".cc")
-    program.write_text(f'#include "{header}"\n', encoding="utf-8")
-    front = ["-include", eigen] if includes_eigen(header, include) else []
-    result = run([*COMPILE, "-fsyntax-only", "-I", include, *front, program])
-    return result.err[:600] if result.code else ""
-
-
 @case
-def installed_headers_stand_alone(context):
-    prefix = install(context)
-    include = prefix / "include"
+def installed_headers_are_those_that_are_listed(context):
+    """That each compiles alone is looked at by tests/structure/headers_alone_test.py."""
+    include = install(context) / "include"
     headers = sorted(str(path.relative_to(include)) for path in include.rglob("*.h"))
     listed = re.findall(r"^\| `(tagfield/\S+\.h)`", (context.source / "docs/api.md").read_text(
         encoding="utf-8"), re.MULTILINE)
     check_equal(headers, sorted(listed), "the headers that are installed, and those in docs/api.md")
-    eigen = precompile_eigen(context.folder)
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        said = pool.map(lambda header: compile_alone(header, include, eigen), headers)
-        for header, complaint in zip(headers, said):
-            check(not complaint, f"{header} does not stand alone: {complaint}")
 
 
 @case

@@ -26,6 +26,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from changes import changed_since  # noqa: E402
+
+RULES = {".clang-tidy", "tests/structure/tidy_test.py", "tests/structure/changes.py"}
 SKIPPED = 77
 MOST_SOURCES = 48  # in a unit; more take more than a gigabyte of memory
 PLANTED = "int f(int a) { int b; if (a) b = a; return b; }\n"
@@ -92,24 +96,6 @@ def sources_of(database, top):
 
 # --- What changed ---------------------------------------------------------------------------------
 
-def git(top, *words):
-    """What it prints, or None where it fails."""
-    done = subprocess.run(["git", "-c", "safe.directory=*", "-C", top, *words], stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, text=True, check=False)
-    return done.stdout if done.returncode == 0 else None
-
-
-def changed_since(commit, top):
-    """Names of files that differ from those of the commit, or are not in it; None where that can't be
-    told, or the rules changed as well."""
-    changed = git(top, "diff", "--name-only", commit)
-    added = git(top, "ls-files", "--others", "--exclude-standard")
-    if changed is None or added is None:
-        return None
-    names = set((changed + added).split("\n")) - {""}
-    return None if names & {".clang-tidy", "tests/structure/tidy_test.py"} else names
-
-
 def including(header, sources, top):
     """The source that includes it, best that of its own name, or that includes a header that does; None
     if none does."""
@@ -139,7 +125,7 @@ def looked_at(sources, since, top):
     if since is None:
         return sources, "all"
     commit = since.read_text(encoding="utf-8").split()[0]
-    names = changed_since(commit, top)
+    names = changed_since(commit, top, RULES)
     if names is None:
         return sources, f"all, as what changed since {commit[:12]} can't be told or the rules changed"
     return those_of(sources, names, top), f"changed since {commit[:12]}"

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""A program of one line that includes an installed header compiles, without a warning.
+
+    headers_alone_test.py SOURCE_DIR [--since FILE]
+
+With --since only headers that changed since the commit that FILE names, or that include, by themselves or
+through others, one that did: scripts/lint looked at all then. All where this test changed, too, or where
+there is no such commit.
+"""
+
+import argparse
+import concurrent.futures
+import functools
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from changes import changed_since  # noqa: E402
+from public_headers_test import public_headers  # noqa: E402
+
+RULES = {"tests/structure/headers_alone_test.py", "tests/structure/changes.py"}
+INCLUDE = re.compile(r'^#include [<"](.*)[>"]', re.MULTILINE)
+EIGEN = "Eigen/Core"
+COMPILE = ("c++", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-isystem", "/usr/include/eigen3")
+PLANTED = "inline std::string planted() { return {}; }\n"
+
+
+def headers_behind(name, top):
+    """The header itself and all that it includes, by themselves or through others."""
+    @functools.lru_cache(maxsize=None)
+    def behind(header):
+        found = {header}
+        path = top / header
+        if path.is_file():
+            for other in INCLUDE.findall(path.read_text(encoding="utf-8")):
+                found |= behind(other)
+        return frozenset(found)
+    return behind(name)
+
+
+def looked_at(headers, since, top):
+    """Those that are to be looked at, and why."""
+    if since is None:
+        return headers, "all"
+    commit = since.read_text(encoding="utf-8").split()[0]
+    names = changed_since(commit, str(top), RULES)
+    if names is None:
+        return headers, f"all, as what changed since {commit[:12]} can't be told or the rules changed"
+    return [name for name in headers if headers_behind(name, top) & names], f"changed since {commit[:12]}"
+
+
+class Compiler:
+    """What takes the most time of all, Eigen, it reads once, for those headers that include it anyway."""
+
+    def __init__(self, top, folder):
+        self.top = top
+        self.folder = pathlib.Path(folder)
+        self.eigen = self.folder / "eigen.h"
+        self.eigen.write_text(f"#include <{EIGEN}>\n", encoding="utf-8")
+        subprocess.run([*COMPILE, "-x", "c++-header", self.eigen, "-o", f"{self.eigen}.gch"], check=True)
+
+    def said_of(self, header, root=None):
+        """Of a program of one line, or "" where it is well."""
+        root = root or self.top
+        program = self.folder / (header.replace("/", "_") + ".cc")
+        program.write_text(f'#include "{header}"\n', encoding="utf-8")
+        front = ["-include", self.eigen] if EIGEN in headers_behind(header, root) else []
+        done = subprocess.run([*COMPILE, "-fsyntax-only", "-I", root, *front, program],
+                              stderr=subprocess.PIPE, text=True, check=False)
+        return done.stderr[:600] if done.returncode else ""
+
+    def overlooks_a_fault(self):
+        (self.folder / "planted.h").write_text(PLANTED, encoding="utf-8")
+        return not self.said_of("planted.h", self.folder)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("--since", type=pathlib.Path)
+    arguments = parser.parse_args()
+    top = arguments.source.resolve()
+    headers, why = looked_at(public_headers(top), arguments.since, top)
+    with tempfile.TemporaryDirectory(prefix="headers_alone-") as folder:
+        compiler = Compiler(top, folder)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            said = list(pool.map(compiler.said_of, headers))
+        failures = [f"{header} does not stand alone: {words}" for header, words in zip(headers, said) if words]
+        if compiler.overlooks_a_fault():
+            failures.append("a header that lacks an include is taken for well")
+    for failure in failures:
+        print(failure)
+    print(f"{len(headers)} headers ({why}), {len(failures)} failures")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
