@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/stretches.h"
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/half_turns.h"
 #include "tagfield/localization/problem.h"
 #include "tagfield/localization/stops.h"
@@ -137,7 +137,7 @@ Fit fitted(Model model, const Fit& start) {
   fit.cost = best.cost;
   fit.noise_rad = robust_noise(best.normal.residuals, model.stretches.size() + 4, kLeastNoise);
   model.noise_rad = fit.noise_rad;
-  fit.covariance = normal_at(model, fit.theta).matrix.ldlt().solve(Matrix4(Matrix4::Identity()));
+  fit.covariance = invert_symmetric(normal_at(model, fit.theta).matrix);
   return fit;
 }
 
@@ -220,8 +220,7 @@ double evidence_of(const AntennaData& data, const CalibrationOptions& options,
     evidence += evidence_of_offset(stretch.size(), fit.noise_rad);
   }
   const Vector4 prior = prior_weights(options);
-  const Eigen::LDLT<Matrix4> after(normal.matrix);
-  evidence += 0.5 * (prior.array().log().sum() - after.vectorD().array().log().sum());
+  evidence += 0.5 * (prior.array().log().sum() - log_determinant(normal.matrix));
   return evidence - 0.5 * fit.theta.dot(prior.cwiseProduct(fit.theta)) - std::log(2.0);
 }
 

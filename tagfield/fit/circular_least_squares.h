@@ -5,7 +5,6 @@
 /// log-likelihood but for its concentration.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 
@@ -89,7 +89,7 @@ CircularFit<N> fit_angles(const Eigen::Matrix<double, N, 1>& start, const Levenb
   using Next = std::optional<CircularFit<N>>;
   return descend(at(start), how, [&](const CircularFit<N>& here, double damping) -> Next {
     const Eigen::Matrix<double, N, 1> next =
-        here.unknowns + damped(here.normal.matrix, damping).ldlt().solve(here.normal.right);
+        here.unknowns + solve_symmetric(damped(here.normal.matrix, damping), here.normal.right);
     return allowed(next) ? Next(at(next)) : std::nullopt;
   });
 }

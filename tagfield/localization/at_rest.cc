@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "tagfield/base/parallel.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/hologram.h"
 #include "tagfield/localization/holograms/stretches.h"
@@ -212,7 +212,7 @@ double log_likelihood(const Followed& of, const Unknowns& unknowns) {
 
 /// xᵀ C⁻¹ x.
 double distance_of(const Eigen::Vector2d& x, const Eigen::Matrix2d& covariance) {
-  return x.dot(covariance.ldlt().solve(x));
+  return x.dot(solve_symmetric(covariance, x));
 }
 
 /// χ² of two and of one degree of freedom that chance reaches in one case of a million, and ln of
@@ -254,7 +254,7 @@ RestPoint fitted(const Followed& of, const Unknowns& start) {
   using Next = std::optional<RestPoint>;
   return descend(at(of, start), how, [&](const RestPoint& here, double damping) -> Next {
     const Unknowns next =
-        here.unknowns + damped(here.normal, damping, kRidge).ldlt().solve(here.right);
+        here.unknowns + solve_symmetric(damped(here.normal, damping, kRidge), here.right);
     return is_possible(of, next) ? Next(at(of, next)) : std::nullopt;
   });
 }
@@ -483,7 +483,7 @@ std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,
   fit.place = end.unknowns.head<3>();
   fit.departure = end.unknowns.tail<2>();
   const double left = slow_variance(of.phases, end.errors);
-  fit.covariance = left * damped(end.normal, 0.0, kRidge).inverse();
+  fit.covariance = left * invert_symmetric(damped(end.normal, 0.0, kRidge));
   if (!fit.covariance.allFinite()) return std::nullopt;
   fit.duration_s = of.phases.time_s.maxCoeff() - of.phases.time_s.minCoeff();
   const TagFit at_rest = fit_tag(of.phases, of.height, start);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/tag_fit.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -143,7 +143,7 @@ TagFit fit_tag(const TagPhases& phases, const HeightModel& height, const PlaceVe
   point =
       descend(point, kHow, [&](const FitPoint& here, double damping) -> std::optional<FitPoint> {
         const PlaceVector move =
-            damped(here.step.normal, damping, kRidge).ldlt().solve(here.step.gradient);
+            solve_symmetric(damped(here.step.normal, damping, kRidge), here.step.gradient);
         if (!is_worthwhile(move, kTolerance)) return std::nullopt;
         FitPoint there;
         there.fit = moved(here.fit, here.step, move);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/wire_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/coherent_reads.h"
@@ -142,7 +142,7 @@ WirePoint fitted(const PolarizedReads& reads, const PlaceVector& place, const Ve
   linearize(reads, start);
   return descend(start, kHow, [&](const WirePoint& here, double damping) {
     std::optional<WirePoint> there;
-    const WireUnknowns move = damped(here.normal, damping, 1e-9).ldlt().solve(here.gradient);
+    const WireUnknowns move = solve_symmetric(damped(here.normal, damping, 1e-9), here.gradient);
     if (!is_worthwhile(move, 1e-5)) return there;
     there.emplace();
     there->place = here.place + move.head<3>();
@@ -166,9 +166,9 @@ Vector3d axis_number(std::size_t i) {
 Eigen::Matrix2d added_by_direction(const WirePoint& fit, double noise_m2) {
   Normal normal = fit.normal / noise_m2;
   if (!(normal(2, 2) > 0.0)) normal(2, 2) = 1.0;
-  const Matrix3d alone = normal.topLeftCorner<3, 3>().ldlt().solve(Matrix3d::Identity());
+  const Matrix3d alone = invert_symmetric(Matrix3d(normal.topLeftCorner<3, 3>()));
   normal.bottomRightCorner<2, 2>() += Eigen::Matrix2d::Identity();
-  const Normal both = normal.ldlt().solve(Normal::Identity());
+  const Normal both = invert_symmetric(normal);
   const Eigen::Matrix2d more = (both.topLeftCorner<2, 2>() - alone.topLeftCorner<2, 2>()).eval();
   return more.allFinite() ? more : Eigen::Matrix2d::Zero();
 }
@@ -260,8 +260,8 @@ Eigen::Matrix2d added_by_any_wire(const PolarizedReads& reads, const Vector3d& p
     WirePoint without = with;
     linearize(straight, without);
     const Matrix3d normal = with.normal.topLeftCorner<3, 3>();
-    const Vector3d apart =
-        damped(normal, 1e-6, 1e-9).ldlt().solve((with.gradient - without.gradient).head<3>());
+    const Vector3d apart = solve_symmetric(damped(normal, 1e-6, 1e-9),
+                                           Vector3d((with.gradient - without.gradient).head<3>()));
     squares += apart.head<2>() * apart.head<2>().transpose() / static_cast<double>(kAxes);
   }
   return squares.allFinite() ? squares : Eigen::Matrix2d::Zero();

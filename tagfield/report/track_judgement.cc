@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/report/track_judgement.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -52,7 +52,7 @@ double nees_of(const TrackPoint& point, const Trajectory& places) {
   const Eigen::Vector2d error =
       (point.p_WT - held_pose_at(places, point.stamp).translation).head<2>();
   const Eigen::Matrix2d covariance = point.covariance.topLeftCorner<2, 2>();
-  return 0.5 * error.dot(covariance.ldlt().solve(error));
+  return 0.5 * error.dot(covariance.inverse() * error);
 }
 
 Json rounded(double value) { return std::round(value * 1e6) / 1e6; }

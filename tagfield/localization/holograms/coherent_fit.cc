@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
@@ -325,7 +325,7 @@ PlaceVector climb(const TagPhases& phases, const std::vector<Aperture>& parts,
                                     .raise = 8.0,
                                     .least_raised = 1e-3};
   const auto step = [&](const Summit& here, double damping) -> std::optional<Summit> {
-    PlaceVector move = damped(here.information, damping, kRidge).ldlt().solve(here.gradient);
+    PlaceVector move = solve_symmetric(damped(here.information, damping, kRidge), here.gradient);
     if (!is_worthwhile(move, kTolerance) || here.gradient.dot(move) < kNoGain) return std::nullopt;
     if (move.head<2>().norm() > kLongestStep) move *= kLongestStep / move.head<2>().norm();
     return summit_at(phases, parts, height, here.place + move);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/phase_curves/plane_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "tagfield/fit/levenberg_marquardt.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -123,7 +123,7 @@ Eigen::Vector2d refine(const TagPhases& phases, double height, const Eigen::Vect
       .most_steps = 40, .damping = 1e-4, .least_damping = 1e-12, .raise = 8.0};
   const auto step = [&](const PlanePoint& here, double damping) -> std::optional<PlanePoint> {
     const Eigen::Vector2d move =
-        evenly_damped(here.normal, damping, kRidge).ldlt().solve(here.gradient);
+        solve_symmetric(evenly_damped(here.normal, damping, kRidge), here.gradient);
     if (!is_worthwhile(move, kTolerance)) return std::nullopt;
     return point_at(phases, height, here.p + move);
   };

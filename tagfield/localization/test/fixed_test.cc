@@ -271,7 +271,8 @@ TEST(Fixed, KnownLobesAreTakenOut) {
     const std::string antenna = "port" + std::to_string(a);
     RigidTransform& X_WA = made.problem.tracks[antenna].X_WA.front().X_WB;
     const Eigen::Vector3d inwards = Eigen::Vector3d(kRoom / 2, kRoom / 2, kHeight) - corner(a);
-    X_WA.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), inwards);
+    X_WA.rotation =
+        Eigen::AngleAxisd(std::atan2(inwards.y(), inwards.x()), Eigen::Vector3d::UnitZ());
     for (auto& [tag, samples] : made.problem.samples) {
       const double gain = lobe_db(with, inwards, made.truth.at(tag) - corner(a));
       for (PhaseSample& sample : samples[antenna]) sample.rssi_dbm += gain;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/tracking/internal/line_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "tagfield/fit/circular_least_squares.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -114,7 +114,7 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
   fit.noise_rad = std::max(std::sqrt(errors.square().sum() / freedom), kLeastNoise);
   const Eigen::VectorXd residual = prior.values - prior.rows * as_vector(fit.motion);
   fit.prior_cost = 0.5 * residual.squaredNorm();
-  fit.covariance = normal.matrix.ldlt().solve(Matrix6d::Identity());
+  fit.covariance = invert_symmetric(normal.matrix);
   return fit;
 }
 

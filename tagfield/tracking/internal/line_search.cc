@@ -286,7 +286,8 @@ std::vector<StraightMotion> mirror_images(const Pass& pass, const StraightMotion
     const Eigen::Vector2d d = (read.p_WA - middle).head<2>();
     spread += d * d.transpose() / static_cast<double>(pass.reads.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(spread);
   if (solver.eigenvalues()(0) > kFlat * kFlat) return {};
   Eigen::Vector2d normal = solver.eigenvectors().col(0);
   if (solver.eigenvalues()(1) <= kFlat * kFlat) {

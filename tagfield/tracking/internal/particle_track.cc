@@ -9,6 +9,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -182,7 +183,7 @@ Filtered run_filter(const Pass& pass, const TrackingOptions& options, const Gaus
 
 Matrix6d inverse(const Matrix6d& covariance) {
   const Matrix6d ridge = 1e-12 * Matrix6d::Identity();
-  return (covariance + ridge).ldlt().solve(Matrix6d(Matrix6d::Identity()));
+  return invert_symmetric(Matrix6d(covariance + ridge));
 }
 
 Gaussian carried(const Gaussian& start, double time_s) {

@@ -12,6 +12,7 @@
 #include "tagfield/fit/circular_mean.h"
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -330,12 +331,12 @@ double evidence_of(const Input& input, const Slots& slots, const Forward& forwar
     if (before.fresh[i] == 0) log_evidence -= std::log(count);
   }
   const Vector6d at_start = smoothed.mean.front().head<6>();
-  const Eigen::LDLT<Matrix6d> start(input.start.covariance);
   const Vector6d off = at_start - input.start.mean;
   Vector6d motion = at_start;
   motion.head<3>() -= input.pass.reads.front().t_s * at_start.tail<3>();
   return log_evidence + log_prior(input.pass, input.options, motion) + 3.0 * std::log(kTwoPi) +
-         0.5 * start.vectorD().array().log().sum() + 0.5 * off.dot(start.solve(off));
+         0.5 * log_determinant(input.start.covariance) +
+         0.5 * off.dot(solve_symmetric(input.start.covariance, off));
 }
 
 Track track_of(const Pass& pass, const Forward& forward, const Smoothed& smoothed,
@@ -378,13 +379,13 @@ SmootherStart start_from(const Pass& pass, const TrackingOptions& options,
   const MotionPrior prior = motion_prior(pass, options);
   const Matrix6d known = prior.rows.transpose() * prior.rows;
   const Vector6d known_right = prior.rows.transpose() * prior.values;
-  const Matrix6d fitted = hypothesis.fit.covariance.ldlt().solve(Matrix6d(Matrix6d::Identity()));
+  const Matrix6d fitted = invert_symmetric(hypothesis.fit.covariance);
   Vector6d motion;
   motion << hypothesis.fit.motion.p_WT, hypothesis.fit.motion.v_WT;
-  const auto information = (known + (fitted - known) / (wider * wider)).eval().ldlt();
-  const Matrix6d covariance = information.solve(Matrix6d(Matrix6d::Identity()));
-  const Vector6d mean =
-      information.solve(Vector6d(known_right + (fitted * motion - known_right) / (wider * wider)));
+  const Matrix6d information = known + (fitted - known) / (wider * wider);
+  const Matrix6d covariance = invert_symmetric(information);
+  const Vector6d mean = solve_symmetric(
+      information, Vector6d(known_right + (fitted * motion - known_right) / (wider * wider)));
   const double time = pass.reads.front().t_s;
   Matrix6d back = Matrix6d::Identity();
   back.topRightCorner<3, 3>() = time * Eigen::Matrix3d::Identity();

@@ -20,9 +20,9 @@ Eigen::ArrayXd from_line(const TagPhases& phases) {
   const Eigen::RowVector2d middle = places.colwise().mean();
   places.rowwise() -= middle;
   const Eigen::Matrix2d scatter = places.transpose() * places;
-  const Eigen::Vector2d across =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
-  return places * across;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(scatter);
+  return places * axes.eigenvectors().col(0);
 }
 
 /// The way of all antennas, and whether it is so straight that mirror images can't be told apart.

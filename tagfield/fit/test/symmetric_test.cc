@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/fit/symmetric.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tagfield {
+namespace {
+
+/// Aᵀ A + 1 of whole numbers below `most`, so that it is positive definite.
+template <int N>
+Eigen::Matrix<double, N, N> any_positive(int most) {
+  Eigen::Matrix<double, N, N> root;
+  for (Eigen::Index i = 0; i < root.size(); ++i) root(i) = *rc::gen::inRange(1 - most, most);
+  Eigen::Matrix<double, N, N> positive = root.transpose() * root;
+  positive.diagonal().array() += 1.0;
+  return positive;
+}
+
+template <int N>
+void expect_solved() {
+  const Eigen::Matrix<double, N, N> A = any_positive<N>(10);
+  Eigen::Matrix<double, N, 1> x;
+  for (Eigen::Index i = 0; i < N; ++i) x(i) = *rc::gen::inRange(-9, 10);
+  // Wrong by rounding, times the condition number.
+  RC_ASSERT((solve_symmetric(A, Eigen::Matrix<double, N, 1>(A * x)) - x).norm() < 1e-8);
+  if constexpr (N > 2) {
+    RC_ASSERT(
+        (A * invert_symmetric(A) - Eigen::Matrix<double, N, N>::Identity()).cwiseAbs().maxCoeff() <
+        1e-8);
+  }
+}
+
+RC_GTEST_PROP(Symmetric, SolvesWhatWasMultiplied, ()) {
+  expect_solved<2>();
+  expect_solved<3>();
+  expect_solved<4>();
+  expect_solved<5>();
+  expect_solved<6>();
+}
+
+/// Leibniz' formula, over all orders of the columns.
+template <int N>
+double determinant_by_orders(const Eigen::Matrix<double, N, N>& A) {
+  Eigen::Matrix<Eigen::Index, N, 1> order;
+  for (Eigen::Index i = 0; i < N; ++i) order(i) = i;
+  double sum = 0.0;
+  do {
+    double term = 1.0;
+    for (Eigen::Index i = 0; i < N; ++i) {
+      for (Eigen::Index j = i + 1; j < N; ++j) {
+        if (order(j) < order(i)) term = -term;
+      }
+      term *= A(i, order(i));
+    }
+    sum += term;
+  } while (std::next_permutation(order.data(), order.data() + N));
+  return sum;
+}
+
+// Of small numbers: the terms, up to 25⁶ each, cancel.
+RC_GTEST_PROP(Symmetric, DeterminantIsLeibniz, ()) {
+  const Eigen::Matrix4d four = any_positive<4>(3);
+  RC_ASSERT(std::abs(log_determinant(four) - std::log(determinant_by_orders(four))) < 1e-4);
+  const Eigen::Matrix<double, 6, 6> six = any_positive<6>(3);
+  RC_ASSERT(std::abs(log_determinant(six) - std::log(determinant_by_orders(six))) < 1e-4);
+}
+
+TEST(Symmetric, WhatNothingIsSaidOfIsZero) {
+  const Eigen::Matrix2d one = Eigen::Vector2d(4.0, 0.0).asDiagonal();
+  const Eigen::Vector2d x = solve_symmetric(one, Eigen::Vector2d(2.0, 0.0));
+  EXPECT_DOUBLE_EQ(x.x(), 0.5);
+  EXPECT_EQ(x.y(), 0.0);
+}
+
+TEST(Symmetric, WhatIsNotPositiveHasNoLogarithm) {
+  const Eigen::Matrix4d negative = Eigen::Vector4d(1.0, -2.0, 1.0, 1.0).asDiagonal();
+  EXPECT_TRUE(std::isnan(log_determinant(negative)));
+}
+
+}  // namespace
+}  // namespace tagfield
