@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "tagfield/base/test/temporary_folder.h"
@@ -17,7 +18,7 @@ std::vector<TagRead> many_reads(int count) {
   std::vector<TagRead> reads;
   for (int i = 0; i < count; ++i) {
     TagRead read;
-    read.stamp = Time(Duration(1'000'000 * i));
+    read.stamp = Time(Duration(std::int64_t{1'000'000} * i));
     read.antenna = i % 10 == 9 ? "fixed" : "moving";
     read.tag = i % 10 == 9 ? "3" : (i % 2 == 0 ? "7" : std::to_string(i % 13));
     read.frequency_hz = 865.7e6;
