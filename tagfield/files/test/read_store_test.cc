@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 
@@ -25,7 +26,7 @@ std::vector<TagRead> any_reads() {
   std::vector<TagRead> reads;
   for (int i = 0; i < count; ++i) {
     TagRead read;
-    read.stamp = Time(Duration(1'000'000 * i));
+    read.stamp = Time(Duration(std::int64_t{1'000'000} * i));
     read.reader = i % 3 == 0 ? "" : "reader";
     read.antenna = i % 2 == 0 ? "left" : "right";
     read.tag = tags[static_cast<std::size_t>(i * i + i / 7) % tags.size()];
