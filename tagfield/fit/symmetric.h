@@ -8,7 +8,7 @@
 
 namespace tagfield {
 
-/// x of A x = b, for N from 2 to 6. A is positive or negative semidefinite; of what it says nothing
+/// x of A x = b. A is positive or negative semidefinite; of what it says nothing
 /// of, x is 0.
 template <int N>
 Eigen::Matrix<double, N, 1> solve_symmetric(const Eigen::Matrix<double, N, N>& A,

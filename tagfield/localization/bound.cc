@@ -140,7 +140,7 @@ Eigen::Matrix3d covariance_of(const Bounds& bounds, std::size_t i) {
 
 double mean_horizontal_error(const Eigen::Matrix3d& covariance) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(covariance.topLeftCorner<2, 2>());
+  axes.computeDirect(covariance.topLeftCorner<2, 2>());  // Iterating takes seconds to compile.
   const double low = std::max(axes.eigenvalues()[0], 0.0);
   const double high = std::max(axes.eigenvalues()[1], 0.0);
   if (high <= 0.0) return 0.0;

@@ -4,9 +4,9 @@
 
     headers_alone_test.py SOURCE_DIR [--since FILE]
 
-With --since only headers that changed since the commit that FILE names, or that include, by themselves or
-through others, one that did: scripts/lint looked at all then. All where this test changed, too, or where
-there is no such commit.
+With --since only headers that changed since the commit that FILE names, that include, by themselves or
+through others, one that did, or whose room's CMakeLists.txt did: scripts/lint looked at all then. All where
+this test changed, too, or where there is no such commit.
 """
 
 import argparse
@@ -23,24 +23,24 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from changes import changed_since  # noqa: E402
 from public_headers_test import public_headers  # noqa: E402
 
-RULES = {"tests/structure/headers_alone_test.py", "tests/structure/changes.py"}
+RULES = {f"tests/structure/{name}.py" for name in ("headers_alone_test", "public_headers_test", "changes")}
 INCLUDE = re.compile(r'^#include [<"](.*)[>"]', re.MULTILINE)
 EIGEN = "Eigen/Core"
 COMPILE = ("c++", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-isystem", "/usr/include/eigen3")
 PLANTED = "inline std::string planted() { return {}; }\n"
 
 
+@functools.lru_cache(maxsize=None)
 def headers_behind(name, top):
-    """The header itself and all that it includes, by themselves or through others."""
-    @functools.lru_cache(maxsize=None)
-    def behind(header):
-        found = {header}
-        path = top / header
-        if path.is_file():
-            for other in INCLUDE.findall(path.read_text(encoding="utf-8")):
-                found |= behind(other)
-        return frozenset(found)
-    return behind(name)
+    """The header itself and all that it includes, by itself or through others."""
+    path = top / name
+    others = INCLUDE.findall(path.read_text(encoding="utf-8")) if path.is_file() else []
+    return frozenset({name}).union(*(headers_behind(other, top) for other in others))
+
+
+def room_list_of(header):
+    """The file that says that it is installed."""
+    return "/".join(header.split("/")[:2]) + "/CMakeLists.txt"
 
 
 def looked_at(headers, since, top):
@@ -51,7 +51,8 @@ def looked_at(headers, since, top):
     names = changed_since(commit, str(top), RULES)
     if names is None:
         return headers, f"all, as what changed since {commit[:12]} can't be told or the rules changed"
-    return [name for name in headers if headers_behind(name, top) & names], f"changed since {commit[:12]}"
+    chosen = [name for name in headers if names & (headers_behind(name, top) | {room_list_of(name)})]
+    return chosen, f"changed since {commit[:12]}"
 
 
 class Compiler:
@@ -69,7 +70,7 @@ class Compiler:
         root = root or self.top
         program = self.folder / (header.replace("/", "_") + ".cc")
         program.write_text(f'#include "{header}"\n', encoding="utf-8")
-        front = ["-include", self.eigen] if EIGEN in headers_behind(header, root) else []
+        front = ("-include", self.eigen) if EIGEN in headers_behind(header, root) else ()
         done = subprocess.run([*COMPILE, "-fsyntax-only", "-I", root, *front, program],
                               stderr=subprocess.PIPE, text=True, check=False)
         return done.stderr[:600] if done.returncode else ""

@@ -71,6 +71,13 @@ TEST(Method, SettingsThatNoneUsesAreRefusedWithWhoDoes) {
       "strid_m is not used by guess: it is a setting of no method (did you mean 'stride_m'?)");
 }
 
+TEST(Method, ASettingThatNoneUsesIsRefusedAfterOneThatIsUsed) {
+  const std::vector<Method> all = built_in_methods();
+  const MethodSettings both = {{"stride_m", "1", {"a.yaml", 5}}, {"particles", "9", {"a.yaml", 6}}};
+  EXPECT_EQ(error_of([&] { refuse_unused(both, {find_method(all, "hyperbola")}, all); }),
+            "a.yaml:6: particles is not used by hyperbola: it is a setting of particle");
+}
+
 TEST(Method, AutoTakesTheSettingsOfThoseThatItMayChoose) {
   const Method automatic = find_method(built_in_methods(), "auto");
   for (const char* const key : {"neighbours", "slope_db", "min_share", "cell_m"}) {

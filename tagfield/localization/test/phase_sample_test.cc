@@ -129,6 +129,18 @@ TEST(Join, KeepsWhatIsNotFiniteOut) {
   EXPECT_EQ(diagnostics.warnings().size(), 2u);
 }
 
+TEST(Join, LeavesOutPosesWithACovarianceOnlyWhereThatIsNotFinite) {
+  Diagnostics diagnostics;
+  AntennaPose unsure = pose_at_x(1.05, 9.0);
+  unsure.covariance = Eigen::Matrix3d::Constant(kNan);
+  AntennaPose sure = pose_at_x(1.3, 3.0);
+  sure.covariance = Eigen::Matrix3d::Identity();
+  const auto joined = join({read_of(1.1)}, {pose_at_x(1.0, 0.0), unsure, sure}, diagnostics);
+  ASSERT_EQ(joined.at("t").at("a").size(), 1u);
+  EXPECT_NEAR(joined.at("t").at("a")[0].p_WA.x(), 1.0, 1e-9);
+  EXPECT_EQ(diagnostics.warnings().size(), 1u);
+}
+
 TEST(Join, KeepsTagsAndAntennasApartAndTagsWithoutPoseListed) {
   Diagnostics diagnostics;
   const auto joined = join({read_of(1.0, 1.0, "a", "t"), read_of(1.0, 2.0, "b", "t"),

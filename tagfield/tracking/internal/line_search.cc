@@ -287,7 +287,7 @@ std::vector<StraightMotion> mirror_images(const Pass& pass, const StraightMotion
     spread += d * d.transpose() / static_cast<double>(pass.reads.size());
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-  solver.computeDirect(spread);
+  solver.computeDirect(spread);  // Iterating takes seconds to compile.
   if (solver.eigenvalues()(0) > kFlat * kFlat) return {};
   Eigen::Vector2d normal = solver.eigenvectors().col(0);
   if (solver.eigenvalues()(1) <= kFlat * kFlat) {

@@ -21,7 +21,7 @@ Eigen::ArrayXd from_line(const TagPhases& phases) {
   places.rowwise() -= middle;
   const Eigen::Matrix2d scatter = places.transpose() * places;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(scatter);
+  axes.computeDirect(scatter);  // Iterating takes seconds to compile.
   return places * axes.eigenvectors().col(0);
 }
 
