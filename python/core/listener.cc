@@ -4,6 +4,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <deque>
+
 #include "python/core/calls.h"
 #include "tagfield/base/error.h"
 
@@ -34,7 +36,15 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
     throw Error("an outlet must be a function of a read, or have methods of tagfield.Outlet");
   }
 
-  void on_read(const TagRead& read) override { call(read_, read); }
+  void on_read(const TagRead& read) override {
+    if (!distances_.empty()) {
+      const TrueDistance& distance = distances_.front();
+      call(distance_, to_seconds(distance.stamp), distance.antenna, distance.tag,
+           distance.distance_m);
+      distances_.pop_front();
+    }
+    call(read_, read);
+  }
   void on_update(const AntennaInfo& antenna, Time stamp) override {
     call(update_, antenna.name, to_seconds(stamp));
   }
@@ -52,9 +62,9 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
   void on_antenna_pose(const AntennaInfo& /*antenna*/, const AntennaPose& pose) override {
     call(antenna_pose_, pose);
   }
+  // Many may come at once; each is told right before its read.
   void on_distance(const TrueDistance& distance) override {
-    call(distance_, to_seconds(distance.stamp), distance.antenna, distance.tag,
-         distance.distance_m);
+    if (distance_) distances_.push_back(distance);
   }
 
  private:
@@ -71,6 +81,7 @@ class PythonListener final : public ReadListener, public PoseListener, public Tr
 
   Held read_, update_, antenna_added_, antenna_removed_, pose_, tag_added_, tag_moved_,
       tag_removed_, robot_pose_, antenna_pose_, distance_;
+  std::deque<TrueDistance> distances_;  ///< Of reads that are still to come.
 };
 
 }  // namespace

@@ -159,6 +159,25 @@ def test_outlets_hear_what_is_recorded(scenario):
     assert heard.robots == len(run.truth.robots)
 
 
+def test_each_distance_comes_right_before_its_read(scenario):
+    class InOrder(tagfield.Outlet):
+        def __init__(self):
+            self.calls = []
+
+        def on_read(self, read):
+            self.calls.append(("read", read.tag, read.stamp_s))
+
+        def on_distance(self, stamp_s, antenna, tag, distance_m):
+            self.calls.append(("distance", tag, stamp_s))
+
+    heard = InOrder()
+    run = scenario.with_(duration_s=1).run(outlets=[heard], locate=False)
+    assert len(heard.calls) == 2 * len(run.reads) > 0
+    for distance, read in zip(heard.calls[::2], heard.calls[1::2]):
+        assert (distance[0], read[0]) == ("distance", "read")
+        assert distance[1:] == read[1:]
+
+
 def test_what_an_outlet_raises_is_raised(scenario):
     def spoilsport(read):
         raise LookupError(read.tag)

@@ -47,7 +47,7 @@ class RfidField::Impl {
   void step(const FieldStep& step);
   void finish() { telling_.tell(Time::max()); }
   std::vector<std::string> take_warnings();
-  [[nodiscard]] std::int64_t reads() const { return reads_; }
+  [[nodiscard]] std::int64_t reads() const { return telling_.reads(); }
 
  private:
   struct Antenna {
@@ -65,6 +65,7 @@ class RfidField::Impl {
   void add(const TagAdded& tag);
   void move(const std::vector<TagMoved>& moved);
   void tell_places(const FieldStep& step);
+  void take_over(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp);
   void update(const AntennaDue& due, Time stamp);
 
   Telling telling_;
@@ -77,7 +78,6 @@ class RfidField::Impl {
   std::size_t warnings_taken_ = 0;
   std::vector<std::uint32_t> moved_;  ///< Numbers; kept to save allocations.
   std::vector<TagReply> replies_;     ///< Likewise.
-  std::int64_t reads_ = 0;
 };
 
 RfidField::Impl::Impl(Outlets outlets, std::shared_ptr<const RadioWorld> world)
@@ -199,6 +199,19 @@ void RfidField::Impl::tell_places(const FieldStep& step) {
   for (const AntennaPose& robot : step.robots) telling_.add_robot(robot);
 }
 
+/// The replies that came of an antenna's update at `stamp`.
+void RfidField::Impl::take_over(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp) {
+  const bool all_now = std::all_of(replies_.begin(), replies_.end(),
+                                   [&](const TagReply& reply) { return reply.stamp == stamp; });
+  if (all_now) {
+    telling_.add(antenna, stamp, tags_, replies_);
+    return;
+  }
+  for (const TagReply& reply : replies_) {
+    telling_.add(to_read(antenna->parameters, tags_.id(reply.slot), reply), reply.distance_m);
+  }
+}
+
 void RfidField::Impl::update(const AntennaDue& due, Time stamp) {
   const AntennaParameters& parameters = due.antenna->parameters;
   const std::shared_ptr<const AntennaInfo>& antenna = info(due.antenna);
@@ -206,18 +219,9 @@ void RfidField::Impl::update(const AntennaDue& due, Time stamp) {
   if (meets_world(parameters)) {
     air_.update(parameters.name, due.X_WA, stamp, tags_, replies_);
     if (due.is_last) air_.expect_no_more_of(parameters.name);
+    take_over(due.antenna, stamp);
   } else {
-    read_tags(parameters, due.X_WA.translation, stamp, due.antenna->seed, tags_, replies_);
-  }
-  reads_ += static_cast<std::int64_t>(replies_.size());
-  const bool all_now = std::all_of(replies_.begin(), replies_.end(),
-                                   [&](const TagReply& reply) { return reply.stamp == stamp; });
-  if (all_now) {
-    telling_.add(due.antenna, stamp, tags_, replies_);
-  } else {
-    for (const TagReply& reply : replies_) {
-      telling_.add(to_read(parameters, tags_.id(reply.slot), reply), reply.distance_m);
-    }
+    telling_.add(due.antenna, stamp, tags_, due.X_WA.translation);
   }
   telling_.add(antenna, stamp, due.X_WA, due.X_PA);
 }

@@ -38,8 +38,8 @@ void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
       paper(antenna).sensitivity_dbm.value_or(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
     if (rssis_dbm[i] < least_dbm) continue;
-    replies.push_back(
-        {slots[i], stamp, frequency_hz, phases_rad[i], rssis_dbm[i], distances_m[i], std::nullopt});
+    replies.emplace_back(slots[i], stamp, frequency_hz, phases_rad[i], rssis_dbm[i], distances_m[i],
+                         std::nullopt);
   }
 }
 
@@ -77,17 +77,28 @@ void TagPopulation::remove(std::uint32_t slot) {
 }
 
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
-               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies) {
-  replies.clear();
+               std::uint64_t seed, const TagPopulation& tags,
+               const std::function<void(std::span<const TagReply>)>& take) {
   const std::uint64_t antenna_key = stream_key(antenna.name);
   std::vector<std::uint32_t> slots;
   tags.index().within(p_WA, perturbed_range(antenna, stamp, seed), slots);
-  replies.reserve(slots.size());
+  std::vector<TagReply> replies;
+  replies.reserve(std::min(kAtOnce, slots.size()));
   for (std::size_t begin = 0; begin < slots.size(); begin += kAtOnce) {
     const std::size_t count = std::min(kAtOnce, slots.size() - begin);
+    replies.clear();
     read_some(antenna, antenna_key, p_WA, stamp, seed, tags, {slots.data() + begin, count},
               replies);
+    if (!replies.empty()) take(replies);
   }
+}
+
+void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
+               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies) {
+  replies.clear();
+  read_tags(antenna, p_WA, stamp, seed, tags, [&](std::span<const TagReply> some) {
+    replies.insert(replies.end(), some.begin(), some.end());
+  });
 }
 
 TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply) {

@@ -5,8 +5,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -103,8 +105,13 @@ struct TagReply {
 };
 
 /// The reads of the antenna's update at `stamp` with the antenna at `p_WA` [m]: of all tags within
-/// perturbed_range(), in rising order of slots, into `replies` (emptied first). Each is what
+/// perturbed_range(), in rising order of slots, some hundreds a call of `take`. Each is what
 /// read_tag() gives for that tag. None where `p_WA` is not finite.
+void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
+               std::uint64_t seed, const TagPopulation& tags,
+               const std::function<void(std::span<const TagReply>)>& take);
+
+/// All of them into `replies` (emptied first).
 void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
                std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -49,40 +50,72 @@ std::vector<bool> reachable_cells(const OccupancyGrid& truth, const Eigen::Vecto
   return reached;
 }
 
-/// As std::floor(), of what is not below −1.
-int cell_at(double place) { return place < 0.0 ? -1 : static_cast<int>(place); }
-
-/// Marks the free cells along a ray, up to the first that is not free.
-void look(const OccupancyGrid& truth, int x, int y, const Eigen::Vector2d& direction,
-          std::vector<char>& seen) {
-  // Half a cell a step misses no more than a corner, and leaves the map by less than a cell.
-  for (double way = 0.0;; way += 0.5) {
-    const int u = cell_at(x + 0.5 + way * direction.x());
-    const int v = cell_at(y + 0.5 + way * direction.y());
-    if (!is_free(truth.at(u, v))) return;
-    seen[truth.index(u, v)] = 1;
+/// Where a ray from the middle of a cell comes to, half a cell a step: cells as steps in a grid
+/// that is `width` wide, each once. That misses no more than a corner.
+std::vector<std::ptrdiff_t> steps_along(double angle, int width, int count) {
+  const Eigen::Vector2d direction(cosine(angle), sine(angle));
+  std::vector<std::ptrdiff_t> steps;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2d at = Eigen::Vector2d::Constant(0.5) + 0.5 * i * direction;
+    const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(std::floor(at.y())) * width +
+                                static_cast<std::ptrdiff_t>(std::floor(at.x()));
+    if (steps.empty() || steps.back() != step) steps.push_back(step);
   }
+  return steps;
 }
 
-std::vector<Eigen::Vector2d> directions() {
-  std::vector<Eigen::Vector2d> all;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = i * kTwoPi / kDirections;
-    all.emplace_back(cosine(angle), sine(angle));
+/// Which cells are free, with a rim around the grid that is not: 2 cells wider and higher.
+std::vector<char> free_within_rim(const OccupancyGrid& grid) {
+  const std::size_t width = static_cast<std::size_t>(grid.width) + 2;
+  std::vector<char> all(width * (static_cast<std::size_t>(grid.height) + 2), 0);
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      all[(static_cast<std::size_t>(y) + 1) * width + static_cast<std::size_t>(x) + 1] =
+          is_free(grid.at(x, y)) ? 1 : 0;
+    }
   }
   return all;
 }
 
-std::vector<char> seen_cells(const OccupancyGrid& truth, const std::vector<bool>& reached) {
-  std::vector<char> seen(truth.cells.size(), 0);
-  const std::vector<Eigen::Vector2d> around = directions();
+/// Places in free_within_rim() from which the robot looks around.
+std::vector<std::size_t> lookouts(const OccupancyGrid& truth, const std::vector<bool>& reached) {
   const int step =
       std::max(1, static_cast<int>(std::lround(kLookoutSpacing_m / truth.resolution_m)));
+  const std::size_t width = static_cast<std::size_t>(truth.width) + 2;
+  std::vector<std::size_t> all;
   for (int y = 0; y < truth.height; y += step) {
     for (int x = 0; x < truth.width; x += step) {
       if (!reached[truth.index(x, y)]) continue;
-      for (const Eigen::Vector2d& direction : around) look(truth, x, y, direction, seen);
+      all.push_back((static_cast<std::size_t>(y) + 1) * width + static_cast<std::size_t>(x) + 1);
     }
+  }
+  return all;
+}
+
+/// Marks the free cells along all rays, up to the first that is not free: by direction, as rays in
+/// one direction take the same steps.
+std::vector<char> seen_cells(const OccupancyGrid& truth, const std::vector<bool>& reached) {
+  const std::vector<char> is_open = free_within_rim(truth);
+  const std::vector<std::size_t> from = lookouts(truth, reached);
+  std::vector<char> marked(is_open.size(), 0);
+  const int width = truth.width + 2;
+  // Half a cell at 45° leads 0.35 columns and rows on: then a ray has left the grid.
+  const int count = 3 * (std::max(truth.width, truth.height) + 1);
+  for (int i = 0; i < kDirections; ++i) {
+    const std::vector<std::ptrdiff_t> steps = steps_along(i * kTwoPi / kDirections, width, count);
+    for (const std::size_t place : from) {
+      for (const std::ptrdiff_t step : steps) {
+        const auto at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place) + step);
+        if (is_open[at] == 0) break;
+        marked[at] = 1;
+      }
+    }
+  }
+  std::vector<char> seen;
+  seen.reserve(truth.cells.size());
+  for (int y = 1; y <= truth.height; ++y) {
+    const auto row = marked.begin() + static_cast<std::ptrdiff_t>(y) * width + 1;
+    seen.insert(seen.end(), row, row + truth.width);
   }
   return seen;
 }

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -28,6 +30,32 @@ struct AntennaInfo {
   bool tells_doppler = false;
 };
 
+/// Reads of one antenna at one time. Names are valid for the call.
+struct ReadBatch {
+  struct Row {
+    const std::string* tag;  ///< Its ID; never null.
+    double frequency_hz;     ///< As in TagRead.
+    double phase_rad;
+    double rssi_dbm;
+    std::optional<double> doppler_hz;
+  };
+  Time stamp;
+  const std::string& reader;
+  const std::string& antenna;
+  std::span<const Row> rows;
+};
+
+/// The distances behind a ReadBatch, in its order.
+struct DistanceBatch {
+  struct Row {
+    const std::string* tag;  ///< Its ID; never null.
+    double distance_m;
+  };
+  Time stamp;
+  const std::string& antenna;
+  std::span<const Row> rows;
+};
+
 /// Gets reads. All calls come from one thread at a time.
 class ReadListener {
  public:
@@ -38,6 +66,18 @@ class ReadListener {
 
   /// One read. Over all antennas, stamps never fall until on_restart().
   virtual void on_read(const TagRead& read) = 0;
+  /// Many at once, for those who can take them faster than one by one.
+  virtual void on_reads(const ReadBatch& batch) {
+    TagRead read{batch.stamp, batch.reader, batch.antenna, {}};
+    for (const ReadBatch::Row& row : batch.rows) {
+      read.tag = *row.tag;
+      read.frequency_hz = row.frequency_hz;
+      read.phase_rad = row.phase_rad;
+      read.rssi_dbm = row.rssi_dbm;
+      read.doppler_hz = row.doppler_hz;
+      on_read(read);
+    }
+  }
   /// The antenna's update at `stamp`, after its reads but for those that earlier ones may precede.
   virtual void on_update(const AntennaInfo& /*antenna*/, Time /*stamp*/) {}
   virtual void on_antenna_added(const AntennaInfo& /*antenna*/) {}
@@ -75,8 +115,17 @@ class TruthListener {
   virtual void on_robot_pose(const AntennaPose& /*robot*/) {}
   /// At an update, before its ReadListener::on_update().
   virtual void on_antenna_pose(const AntennaInfo& /*antenna*/, const AntennaPose& /*pose*/) {}
-  /// Of each read, right before it.
+  /// Of each read, before it; of reads that come at once, of all before the first.
   virtual void on_distance(const TrueDistance& /*distance*/) {}
+  /// Many at once, before their ReadListener::on_reads().
+  virtual void on_distances(const DistanceBatch& batch) {
+    TrueDistance distance{batch.stamp, batch.antenna, {}};
+    for (const DistanceBatch::Row& row : batch.rows) {
+      distance.tag = *row.tag;
+      distance.distance_m = row.distance_m;
+      on_distance(distance);
+    }
+  }
 };
 
 /// Who is told, each in the order of attachment.

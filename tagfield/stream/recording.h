@@ -36,6 +36,13 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   explicit Recorder(Recording& recording) : recording_(recording) {}
 
   void on_read(const TagRead& read) override { recording_.reads.push_back(read); }
+  // Rows are made in their place: to copy their names twice takes longer than all else.
+  void on_reads(const ReadBatch& batch) override {
+    for (const ReadBatch::Row& row : batch.rows) {
+      recording_.reads.emplace_back(batch.stamp, batch.reader, batch.antenna, *row.tag,
+                                    row.frequency_hz, row.phase_rad, row.rssi_dbm, row.doppler_hz);
+    }
+  }
   void on_antenna_removed(const std::string& name) override {
     told_.forget(name);
     placed_.forget(name);
@@ -57,6 +64,11 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   }
   void on_distance(const TrueDistance& distance) override {
     recording_.truth.distances.push_back(distance);
+  }
+  void on_distances(const DistanceBatch& batch) override {
+    for (const DistanceBatch::Row& row : batch.rows) {
+      recording_.truth.distances.emplace_back(batch.stamp, batch.antenna, *row.tag, row.distance_m);
+    }
   }
 
  private:

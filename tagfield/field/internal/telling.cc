@@ -12,12 +12,19 @@ void Telling::push(Time stamp, What what) {
 }
 
 void Telling::add(const TagRead& read, double distance_m) {
+  ++reads_;
   push(read.stamp, Read{read, distance_m});
+}
+
+void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+                  const TagPopulation& tags, const Eigen::Vector3d& p_WA) {
+  push(stamp, Unmade{antenna, &tags, p_WA});
 }
 
 void Telling::add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
                   const TagPopulation& tags, std::vector<TagReply>& replies) {
   if (replies.empty()) return;
+  reads_ += static_cast<std::int64_t>(replies.size());
   Reads reads{antenna, &tags, {}};
   if (!spare_.empty()) {
     reads.replies = std::move(spare_.back());
@@ -40,32 +47,47 @@ void Telling::add_removed(Time stamp, const std::string& tag) { push(stamp, Remo
 void Telling::add_placed(Time stamp) { push(stamp, Placed{}); }
 void Telling::add_robot(const AntennaPose& robot) { push(robot.stamp, robot); }
 
-void Telling::tell(const TagRead& read, const TrueDistance& distance) const {
-  for (const auto& listener : outlets_.truth) listener->on_distance(distance);
-  for (const auto& listener : outlets_.reads) listener->on_read(read);
-}
-
 void Telling::tell(Time /*stamp*/, const Read& read) const {
   const TagRead& told = read.read;
-  tell(told, {told.stamp, told.antenna, told.tag, read.distance_m});
+  const TrueDistance distance{told.stamp, told.antenna, told.tag, read.distance_m};
+  for (const auto& listener : outlets_.truth) listener->on_distance(distance);
+  for (const auto& listener : outlets_.reads) listener->on_read(told);
 }
 
-void Telling::tell(Time stamp, const Reads& reads) const {
-  const AntennaParameters& antenna = reads.antenna->parameters;
-  // What all have in common is copied once.
-  TagRead told = to_read(antenna, "", {});
-  told.stamp = stamp;
-  TrueDistance distance{stamp, antenna.name, "", 0.0};
-  for (const TagReply& reply : reads.replies) {
-    told.tag = reads.tags->id(reply.slot);
-    told.frequency_hz = reply.frequency_hz;
-    told.phase_rad = reply.phase_rad;
-    told.rssi_dbm = reply.rssi_dbm;
-    told.doppler_hz = reply.doppler_hz;
-    distance.tag = told.tag;
-    distance.distance_m = reply.distance_m;
-    tell(told, distance);
+/// At most a few hundred, so that nothing leaves the cache on its way to the listeners.
+void Telling::tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
+                            std::span<const TagReply> replies) {
+  rows_.clear();
+  distance_rows_.clear();
+  for (const TagReply& reply : replies) {
+    const std::string& tag = tags.id(reply.slot);
+    rows_.emplace_back(&tag, reply.frequency_hz, reply.phase_rad, reply.rssi_dbm, reply.doppler_hz);
+    distance_rows_.emplace_back(&tag, reply.distance_m);
   }
+  for (const auto& listener : outlets_.truth) {
+    listener->on_distances({stamp, antenna.name, distance_rows_});
+  }
+  for (const auto& listener : outlets_.reads) {
+    listener->on_reads({stamp, antenna.reader, antenna.name, rows_});
+  }
+}
+
+void Telling::tell(Time stamp, const Reads& reads) {
+  constexpr std::size_t kAtOnce = 256;
+  const std::span<const TagReply> all(reads.replies);
+  for (std::size_t begin = 0; begin < all.size(); begin += kAtOnce) {
+    tell_together(reads.antenna->parameters, stamp, *reads.tags,
+                  all.subspan(begin, std::min(kAtOnce, all.size() - begin)));
+  }
+}
+
+void Telling::tell(Time stamp, const Unmade& unmade) {
+  const FieldAntenna& antenna = *unmade.antenna;
+  read_tags(antenna.parameters, unmade.p_WA, stamp, antenna.seed, *unmade.tags,
+            [&](std::span<const TagReply> replies) {
+              reads_ += static_cast<std::int64_t>(replies.size());
+              tell_together(antenna.parameters, stamp, *unmade.tags, replies);
+            });
 }
 
 void Telling::tell(Time stamp, const Update& update) const {
@@ -104,21 +126,32 @@ void Telling::tell(Time /*stamp*/, const AntennaPose& robot) const {
 }
 
 bool Telling::is_kept(const Event& event, Time until) {
-  const bool is_read =
-      std::holds_alternative<Read>(event.what) || std::holds_alternative<Reads>(event.what);
+  const bool is_read = std::holds_alternative<Read>(event.what) ||
+                       std::holds_alternative<Reads>(event.what) ||
+                       std::holds_alternative<Unmade>(event.what);
   return is_read && event.stamp > until;
 }
 
-/// With the tags' IDs, which may be others' by then.
+/// With the tags' IDs and places, which may be others' by then.
 void Telling::keep(Event& event, std::vector<Event>& kept) {
-  const auto* const reads = std::get_if<Reads>(&event.what);
-  if (reads == nullptr) {
+  const auto keep_all = [&](const FieldAntenna& antenna, const TagPopulation& tags,
+                            std::span<const TagReply> replies) {
+    for (const TagReply& reply : replies) {
+      const TagRead read = to_read(antenna.parameters, tags.id(reply.slot), reply);
+      kept.push_back({event.stamp, Read{read, reply.distance_m}});
+    }
+  };
+  if (const auto* const reads = std::get_if<Reads>(&event.what)) {
+    keep_all(*reads->antenna, *reads->tags, reads->replies);
+  } else if (const auto* const unmade = std::get_if<Unmade>(&event.what)) {
+    const FieldAntenna& antenna = *unmade->antenna;
+    read_tags(antenna.parameters, unmade->p_WA, event.stamp, antenna.seed, *unmade->tags,
+              [&](std::span<const TagReply> replies) {
+                reads_ += static_cast<std::int64_t>(replies.size());
+                keep_all(antenna, *unmade->tags, replies);
+              });
+  } else {
     kept.push_back(std::move(event));
-    return;
-  }
-  for (const TagReply& reply : reads->replies) {
-    const TagRead read = to_read(reads->antenna->parameters, reads->tags->id(reply.slot), reply);
-    kept.push_back({event.stamp, Read{read, reply.distance_m}});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,8 +28,12 @@ class Telling {
   [[nodiscard]] const Outlets& outlets() const { return outlets_; }
 
   void add(const TagRead& read, double distance_m);
-  /// All of one update at `stamp`, in order: `replies` become empty. `tags` must stay as they are
+  /// All that read_tags() reads with `antenna` at `p_WA` [m] at `stamp`. It is made when it is
+  /// told, a piece at a time, so that it need not go through memory; `tags` must stay as they are
   /// until the next tell().
+  void add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
+           const TagPopulation& tags, const Eigen::Vector3d& p_WA);
+  /// All of one update at `stamp`, in order: `replies` become empty. `tags` likewise.
   void add(const std::shared_ptr<const FieldAntenna>& antenna, Time stamp,
            const TagPopulation& tags, std::vector<TagReply>& replies);
   /// `antenna`'s update at `stamp`, after its reads were added.
@@ -43,6 +48,9 @@ class Telling {
   /// Tells all but the reads after `until`, up to which no read will be added any more.
   void tell(Time until);
 
+  /// Reads that were added, those that are not made yet excepted: none after tell().
+  [[nodiscard]] std::int64_t reads() const { return reads_; }
+
  private:
   struct Read {
     TagRead read;
@@ -53,6 +61,12 @@ class Telling {
     std::shared_ptr<const FieldAntenna> antenna;
     const TagPopulation* tags;
     std::vector<TagReply> replies;
+  };
+  /// Reads that are not made yet.
+  struct Unmade {
+    std::shared_ptr<const FieldAntenna> antenna;
+    const TagPopulation* tags;
+    Eigen::Vector3d p_WA;
   };
   struct Update {
     std::shared_ptr<const AntennaInfo> antenna;
@@ -67,17 +81,19 @@ class Telling {
     std::string tag;
   };
   struct Placed {};
-  using What = std::variant<Read, Reads, Update, Place, Removed, Placed, AntennaPose>;
+  using What = std::variant<Read, Reads, Unmade, Update, Place, Removed, Placed, AntennaPose>;
   struct Event {
     Time stamp;
     What what;
   };
   void push(Time stamp, What what);
   void tell(Time stamp, const Read& read) const;
-  void tell(Time stamp, const Reads& reads) const;
-  void tell(const TagRead& read, const TrueDistance& distance) const;
+  void tell(Time stamp, const Reads& reads);
+  void tell(Time stamp, const Unmade& unmade);
+  void tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
+                     std::span<const TagReply> replies);
   [[nodiscard]] static bool is_kept(const Event& event, Time until);
-  static void keep(Event& event, std::vector<Event>& kept);
+  void keep(Event& event, std::vector<Event>& kept);
   void tell(Time stamp, const Update& update) const;
   void tell(Time stamp, const Place& place) const;
   void tell(Time stamp, const Removed& removed) const;
@@ -87,7 +103,10 @@ class Telling {
   Outlets outlets_;
   std::vector<Event> events_;
   bool is_sorted_ = true;
-  std::vector<std::vector<TagReply>> spare_;  ///< Emptied, to be filled anew.
+  std::int64_t reads_ = 0;
+  std::vector<std::vector<TagReply>> spare_;       ///< Emptied, to be filled anew.
+  std::vector<ReadBatch::Row> rows_;               ///< Kept to save allocations.
+  std::vector<DistanceBatch::Row> distance_rows_;  ///< Likewise.
 };
 
 }  // namespace tagfield

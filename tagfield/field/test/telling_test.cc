@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -19,6 +20,7 @@ struct Heard final : ReadListener, PoseListener, TruthListener {
   std::vector<std::string> words;
   std::vector<Time> stamps;
   std::vector<TagRead> reads;
+  std::vector<double> distances_m;
   void on_read(const TagRead& read) override {
     words.push_back("read " + read.tag);
     stamps.push_back(read.stamp);
@@ -35,6 +37,7 @@ struct Heard final : ReadListener, PoseListener, TruthListener {
   }
   void on_distance(const TrueDistance& distance) override {
     words.push_back("distance " + distance.tag);
+    distances_m.push_back(distance.distance_m);
   }
 };
 
@@ -160,7 +163,19 @@ TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
       told->telling.tell(at_nanos(nanos));
     }
   }
-  EXPECT_EQ(together.heard->words, apart.heard->words);
+  const std::vector<std::string> of_one_update = {"distance C", "distance A", "distance B",
+                                                  "read C",     "read A",     "read B",
+                                                  "truth gate", "update gate"};
+  std::vector<std::string> of_both = of_one_update;
+  of_both.insert(of_both.end(), of_one_update.begin(), of_one_update.end());
+  EXPECT_EQ(together.heard->words, of_both);
+  // One by one, each distance is told right before its read.
+  EXPECT_EQ(apart.heard->words[0], "distance C");
+  EXPECT_EQ(apart.heard->words[1], "read C");
+  EXPECT_EQ(together.heard->distances_m, apart.heard->distances_m);
+  EXPECT_EQ(together.telling.reads(), 6);
+  EXPECT_EQ(apart.telling.reads(), 6);
+  ASSERT_EQ(apart.heard->reads.size(), 6U);
   ASSERT_EQ(together.heard->reads.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i) {
     const TagRead& one = together.heard->reads[i];
@@ -170,6 +185,68 @@ TEST(Telling, TellsManyReadsAsItTellsThemOneByOne) {
               std::tie(other.stamp, other.reader, other.antenna, other.tag, other.frequency_hz,
                        other.phase_rad, other.rssi_dbm, other.doppler_hz));
   }
+}
+
+/// `count` tags within reach of an antenna at the origin, which reads by the paper's model.
+struct ManyTags {
+  explicit ManyTags(std::uint32_t count) {
+    FieldAntenna made;
+    made.parameters.name = "gate";
+    made.parameters.reader = "reader_1";
+    antenna = std::make_shared<const FieldAntenna>(made);
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
+      tags.add(slot, "T" + std::to_string(slot), {1.0 + 0.001 * slot, 0.5, 0.0});
+    }
+  }
+  std::shared_ptr<const FieldAntenna> antenna;
+  TagPopulation tags{3.5};
+};
+
+// What is made while it is told, a piece at a time, against all of it made at once.
+TEST(Telling, MakesReadsAsItTellsThem) {
+  const ManyTags field(1000);
+  Told later;
+  later.telling.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
+  EXPECT_EQ(later.telling.reads(), 0);
+  Told made;
+  std::vector<TagReply> replies;
+  read_tags(field.antenna->parameters, Eigen::Vector3d::Zero(), at_nanos(5), field.antenna->seed,
+            field.tags, replies);
+  ASSERT_EQ(replies.size(), 1000U);
+  for (const TagReply& reply : replies) {
+    made.telling.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),
+                     reply.distance_m);
+  }
+  for (Told* const told : {&later, &made}) {
+    told->telling.tell(at_nanos(5));
+    EXPECT_EQ(told->telling.reads(), 1000);
+  }
+  EXPECT_EQ(later.heard->distances_m, made.heard->distances_m);
+  ASSERT_EQ(later.heard->reads.size(), 1000U);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    const TagRead& one = later.heard->reads[i];
+    const TagRead& other = made.heard->reads[i];
+    EXPECT_EQ(std::tie(one.stamp, one.reader, one.antenna, one.tag, one.frequency_hz, one.phase_rad,
+                       one.rssi_dbm),
+              std::tie(other.stamp, other.reader, other.antenna, other.tag, other.frequency_hz,
+                       other.phase_rad, other.rssi_dbm));
+  }
+}
+
+TEST(Telling, MakesReadsOfWhereTagsWereThoughItTellsThemLater) {
+  ManyTags field(2);
+  Told told;
+  told.telling.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
+  told.telling.tell(at_nanos(4));
+  EXPECT_TRUE(told.heard->words.empty());
+  EXPECT_EQ(told.telling.reads(), 2);
+  field.tags.remove(0);
+  field.tags.move(1, {3.0, 0.0, 0.0});
+  told.telling.tell(at_nanos(5));
+  EXPECT_EQ(told.heard->words,
+            (std::vector<std::string>{"distance T0", "read T0", "distance T1", "read T1"}));
+  EXPECT_DOUBLE_EQ(told.heard->distances_m[1], std::hypot(1.001, 0.5));
+  EXPECT_EQ(told.telling.reads(), 2);
 }
 
 TEST(Telling, KeepsTheNameOfATagThatWentBeforeItsReadIsTold) {
