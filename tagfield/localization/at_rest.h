@@ -35,7 +35,9 @@ struct DepartureFit {
   double left_over = 1.0;
   /// ln of how much likelier this is (stretches.h) than the likeliest place nearby without it.
   double log_gain = 0.0;
-  double duration_s = 0.0;  ///< From the first read to the last, of a motion without pauses.
+  /// From the first read to the last; of a motion without pauses of over 2 s in which nothing was
+  /// read and the antenna stood.
+  double duration_s = 0.0;
 };
 
 /// Phases are followed from read to read against what a tag at `p_WT` would show, over pieces with

@@ -65,6 +65,35 @@ TEST(AtRest, TellsAVelocityAsWellAsItSays) {
   EXPECT_LT(squares, 125.0);
 }
 
+/// As long as from the first read to the last, but for pauses.
+double duration_of(const made::Hall& hall) {
+  return fit_of(hall, "t0", Departure::kMotion).duration_s;
+}
+
+TEST(AtRest, PausesOfOverTwoSecondsAreNoPartOfAMotion) {
+  Rng rng(9);
+  const Eigen::Vector3d velocity(0.02, -0.01, 0.0);
+  const made::Path path = made::s_curve(8.0, 0.015);
+  made::Hall hall = made::hall(path, path, 4, {}, rng);
+  for (auto& [tag, samples] : hall.problem.samples) {
+    samples["a"] = made::read_along(path, path, hall.truth.at(tag), {}, rng, {}, velocity);
+  }
+  const double read_s = 1.0 / made::kPathRate;
+  const double duration_s = duration_of(hall);
+  EXPECT_NEAR(duration_s, static_cast<double>(path.size() - 1) * read_s, 0.5);
+  // From read to read it is one period more than the clock goes on by.
+  for (const double pause_s : {1.9, 2.0, 60.0}) {
+    made::Hall paused = hall;
+    made::pause(paused, 15.0, pause_s);
+    EXPECT_NEAR(duration_of(paused), duration_s + (pause_s < 2.0 ? pause_s : -read_s), 1e-6);
+    if (pause_s < 2.0) continue;
+    for (const auto& [tag, truth] : paused.truth) {
+      const DepartureFit fit = fit_of(paused, tag, Departure::kMotion);
+      EXPECT_LT((fit.departure - velocity.head<2>()).norm(), 0.003) << pause_s << tag;
+    }
+  }
+}
+
 TEST(AtRest, TellsHowLateStampsAre) {
   Rng rng(2);
   for (const double late_s : {-0.5, 0.2}) {

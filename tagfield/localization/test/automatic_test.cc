@@ -141,6 +141,27 @@ TEST(Automatic, EstimatesThePoseErrorWhereTheCarrierHopsToo) {
   }
 }
 
+TEST(Automatic, TakesScanWhereMostReadsAreOfShortStraightScansAmidReflections) {
+  made::Rng rng(1);
+  made::Hall hall = made::hall(made::straight(1.5, 0.02), 6, {}, rng);
+  const made::Hall longer = made::hall(made::straight(5.0, 0.02), 1, {}, rng);
+  hall.problem.samples["u0"] = longer.problem.samples.at("t0");
+  hall.truth["u0"] = longer.truth.at("t0");
+  made::reflect(made::walls(0.5), hall);
+  double reads = 0.0;
+  double reads_of_scans = 0.0;
+  for (const auto& [tag, samples] : hall.problem.samples) {
+    const auto count = static_cast<double>(samples.at("a").size());
+    reads += count;
+    reads_of_scans += tag == "u0" ? 0.0 : count;
+  }
+  const DataTraits traits = traits_of(hall.problem, 1);
+  EXPECT_NEAR(traits.short_scans, reads_of_scans / reads, 1e-12);
+  EXPECT_GE(traits.unexplained, 0.5);
+  EXPECT_LE(traits.unexplained, 1.0);
+  EXPECT_EQ(choose_method(traits, 0).method, "scan");
+}
+
 TEST(Automatic, GoesBySignalStrengthWhereAntennasStand) {
   made::Hall hall = moving_hall({});
   for (auto& [tag, samples] : hall.problem.samples) {

@@ -151,6 +151,17 @@ TEST(TracedConic, LiesOnTheCurve) {
   }
 }
 
+TEST(TracedConic, ReachesFifteenMetresToEitherSide) {
+  for (const double away : {-14.9, -10.0, 10.0, 14.9}) {
+    const Eigen::Vector3d p(1.0, away, 0.4);
+    const Conic a = through(p, {-0.3, 0.0, 0.4}, {0.3, 0.0, 0.4});
+    const Conic b = through(p, {2.0, 1.0, 0.4}, {2.4, 1.3, 0.4});
+    std::vector<Eigen::Vector2d> points;
+    intersect_traced(trace(a, p.z()), b, p.z(), points);
+    EXPECT_LT(nearest(points, p), 1e-5) << away;
+  }
+}
+
 TEST(TracedConic, OfOtherFociMeetsInTheTag) {
   Rng rng(6);
   int tried = 0;

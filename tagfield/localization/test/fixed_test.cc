@@ -36,17 +36,14 @@ Eigen::Vector3d corner(int number) {
 
 double carrier(int channel) { return 902.75e6 + 0.5e6 * channel; }
 
-/// Four antennas in the corners read `tags` on 50 channels twice; each port's channels have offsets
-/// of their own.
-Room room(int tags, const RoomNoise& noise, Rng& rng) {
+using Places = std::map<std::string, Eigen::Vector3d>;
+
+/// Four antennas in the corners read tags on 50 channels twice; each port's channels have offsets
+/// of their own. Nothing is told of where tags can be.
+Room room_with(const Places& truth, const RoomNoise& noise, Rng& rng) {
   Room made;
+  made.truth = truth;
   made.problem.heights.of_all = kHeight;
-  made.problem.area.box =
-      Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(kRoom, kRoom));
-  for (int i = 0; i < tags; ++i) {
-    made.truth["t" + std::to_string(100 + i)] = {uniform(rng, 0.3, kRoom - 0.3),
-                                                 uniform(rng, 0.3, kRoom - 0.3), kHeight};
-  }
   for (int a = 0; a < 4; ++a) {
     const std::string antenna = "port" + std::to_string(a);
     made.problem.tracks[antenna].X_WA.push_back({Time{}, from_translation(corner(a))});
@@ -67,6 +64,19 @@ Room room(int tags, const RoomNoise& noise, Rng& rng) {
       }
     }
   }
+  return made;
+}
+
+/// Of tags within the corners.
+Room room(int tags, const RoomNoise& noise, Rng& rng) {
+  Places truth;
+  for (int i = 0; i < tags; ++i) {
+    truth["t" + std::to_string(100 + i)] = {uniform(rng, 0.3, kRoom - 0.3),
+                                            uniform(rng, 0.3, kRoom - 0.3), kHeight};
+  }
+  Room made = room_with(truth, noise, rng);
+  made.problem.area.box =
+      Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(kRoom, kRoom));
   return made;
 }
 
@@ -126,6 +136,32 @@ TEST(Fixed, MeetsTheBoundOfPhasesOverChannelsWithOneReferenceTag) {
   EXPECT_LT(std::sqrt(squares / bounds), 1.4);
   EXPECT_LT(calibration_of(tally_of(made, result)), 1.6);
   EXPECT_TRUE(diagnostics.warnings().empty());
+}
+
+TEST(Fixed, TagsBeyondTheAntennasAreLocatedOnAllSides) {
+  Rng rng(12);
+  const RoomNoise noise{0.1, 0.1, 40.0, 0.1};
+  constexpr double kHalf = 0.5 * kRoom;
+  constexpr double kBeyond = 1.0;  // [m]
+  const Places beyond{{"below", {kHalf, -kBeyond, kHeight}},
+                      {"left", {-kBeyond, kHalf, kHeight}},
+                      {"above", {kHalf, kRoom + kBeyond, kHeight}},
+                      {"right", {kRoom + kBeyond, kHalf, kHeight}}};
+  const Places references = room(4, noise, rng).truth;
+  Places truth = references;
+  truth.insert(beyond.begin(), beyond.end());
+  Room made = room_with(truth, noise, rng);
+  made.problem.reference_tags = references;
+  made.problem.has_phases = false;
+  FixedOptions options;
+  options.fading_db = options.antenna_sigma_db = options.tag_sigma_db = 0.1;
+  Diagnostics diagnostics;
+  for (const TagEstimate& estimate : located(made, diagnostics, options).estimates) {
+    if (beyond.count(estimate.tag) == 0) continue;
+    ASSERT_EQ(estimate.verdict, Verdict::kLocated) << estimate.tag << " " << estimate.reason;
+    EXPECT_LT(level_error(estimate.candidates.front(), beyond.at(estimate.tag)), 0.4)
+        << estimate.tag;
+  }
 }
 
 TEST(Fixed, StrengthsAloneGiveHonestPlacesAndItSaysWhatIsMissing) {

@@ -40,6 +40,17 @@ TEST(Plausibility, ChanceIsBoundedFromAbove) {
   }
 }
 
+TEST(Plausibility, ChanceOfPairsIsBoundedFromAbove) {
+  Rng rng(8);
+  constexpr int kDraws = 1000;
+  const std::vector<double> pairs(40, 2.0);
+  int beyond = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    beyond += log_chance(pairs, random_sum(pairs, rng), 1.0) < std::log(0.05) ? 1 : 0;
+  }
+  EXPECT_LE(beyond, 0.05 * kDraws);
+}
+
 TEST(Plausibility, FreeOffsetsCount) {
   // A read each: all waves add up, whatever they are.
   EXPECT_GE(log_chance(std::vector<double>(100, 1.0), 100.0, 1.0), 0.0);
@@ -66,6 +77,23 @@ TEST(Plausibility, NoMethodPlacesRandomPhases) {
     for (const TagEstimate& estimate : result.estimates) {
       EXPECT_EQ(estimate.verdict, Verdict::kNotLocated) << name << " " << estimate.tag;
     }
+  }
+}
+
+/// Thirty-one reads whose waves all add up, where chance has so many places in reach only.
+TEST(Plausibility, WhereTheWorldHasItsOriginDoesNotMatter) {
+  Rng rng(7);
+  for (const double east_m : {0.0, 5e4, -5e4}) {
+    const Eigen::Vector3d east(east_m, 0.0, 0.0);
+    made::Path path = made::straight(0.6, 0.02);
+    for (Eigen::Vector3d& p_WA : path) p_WA += east;
+    const Eigen::Vector3d tag = east + Eigen::Vector3d(0.2, 1.0, 0.4);
+    LocalizationProblem problem;
+    problem.samples["t"]["a"] = made::read_along(path, path, tag, {0.0, 0.0}, rng);
+    LocalizationResult result;
+    result.estimates = {{"t", Verdict::kLocated, "", {{tag, 0.0, 0.01}}, path.size()}};
+    refuse_chance(problem, result);
+    EXPECT_EQ(result.estimates.front().verdict, Verdict::kLocated) << east_m;
   }
 }
 

@@ -19,6 +19,23 @@ TEST(InReach, IsNearerThanTheRangeAtHalfOfTheReads) {
   EXPECT_FALSE(in_reach(phases, {1.0, 0.0, 0.0}, 2.0));
 }
 
+/// Squares of a metre that the circle of reach only just cuts, at the corner that is furthest from
+/// the antenna or nearest to it.
+TEST(PlaneInReach, HoldsWhatIsWithinACircleRightIntoItsSquaresCorners) {
+  TagPhases phases;
+  phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(1);
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      PlaneInReach far(phases, 0.0, 5.975 * std::sqrt(2.0));
+      EXPECT_TRUE(far.holds({5.96 * x, 5.96 * y})) << x << y;
+      EXPECT_FALSE(far.holds({5.99 * x, 5.99 * y})) << x << y;
+      PlaneInReach near(phases, 0.0, 5.025 * std::sqrt(2.0));
+      EXPECT_TRUE(near.holds({5.01 * x, 5.01 * y})) << x << y;
+      EXPECT_FALSE(near.holds({5.04 * x, 5.04 * y})) << x << y;
+    }
+  }
+}
+
 RC_GTEST_PROP(PlaneInReach, AgreesWithEachPlaceByItself, ()) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   TagPhases phases;

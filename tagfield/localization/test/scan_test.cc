@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "tagfield/base/error.h"
 #include "tagfield/localization/scan/pooled_distance.h"
 #include "tagfield/localization/scan/scan_field.h"
 #include "tagfield/localization/scan/two_paths.h"
@@ -94,6 +95,20 @@ TEST(ScanField, IsTheRootOfWhatIsRead) {
   EXPECT_NEAR(scan.samples, 6.6, 0.5);
 }
 
+TEST(ScanField, IsThatOfTheAntennaWithMostPlacesWhateverOthersStoodStill) {
+  Rng rng(1);
+  const Eigen::Vector2d tag(0.4, 0.7);
+  const std::vector<PhaseSample> all = scanned(tag, {{1.0, 1.0}, 0.0}, 0.0, rng).at("a");
+  std::vector<PhaseSample> still = all;
+  for (PhaseSample& sample : still) sample.p_WA = {2.0, 2.0, kRail};
+  // By the order of their names: one sees half of the rail, one stands, and one sees all.
+  const SamplesOfTag samples{{"a", {all.begin(), all.begin() + 25}}, {"b", still}, {"c", all}};
+  const ScanField scan = scan_field({}, "t", samples);
+  ASSERT_EQ(scan.why_not, "");
+  EXPECT_EQ(scan.field.size(), 50);
+  EXPECT_NEAR(scan.end_m - scan.begin_m, 0.98, 1e-9);
+}
+
 TEST(ScanField, SaysWhyThereIsNone) {
   Rng rng(1);
   LocalizationProblem problem;
@@ -160,6 +175,19 @@ TEST(Scan, WithoutASideBothAreNamed) {
   ASSERT_EQ(estimate.candidates.size(), 2U);
   EXPECT_NEAR(estimate.candidates[0].p_WT.y(), -estimate.candidates[1].p_WT.y(), 1e-9);
   EXPECT_NEAR(estimate.candidates[0].p_WT.z(), kRail, 1e-9);
+}
+
+TEST(Scan, OnlyARangeOfOverHalfAMetreIsOne) {
+  ScanOptions options;
+  options.max_range_m = 0.5;
+  EXPECT_THROW(scan_method(options), Error);
+  options.max_range_m = 0.55;
+  Rng rng(3);
+  LocalizationProblem problem = problem_of({{0.4, 0.4}}, 0.0, rng);
+  Diagnostics diagnostics;
+  const TagEstimate near = scan_method(options).locate(problem, 1, diagnostics).estimates.front();
+  ASSERT_EQ(near.verdict, Verdict::kLocated) << near.reason;
+  EXPECT_LT(distance_to(near, {0.4, 0.4}), 0.05);
 }
 
 TEST(Scan, NothingOfRandomPhases) {
