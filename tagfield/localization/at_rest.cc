@@ -131,7 +131,7 @@ Eigen::Vector3d antenna_at(const Followed& of, const TagPhases::Span& span, Inde
   const double time_s = of.phases.time_s[i];
   if (of.departure == Departure::kLateness) {
     const Trajectory& track = of.problem->tracks.at(span.antenna).X_WA;
-    return held_pose_at(track, time_from_seconds(time_s - departure[0])).translation;
+    return held_position_at(track, time_from_seconds(time_s - departure[0]));
   }
   const Eigen::Vector2d moved = (time_s - of.middle_s) * departure;
   return {of.phases.x[i] - moved.x(), of.phases.y[i] - moved.y(), of.phases.z[i]};

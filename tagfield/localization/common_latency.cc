@@ -75,7 +75,7 @@ bool have_tracks(const LocalizationProblem& problem, const TagPhases& phases) {
 Vector3d antenna_before(const LocalizationProblem& problem, const std::string& antenna, Time stamp,
                         double late_s) {
   const Trajectory& track = problem.tracks.at(antenna).X_WA;
-  return held_pose_at(track, stamp - duration_from_seconds(late_s)).translation;
+  return held_position_at(track, stamp - duration_from_seconds(late_s));
 }
 
 /// Puts the antennas of a layout where they were `late_s` before the reads' stamps.

@@ -16,9 +16,12 @@ Trajectory::const_iterator first_after(const Trajectory& trajectory, Time stamp)
                           [](Time time, const StampedPose& pose) { return time < pose.stamp; });
 }
 
+double fraction_at(const StampedPose& before, const StampedPose& after, Time stamp) {
+  return to_seconds(stamp - before.stamp) / to_seconds(after.stamp - before.stamp);
+}
+
 RigidTransform between(const StampedPose& before, const StampedPose& after, Time stamp) {
-  const double fraction = to_seconds(stamp - before.stamp) / to_seconds(after.stamp - before.stamp);
-  return interpolate(before.X_WB, after.X_WB, fraction);
+  return interpolate(before.X_WB, after.X_WB, fraction_at(before, after, stamp));
 }
 
 }  // namespace
@@ -52,6 +55,14 @@ RigidTransform held_pose_at(const Trajectory& trajectory, Time stamp) {
   if (after == trajectory.begin()) return trajectory.front().X_WB;
   if (after == trajectory.end()) return trajectory.back().X_WB;
   return between(*(after - 1), *after, stamp);
+}
+
+Eigen::Vector3d held_position_at(const Trajectory& trajectory, Time stamp) {
+  const auto after = first_after(trajectory, stamp);
+  if (after == trajectory.begin()) return trajectory.front().X_WB.translation;
+  if (after == trajectory.end()) return trajectory.back().X_WB.translation;
+  const Eigen::Vector3d& from = (after - 1)->X_WB.translation;
+  return from + fraction_at(*(after - 1), *after, stamp) * (after->X_WB.translation - from);
 }
 
 double path_length(const Trajectory& trajectory) {

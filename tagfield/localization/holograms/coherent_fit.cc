@@ -11,6 +11,7 @@
 #include "tagfield/fit/levenberg_marquardt.h"
 #include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/fit_candidates.h"
+#include "tagfield/localization/holograms/wave_slopes.h"
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
@@ -25,20 +26,6 @@ constexpr std::size_t kMirrored = 3;    ///< Of so many best places the mirror i
 constexpr std::size_t kMostNamed = 16;  ///< Maxima that are looked at.
 constexpr double kSameLobes = 0.3;      ///< Maxima nearer than this are lobes of one place [m].
 constexpr double kOtherPlace = 4.0;     ///< A log-likelihood so much less is that of another place.
-
-/// S of one aperture.
-std::complex<double> sum_of(const TagPhases& phases, const Aperture& part,
-                            const HeightModel& height, const PlaceVector& p) {
-  double in_phase = 0.0;
-  double quadrature = 0.0;
-  for (Eigen::Index i = part.begin; i < part.begin + part.count; ++i) {
-    const double r = range_to(height, p, phases.x[i], phases.y[i], phases.z[i]).r;
-    const double phase = phases.wavenumber[i] * (phases.value[i] - r);
-    in_phase += std::cos(phase);
-    quadrature += std::sin(phase);
-  }
-  return {in_phase, quadrature};
-}
 
 /// The direction of S, by which the waves are turned back; 1 where the offset is known.
 std::complex<double> direction_of(const Aperture& part, std::complex<double> sum) {
@@ -58,31 +45,15 @@ struct Summit {
 /// In one pass: the offset is only known when all waves are added up, so both parts are kept.
 void add_part(const TagPhases& phases, const Aperture& part, const HeightModel& height,
               Summit& summit) {
-  double in_phase = 0.0;
-  double quadrature = 0.0;
-  Eigen::Vector3d in_phase_slopes = Eigen::Vector3d::Zero();
-  Eigen::Vector3d quadrature_slopes = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = part.begin; i < part.begin + part.count; ++i) {
-    const Range range = range_to(height, summit.place, phases.x[i], phases.y[i], phases.z[i]);
-    const double phase = phases.wavenumber[i] * (phases.value[i] - range.r);
-    const Eigen::Vector3d slope = phases.wavenumber[i] * range.gradient;
-    const double cosine = std::cos(phase);
-    const double sine = std::sin(phase);
-    in_phase += cosine;
-    quadrature += sine;
-    in_phase_slopes += cosine * slope;
-    quadrature_slopes += sine * slope;
-    sum += slope;
-    squares += slope * slope.transpose();
-  }
-  const std::complex<double> back = direction_of(part, {in_phase, quadrature});
+  const WaveSlopes waves = wave_slopes(phases, part, height, summit.place);
+  const std::complex<double> back = direction_of(part, waves.sum);
   const auto count = static_cast<double>(part.count);
-  summit.cost -= in_phase * back.real() + quadrature * back.imag();
-  summit.gradient += back.real() * quadrature_slopes - back.imag() * in_phase_slopes;
-  summit.information += squares;
-  if (!part.offset_known) summit.information -= sum * sum.transpose() / count;
+  summit.cost -= waves.sum.real() * back.real() + waves.sum.imag() * back.imag();
+  summit.gradient += back.real() * waves.quadrature - back.imag() * waves.in_phase;
+  summit.information += waves.squares;
+  if (!part.offset_known) {
+    summit.information -= waves.slopes * waves.slopes.transpose() / count;
+  }
   summit.count += count;
 }
 
@@ -307,7 +278,7 @@ double coherence(const TagPhases& phases, const std::vector<Aperture>& parts,
                  const HeightModel& height, const PlaceVector& place) {
   double sum = 0.0;
   for (const Aperture& part : parts) {
-    const std::complex<double> waves = sum_of(phases, part, height, place);
+    const std::complex<double> waves = wave_sum(phases, part, height, place);
     sum += part.offset_known ? waves.real() : std::abs(waves);
   }
   return sum;

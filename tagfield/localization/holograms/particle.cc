@@ -56,7 +56,7 @@ Eigen::Vector3d in_world(const Search& search, const Eigen::Vector3f& place) {
 }
 
 /// One place anywhere in reach; the middle where none is found.
-Eigen::Vector3f draw_place(const Search& search, const ParticleOptions& options,
+Eigen::Vector3f draw_place(const Search& search, const Reach& reach, const ParticleOptions& options,
                            RandomStream& stream) {
   const bool known = search.height.kind == HeightModel::Kind::kKnown;
   for (int draw = 0; draw < kDrawsOfPlace; ++draw) {
@@ -64,7 +64,7 @@ Eigen::Vector3f draw_place(const Search& search, const ParticleOptions& options,
     const double y = options.max_range_m * (2.0 * uniform(stream) - 1.0);
     const double up = search.height.side * options.max_height_m * uniform(stream);
     Eigen::Vector3f place = Eigen::Vector3d(x, y, known ? 0.0 : up).cast<float>();
-    if (in_reach(search.phases, in_world(search, place), options.max_range_m)) return place;
+    if (reach.holds(in_world(search, place))) return place;
   }
   return Eigen::Vector3f::Zero();
 }
@@ -164,8 +164,9 @@ Particles spread_and_anneal(const Search& search, const ParticleOptions& options
                             RandomStream& stream) {
   Particles particles;
   particles.places.reserve(options.particles);
+  const Reach reach(search.phases, options.max_range_m);
   for (std::size_t i = 0; i < options.particles; ++i) {
-    particles.places.push_back(draw_place(search, options, stream));
+    particles.places.push_back(draw_place(search, reach, options, stream));
   }
   for (const Level& level : search.levels) {
     const bool last = &level == &search.levels.back();

@@ -21,36 +21,34 @@ std::vector<Eigen::Vector3d> some_antennas(const TagPhases& phases) {
   return antennas;
 }
 
-bool reaches(const std::vector<Eigen::Vector3d>& antennas, const Eigen::Vector3d& p,
-             double max_range) {
-  const auto beyond =
-      std::count_if(antennas.begin(), antennas.end(), [&](const Eigen::Vector3d& p_WA) {
-        return (p - p_WA).squaredNorm() > max_range * max_range;
-      });
-  return 2 * static_cast<std::size_t>(beyond) <= antennas.size();
-}
-
 int square_of(double place) { return static_cast<int>(std::floor(place / kSquareSide)); }
 
 }  // namespace
 
-bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range) {
-  return reaches(some_antennas(phases), p, max_range);
+Reach::Reach(const TagPhases& phases, double max_range)
+    : antennas_(some_antennas(phases)), max_range_(max_range) {}
+
+bool Reach::holds(const Eigen::Vector3d& p) const {
+  const auto beyond =
+      std::count_if(antennas_.begin(), antennas_.end(), [&](const Eigen::Vector3d& p_WA) {
+        return (p - p_WA).squaredNorm() > max_range_ * max_range_;
+      });
+  return 2 * static_cast<std::size_t>(beyond) <= antennas_.size();
 }
 
 PlaneInReach::PlaneInReach(const TagPhases& phases, double height, double max_range)
-    : antennas_(some_antennas(phases)), height_(height), max_range_(max_range) {}
+    : reach_(phases, max_range), height_(height) {}
 
 PlaneInReach::Square PlaneInReach::square_around(const Eigen::Vector2d& middle) const {
   std::size_t within = 0;
   std::size_t beyond = 0;
-  for (const Eigen::Vector3d& p_WA : antennas_) {
+  for (const Eigen::Vector3d& p_WA : reach_.antennas()) {
     const double r = (Eigen::Vector3d(middle.x(), middle.y(), height_) - p_WA).norm();
-    within += static_cast<std::size_t>(r + kToCorner < max_range_);
-    beyond += static_cast<std::size_t>(r - kToCorner > max_range_);
+    within += static_cast<std::size_t>(r + kToCorner < reach_.max_range());
+    beyond += static_cast<std::size_t>(r - kToCorner > reach_.max_range());
   }
-  if (2 * within >= antennas_.size()) return Square::kAll;
-  return 2 * beyond > antennas_.size() ? Square::kNone : Square::kMixed;
+  if (2 * within >= reach_.antennas().size()) return Square::kAll;
+  return 2 * beyond > reach_.antennas().size() ? Square::kNone : Square::kMixed;
 }
 
 bool PlaneInReach::holds(const Eigen::Vector2d& p) {
@@ -64,7 +62,7 @@ bool PlaneInReach::holds(const Eigen::Vector2d& p) {
     of_last_ = &entry->second;
   }
   if (*of_last_ != Square::kMixed) return *of_last_ == Square::kAll;
-  return reaches(antennas_, {p.x(), p.y(), height_}, max_range_);
+  return reach_.holds({p.x(), p.y(), height_});
 }
 
 }  // namespace tagfield

@@ -12,11 +12,23 @@
 
 namespace tagfield {
 
-/// Whether a tag at `p` would be within `max_range` [m] of the antennas at half of the reads, of
-/// which about sixty are looked at. Strong readers and reflections carry some reads further.
-bool in_reach(const TagPhases& phases, const Eigen::Vector3d& p, double max_range);
+/// The places that are within a range of the antennas at half of the reads, of which about sixty
+/// are looked at. Strong readers and reflections carry some reads further.
+class Reach {
+ public:
+  /// `max_range` [m].
+  Reach(const TagPhases& phases, double max_range);
 
-/// in_reach() of many places (x, y, height): squares of the plane whose places are all alike are
+  [[nodiscard]] bool holds(const Eigen::Vector3d& p) const;
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& antennas() const { return antennas_; }
+  [[nodiscard]] double max_range() const { return max_range_; }
+
+ private:
+  std::vector<Eigen::Vector3d> antennas_;  ///< At the reads that are looked at.
+  double max_range_;
+};
+
+/// A Reach for many places (x, y, height): squares of the plane whose places are all alike are
 /// looked at once.
 class PlaneInReach {
  public:
@@ -28,9 +40,8 @@ class PlaneInReach {
   enum class Square { kNone, kAll, kMixed };
   [[nodiscard]] Square square_around(const Eigen::Vector2d& middle) const;
 
-  std::vector<Eigen::Vector3d> antennas_;  ///< At the reads that are looked at.
+  Reach reach_;
   double height_;
-  double max_range_;
   std::map<std::pair<int, int>, Square> squares_;
   std::pair<int, int> last_{0, 0};  ///< Places come row by row.
   const Square* of_last_ = nullptr;

@@ -13,10 +13,10 @@ TEST(InReach, IsNearerThanTheRangeAtHalfOfTheReads) {
   TagPhases phases;
   phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(4);
   phases.x << 0.0, 0.0, 10.0, 10.0;
-  EXPECT_TRUE(in_reach(phases, {1.0, 0.0, 0.0}, 2.0));
-  EXPECT_FALSE(in_reach(phases, {5.0, 0.0, 0.0}, 2.0));
+  EXPECT_TRUE(Reach(phases, 2.0).holds({1.0, 0.0, 0.0}));
+  EXPECT_FALSE(Reach(phases, 2.0).holds({5.0, 0.0, 0.0}));
   phases.x << 0.0, 10.0, 10.0, 10.0;
-  EXPECT_FALSE(in_reach(phases, {1.0, 0.0, 0.0}, 2.0));
+  EXPECT_FALSE(Reach(phases, 2.0).holds({1.0, 0.0, 0.0}));
 }
 
 /// Squares of a metre that the circle of reach only just cuts, at the corner that is furthest from
@@ -50,7 +50,7 @@ RC_GTEST_PROP(PlaneInReach, AgreesWithEachPlaceByItself, ()) {
   PlaneInReach plane(phases, 1.0, range);
   for (double x = -11.0; x < 11.0; x += 0.37) {
     for (double y = -11.0; y < 11.0; y += 0.37) {
-      RC_ASSERT(plane.holds({x, y}) == in_reach(phases, {x, y, 1.0}, range));
+      RC_ASSERT(plane.holds({x, y}) == Reach(phases, range).holds({x, y, 1.0}));
     }
   }
 }

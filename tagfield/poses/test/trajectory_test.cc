@@ -2,6 +2,10 @@
 #include "tagfield/poses/trajectory.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <random>
 
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/units.h"
@@ -73,6 +77,22 @@ TEST(HeldPoseAt, HoldsTheEnds) {
 TEST(HeldPoseAt, InterpolatesBetweenTheEnds) {
   EXPECT_DOUBLE_EQ(x_of(held_pose_at(moving(), at(1.75))), 0.75);
   EXPECT_DOUBLE_EQ(x_of(held_pose_at(moving(), at(2.0))), 1.0);
+}
+
+RC_GTEST_PROP(HeldPositionAt, IsThePlaceOfTheHeldPose, (std::int64_t seed)) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  std::uniform_real_distribution<double> some(-3.0, 3.0);
+  Trajectory trajectory;
+  for (int i = 0; i < 4; ++i) {
+    trajectory.push_back(
+        {at(i), RigidTransform{
+                    Eigen::Quaterniond(some(random), some(random), some(random), 1.0).normalized(),
+                    {some(random), some(random), some(random)}}});
+  }
+  for (const double stamp_s : {-1.0, 0.0, 1.0, 3.0, 4.0, std::abs(some(random))}) {
+    RC_ASSERT(held_position_at(trajectory, at(stamp_s)) ==
+              held_pose_at(trajectory, at(stamp_s)).translation);
+  }
 }
 
 TEST(HeldPoseAt, IsExactWithTodaysStamps) {
