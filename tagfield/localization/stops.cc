@@ -48,6 +48,7 @@ std::vector<PhaseSample> with_stops_merged(const std::vector<PhaseSample>& serie
     of.count += 1.0;
   }
   finish();
+  result.shrink_to_fit();  // Of thousands of tags all of them are kept for long.
   return result;
 }
 

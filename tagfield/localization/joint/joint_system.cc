@@ -69,12 +69,14 @@ double length_of(const JointSystem& system, const Move& move) {
 
 /// `knots` and `own_knot` by `knot`.
 void number_own_knots(JointTag& tag) {
-  tag.knots.clear();
-  for (const int knot : std::vector<int>(tag.knot.data(), tag.knot.data() + tag.knot.size())) {
-    if (knot >= 0) tag.knots.insert(tag.knots.end(), {knot, knot + 1});
+  std::vector<Index> touched;
+  touched.reserve(2 * static_cast<std::size_t>(tag.knot.size()));
+  for (Index i = 0; i < tag.knot.size(); ++i) {
+    if (tag.knot[i] >= 0) touched.insert(touched.end(), {tag.knot[i], tag.knot[i] + 1});
   }
-  std::sort(tag.knots.begin(), tag.knots.end());
-  tag.knots.erase(std::unique(tag.knots.begin(), tag.knots.end()), tag.knots.end());
+  std::sort(touched.begin(), touched.end());
+  // Copied, so that it takes the memory of its few knots, not that of its reads.
+  tag.knots.assign(touched.begin(), std::unique(touched.begin(), touched.end()));
   tag.own_knot = Eigen::ArrayXi::Constant(tag.knot.size(), -1);
   for (Index i = 0; i < tag.knot.size(); ++i) {
     if (tag.knot[i] < 0) continue;
@@ -89,8 +91,7 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
   const Index reads = tag.phases.size();
   tag.knot = Eigen::ArrayXi::Constant(reads, -1);
   tag.knot_weight = Eigen::ArrayXd::Zero(reads);
-  tag.lever_x = Eigen::ArrayXd::Zero(reads);
-  tag.lever_y = Eigen::ArrayXd::Zero(reads);
+  tag.levers.resize(2, 0);
   for (const TagPhases::Span& span : tag.phases.spans) {
     const auto found = knots.chain_of.find(span.antenna);
     if (found == knots.chain_of.end()) continue;
@@ -101,9 +102,10 @@ void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag
       tag.knot[i] = static_cast<int>(place.at);
       tag.knot_weight[i] = place.after;
       if (span.antenna == chain.reference) continue;
-      const RigidTransform X_WR = held_pose_at(reference, time_from_seconds(tag.phases.time_s[i]));
-      tag.lever_x[i] = tag.phases.x[i] - X_WR.translation.x();
-      tag.lever_y[i] = tag.phases.y[i] - X_WR.translation.y();
+      if (tag.levers.cols() == 0) tag.levers = Eigen::Array2Xd::Zero(2, reads);
+      const Eigen::Vector3d p_WR =
+          held_position_at(reference, time_from_seconds(tag.phases.time_s[i]));
+      tag.levers.col(i) << tag.phases.x[i] - p_WR.x(), tag.phases.y[i] - p_WR.y();
     }
   }
   number_own_knots(tag);
@@ -118,7 +120,8 @@ Eigen::Vector2d displacement_at(const JointSystem& system, const JointTag& tag, 
   const Eigen::Vector3d error = (1.0 - w) * (knots.scale[k] * padded(system.u, at, knots.size)) +
                                 w * (knots.scale[k + 1] * padded(system.u, at + 1, knots.size));
   const double yaw = knots.size == 3 ? error.z() : 0.0;
-  return {error.x() - yaw * tag.lever_y[i], error.y() + yaw * tag.lever_x[i]};
+  const Eigen::Vector2d lever = lever_of(tag, i);
+  return {error.x() - yaw * lever.y(), error.y() + yaw * lever.x()};
 }
 
 double cost_of(JointSystem& system) {

@@ -31,11 +31,12 @@ struct JointTag {
   bool fixed = false;   ///< Its place is known: a reference tag.
   double weight = 1.0;  ///< Of its reads, 1 for those with the system's noise.
   TagFit fit;           ///< Place and offsets, where the system is linearized.
-  // By read: the knot before it (−1 for an antenna without error), how far towards the next, and
-  // the antenna's place from its body's reference [m].
+  // By read: the knot before it (−1 for an antenna without error), and how far towards the next.
   Eigen::ArrayXi knot;
   Eigen::ArrayXi own_knot;  ///< Which of `knots` that is; the next one is there, too.
-  Eigen::ArrayXd knot_weight, lever_x, lever_y;
+  Eigen::ArrayXd knot_weight;
+  /// By read the antenna's place from its body's reference [m]; empty where all are references.
+  Eigen::Array2Xd levers;
   std::optional<BendSlopes> slopes;
   std::vector<Eigen::Index> knots;  ///< That its reads touch, in order.
 };
@@ -47,7 +48,13 @@ struct JointSystem {
   double noise_rad = 0.1;  ///< Of a phase.
 };
 
-/// Sets `knot`, `lever_x` and so on for the tag's phases.
+/// Place of the antenna of the tag's i-th read from its body's reference [m].
+inline Eigen::Vector2d lever_of(const JointTag& tag, Eigen::Index i) {
+  if (tag.levers.cols() == 0) return Eigen::Vector2d::Zero();
+  return tag.levers.col(i);
+}
+
+/// Sets `knot`, `levers` and so on for the tag's phases.
 void attach(const LocalizationProblem& problem, const PoseKnots& knots, JointTag& tag);
 
 /// How far the believed place of the antenna at the tag's i-th read is off, seen from above [m].

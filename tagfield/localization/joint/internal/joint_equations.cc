@@ -23,8 +23,9 @@ ChainPart<D> empty_chain(Index knots) {
 template <int D>
 Eigen::Matrix<double, D, 1> by_knot(const JointSystem& system, const JointTag& tag, Index i,
                                     const Eigen::Vector3d& gradient, Index knot) {
+  const Eigen::Vector2d lever = lever_of(tag, i);
   const Eigen::Vector3d by_error(gradient[0], gradient[1],
-                                 -gradient[0] * tag.lever_y[i] + gradient[1] * tag.lever_x[i]);
+                                 -gradient[0] * lever.y() + gradient[1] * lever.x());
   const Eigen::Matrix3d& scale = system.knots.scale[static_cast<std::size_t>(knot)];
   return scale.topLeftCorner<D, D>().transpose() * by_error.head<D>();
 }
