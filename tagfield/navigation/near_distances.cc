@@ -7,36 +7,50 @@
 namespace tagfield {
 namespace {
 
-using Square = std::uint16_t;
-
-/// Distances along the columns, up to `most`: from above, then from below.
-std::vector<Square> column_distances(const std::vector<std::uint8_t>& sources, std::size_t width,
-                                     Square most) {
-  std::vector<Square> distances(sources.size());
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const Square above = i < width ? most : distances[i - width];
-    const auto next = static_cast<Square>(std::min<int>(above + 1, most));
-    distances[i] = sources[i] != 0 ? Square{0} : next;
+/// Distances along the columns in cells, up to `most`: from the row before, then from the one
+/// after.
+std::vector<std::int16_t> column_distances(const std::vector<std::uint8_t>& sources,
+                                           std::size_t width, std::int16_t most) {
+  std::vector<std::int16_t> distances(sources.size());
+  const std::vector<std::int16_t> none(width, most);
+  for (std::size_t row = 0; row < sources.size(); row += width) {
+    const std::int16_t* before = row == 0 ? none.data() : &distances[row - width];
+    const std::uint8_t* source = &sources[row];
+    std::int16_t* here = &distances[row];
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto next = static_cast<std::int16_t>(before[x] + 1);
+      here[x] = source[x] != 0 ? std::int16_t{0} : std::min(next, most);
+    }
   }
-  for (std::size_t i = sources.size(); i-- > width;) {
-    const auto next = static_cast<Square>(distances[i] + 1);
-    distances[i - width] = std::min(distances[i - width], next);
+  for (std::size_t row = sources.size() - std::min(sources.size(), width); row > 0; row -= width) {
+    const std::int16_t* after = &distances[row];
+    std::int16_t* here = &distances[row - width];
+    for (std::size_t x = 0; x < width; ++x) {
+      here[x] = std::min(here[x], static_cast<std::int16_t>(after[x] + 1));
+    }
   }
   return distances;
 }
 
+/// A square less 2¹⁵: the least of such numbers takes one instruction everywhere, that of numbers
+/// without a sign five. The sum of two squares of up to 180 cells fits, too.
+using Lowered = std::int16_t;
+constexpr int kLowered = 32768;
+
+Lowered lowered(int square) { return static_cast<Lowered>(square - kLowered); }
+
 /// `best[x]` = min over |d| ≤ most of row[x + d]² + d². `padded` has `most` cells more at either
 /// end.
-void row_squares(const std::vector<Square>& padded, std::size_t width, std::size_t most,
-                 std::vector<Square>& best) {
-  std::fill(best.begin(), best.end(), static_cast<Square>(most * most));
+void row_squares(const std::vector<Lowered>& padded, std::size_t width, std::size_t most,
+                 std::vector<Lowered>& best) {
+  std::fill(best.begin(), best.end(), lowered(static_cast<int>(most * most)));
   for (std::size_t shift = 0; shift <= 2 * most; ++shift) {
     const std::size_t offset = shift > most ? shift - most : most - shift;
-    const auto square = static_cast<Square>(offset * offset);
-    const Square* from = padded.data() + shift;
-    Square* to = best.data();
+    const auto square = static_cast<Lowered>(offset * offset);
+    const Lowered* from = padded.data() + shift;
+    Lowered* to = best.data();
     for (std::size_t x = 0; x < width; ++x) {
-      const auto sum = static_cast<Square>(from[x] + square);
+      const auto sum = static_cast<Lowered>(from[x] + square);
       to[x] = sum < to[x] ? sum : to[x];
     }
   }
@@ -52,20 +66,21 @@ std::vector<float> near_distances(const std::vector<std::uint8_t>& sources, int 
                                   int most_cells) {
   const auto columns = static_cast<std::size_t>(width);
   const auto most = static_cast<std::size_t>(most_cells);
-  const auto most_square = static_cast<Square>(most * most);
-  const std::vector<Square> along =
-      column_distances(sources, columns, static_cast<Square>(most_cells));
+  const std::vector<std::int16_t> along =
+      column_distances(sources, columns, static_cast<std::int16_t>(most_cells));
   std::vector<float> roots(most * most + 1);
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = std::sqrt(static_cast<float>(i));
-  std::vector<Square> padded(columns + 2 * most, most_square);
-  std::vector<Square> best(columns);
+  std::vector<Lowered> padded(columns + 2 * most, lowered(most_cells * most_cells));
+  std::vector<Lowered> best(columns);
   std::vector<float> distances(sources.size());
   for (std::size_t row = 0; row < sources.size(); row += columns) {
     for (std::size_t x = 0; x < columns; ++x) {
-      padded[most + x] = static_cast<Square>(along[row + x] * along[row + x]);
+      padded[most + x] = lowered(along[row + x] * along[row + x]);
     }
     row_squares(padded, columns, most, best);
-    for (std::size_t x = 0; x < columns; ++x) distances[row + x] = roots[best[x]];
+    for (std::size_t x = 0; x < columns; ++x) {
+      distances[row + x] = roots[static_cast<std::size_t>(best[x] + kLowered)];
+    }
   }
   return distances;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tagfield {
 namespace {
@@ -18,6 +19,18 @@ TEST(NearDistances, OfOneSource) {
   EXPECT_EQ(distances[3 * 11 + 6], 1.0F);
   EXPECT_EQ(distances[5 * 11 + 6], std::sqrt(5.0F));
   EXPECT_EQ(distances[0], 4.0F);  // √34 away: no farther than asked for.
+}
+
+TEST(NearDistances, OfOneSourceToTheMostCellsThatThereMayBe) {
+  constexpr int kWidth = 400;
+  std::vector<std::uint8_t> sources(kWidth * 150, 0);
+  sources[0] = 1;
+  const std::vector<float> distances = near_distances(sources, kWidth, 180);
+  for (const auto& [x, y] : {std::pair(150, 90), {179, 0}, {104, 146}, {127, 127}, {250, 20}}) {
+    const float expected = std::min(180.0F, std::sqrt(static_cast<float>(x * x + y * y)));
+    EXPECT_FLOAT_EQ(distances[static_cast<std::size_t>(y * kWidth + x)], expected)
+        << x << ", " << y;
+  }
 }
 
 TEST(NearDistances, WithoutSources) {
