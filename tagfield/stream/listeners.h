@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Who is told what a run yields, while it runs: reads, told poses, and apart from them the truth.
+/// In C++17, as the headers of ROS 1's messages are, which its adapters read, too.
 #pragma once
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -42,7 +42,7 @@ struct ReadBatch {
   Time stamp;
   const std::string& reader;
   const std::string& antenna;
-  std::span<const Row> rows;
+  const std::vector<Row>& rows;
 };
 
 /// The distances behind a ReadBatch, in its order.
@@ -53,7 +53,7 @@ struct DistanceBatch {
   };
   Time stamp;
   const std::string& antenna;
-  std::span<const Row> rows;
+  const std::vector<Row>& rows;
 };
 
 /// Gets reads. All calls come from one thread at a time.
