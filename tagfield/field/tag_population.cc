@@ -38,8 +38,14 @@ void read_some(const AntennaParameters& antenna, std::uint64_t antenna_key,
       paper(antenna).sensitivity_dbm.value_or(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; ++i) {
     if (rssis_dbm[i] < least_dbm) continue;
-    replies.emplace_back(slots[i], stamp, frequency_hz, phases_rad[i], rssis_dbm[i], distances_m[i],
-                         std::nullopt);
+    // Member by member: a struct that is put together elsewhere first waits on its way here.
+    TagReply& reply = replies.emplace_back();
+    reply.slot = slots[i];
+    reply.stamp = stamp;
+    reply.frequency_hz = frequency_hz;
+    reply.phase_rad = phases_rad[i];
+    reply.rssi_dbm = rssis_dbm[i];
+    reply.distance_m = distances_m[i];
   }
 }
 

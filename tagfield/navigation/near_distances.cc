@@ -79,7 +79,8 @@ std::vector<float> near_distances(const std::vector<std::uint8_t>& sources, int 
     }
     row_squares(padded, columns, most, best);
     for (std::size_t x = 0; x < columns; ++x) {
-      distances[row + x] = roots[static_cast<std::size_t>(best[x] + kLowered)];
+      const int square = best[x] + kLowered;
+      distances[row + x] = roots[static_cast<std::size_t>(square)];
     }
   }
   return distances;

@@ -33,11 +33,11 @@ struct AntennaInfo {
 /// Reads of one antenna at one time. Names are valid for the call.
 struct ReadBatch {
   struct Row {
-    const std::string* tag;  ///< Its ID; never null.
-    double frequency_hz;     ///< As in TagRead.
-    double phase_rad;
-    double rssi_dbm;
-    std::optional<double> doppler_hz;
+    const std::string* tag = nullptr;  ///< Its ID; never null.
+    double frequency_hz = 0.0;         ///< As in TagRead.
+    double phase_rad = 0.0;
+    double rssi_dbm = 0.0;
+    std::optional<double> doppler_hz{};
   };
   Time stamp;
   const std::string& reader;
@@ -48,8 +48,8 @@ struct ReadBatch {
 /// The distances behind a ReadBatch, in its order.
 struct DistanceBatch {
   struct Row {
-    const std::string* tag;  ///< Its ID; never null.
-    double distance_m;
+    const std::string* tag = nullptr;  ///< Its ID; never null.
+    double distance_m = 0.0;
   };
   Time stamp;
   const std::string& antenna;

@@ -38,10 +38,7 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   void on_read(const TagRead& read) override { recording_.reads.push_back(read); }
   // Rows are made in their place: to copy their names twice takes longer than all else.
   void on_reads(const ReadBatch& batch) override {
-    for (const ReadBatch::Row& row : batch.rows) {
-      recording_.reads.emplace_back(batch.stamp, batch.reader, batch.antenna, *row.tag,
-                                    row.frequency_hz, row.phase_rad, row.rssi_dbm, row.doppler_hz);
-    }
+    for (const ReadBatch::Row& row : batch.rows) recording_.reads.emplace_back(ReadOf{batch, row});
   }
   void on_antenna_removed(const std::string& name) override {
     told_.forget(name);
@@ -67,11 +64,29 @@ class Recorder final : public ReadListener, public PoseListener, public TruthLis
   }
   void on_distances(const DistanceBatch& batch) override {
     for (const DistanceBatch::Row& row : batch.rows) {
-      recording_.truth.distances.emplace_back(batch.stamp, batch.antenna, *row.tag, row.distance_m);
+      recording_.truth.distances.emplace_back(DistanceOf{batch, row});
     }
   }
 
  private:
+  /// What becomes a read where that is to be: emplace_back() takes no members of a plain struct
+  /// with all compilers.
+  struct ReadOf {
+    const ReadBatch& batch;
+    const ReadBatch::Row& row;
+    explicit operator TagRead() const {
+      return {batch.stamp,      batch.reader,  batch.antenna, *row.tag,
+              row.frequency_hz, row.phase_rad, row.rssi_dbm,  row.doppler_hz};
+    }
+  };
+  struct DistanceOf {
+    const DistanceBatch& batch;
+    const DistanceBatch::Row& row;
+    explicit operator TrueDistance() const {
+      return {batch.stamp, batch.antenna, *row.tag, row.distance_m};
+    }
+  };
+
   Recording& recording_;
   FirstPoses told_;
   FirstPoses placed_;

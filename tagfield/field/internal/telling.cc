@@ -57,12 +57,19 @@ void Telling::tell(Time /*stamp*/, const Read& read) const {
 /// At most a few hundred, so that nothing leaves the cache on its way to the listeners.
 void Telling::tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
                             std::span<const TagReply> replies) {
-  rows_.clear();
-  distance_rows_.clear();
-  for (const TagReply& reply : replies) {
-    const std::string& tag = tags.id(reply.slot);
-    rows_.emplace_back(&tag, reply.frequency_hz, reply.phase_rad, reply.rssi_dbm, reply.doppler_hz);
-    distance_rows_.emplace_back(&tag, reply.distance_m);
+  rows_.resize(replies.size());
+  distance_rows_.resize(replies.size());
+  // Member by member: a struct that is put together elsewhere first waits on its way here.
+  for (std::size_t i = 0; i < replies.size(); ++i) {
+    const TagReply& reply = replies[i];
+    ReadBatch::Row& row = rows_[i];
+    row.tag = &tags.id(reply.slot);
+    row.frequency_hz = reply.frequency_hz;
+    row.phase_rad = reply.phase_rad;
+    row.rssi_dbm = reply.rssi_dbm;
+    row.doppler_hz = reply.doppler_hz;
+    distance_rows_[i].tag = row.tag;
+    distance_rows_[i].distance_m = reply.distance_m;
   }
   for (const auto& listener : outlets_.truth) {
     listener->on_distances({stamp, antenna.name, distance_rows_});

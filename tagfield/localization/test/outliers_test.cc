@@ -30,6 +30,20 @@ TEST(Outliers, MixtureFindsNoiseAndShare) {
   EXPECT_TRUE(has_outliers(mixture));
 }
 
+// Bayes' theorem, of normal noise and angles all around alike.
+TEST(Outliers, EachIsOneByTheDensities) {
+  Rng rng(4);
+  const Eigen::ArrayXd drawn = angles(2000, 0.2, 0.1, rng);
+  const OutlierMixture mixture = outlier_mixture(drawn);
+  for (Eigen::Index i = 0; i < drawn.size(); ++i) {
+    const double z = drawn[i] / mixture.sigma_rad;
+    const double noise =
+        (1.0 - mixture.share) / (mixture.sigma_rad * std::sqrt(kTwoPi)) * std::exp(-0.5 * z * z);
+    const double other = mixture.share / kTwoPi;
+    ASSERT_NEAR(mixture.probability[i], other / (noise + other), 1e-4) << drawn[i];
+  }
+}
+
 TEST(Outliers, AreNotClaimedOfNoiseAlone) {
   Rng rng(2);
   int claims = 0;

@@ -54,6 +54,8 @@ TEST(Plausibility, ChanceOfPairsIsBoundedFromAbove) {
 TEST(Plausibility, FreeOffsetsCount) {
   // A read each: all waves add up, whatever they are.
   EXPECT_GE(log_chance(std::vector<double>(100, 1.0), 100.0, 1.0), 0.0);
+  // No more of them can.
+  EXPECT_LT(log_chance(std::vector<double>(4, 1.0), 4.2, 1.0), std::log(1e-3));
   // The same sum of one group is no chance.
   EXPECT_LT(log_chance({100.0}, 100.0, 1e6), std::log(1e-20));
 }
