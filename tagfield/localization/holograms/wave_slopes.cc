@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "tagfield/base/lane_math.h"
 
@@ -46,52 +47,57 @@ inline double square_up(const PlaceInLanes& place, double z) {
   return up * up;
 }
 
-/// Read `i` into lane `k`.
-template <Kind kKind>
-inline void add_wave(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
-                     LaneSums& sums) {
-  const double dx = place.x - reads.x[i];
-  const double dy = place.y - reads.y[i];
-  const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
-  const double r = std::sqrt(std::max(square, 1e-4));
-  const double wavenumber = reads.wavenumber[i];
-  const auto [sine, cosine] = lane_sine_cosine(wavenumber * (reads.value[i] - r));
-  const double slope = wavenumber / r;
-  const double x = slope * dx;
-  const double y = slope * dy;
-  sums.cosine[k] += cosine;
-  sums.sine[k] += sine;
-  sums.cosine_x[k] += cosine * x;
-  sums.cosine_y[k] += cosine * y;
-  sums.sine_x[k] += sine * x;
-  sums.sine_y[k] += sine * y;
-  sums.x[k] += x;
-  sums.y[k] += y;
-  sums.xx[k] += x * x;
-  sums.xy[k] += x * y;
-  sums.yy[k] += y * y;
-  if constexpr (kKind != Kind::kKnown) {
-    const double z = slope * (kKind == Kind::kLevel ? 0.5 : place.third - reads.z[i]);
-    sums.cosine_z[k] += cosine * z;
-    sums.sine_z[k] += sine * z;
-    sums.z[k] += z;
-    sums.xz[k] += x * z;
-    sums.yz[k] += y * z;
-    sums.zz[k] += z * z;
+/// Read `i` into lane `k`, with what changes as the place moves.
+struct WithSlopes {
+  template <Kind kKind>
+  static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
+                  LaneSums& sums) {
+    const double dx = place.x - reads.x[i];
+    const double dy = place.y - reads.y[i];
+    const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
+    const double r = std::sqrt(std::max(square, 1e-4));
+    const double wavenumber = reads.wavenumber[i];
+    const auto [sine, cosine] = lane_sine_cosine(wavenumber * (reads.value[i] - r));
+    const double slope = wavenumber / r;
+    const double x = slope * dx;
+    const double y = slope * dy;
+    sums.cosine[k] += cosine;
+    sums.sine[k] += sine;
+    sums.cosine_x[k] += cosine * x;
+    sums.cosine_y[k] += cosine * y;
+    sums.sine_x[k] += sine * x;
+    sums.sine_y[k] += sine * y;
+    sums.x[k] += x;
+    sums.y[k] += y;
+    sums.xx[k] += x * x;
+    sums.xy[k] += x * y;
+    sums.yy[k] += y * y;
+    if constexpr (kKind != Kind::kKnown) {
+      const double z = slope * (kKind == Kind::kLevel ? 0.5 : place.third - reads.z[i]);
+      sums.cosine_z[k] += cosine * z;
+      sums.sine_z[k] += sine * z;
+      sums.z[k] += z;
+      sums.xz[k] += x * z;
+      sums.yz[k] += y * z;
+      sums.zz[k] += z * z;
+    }
   }
-}
+};
 
-template <Kind kKind>
-inline void add_sum(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
-                    LaneSums& sums) {
-  const double dx = place.x - reads.x[i];
-  const double dy = place.y - reads.y[i];
-  const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
-  const double r = std::sqrt(std::max(square, 1e-4));
-  const auto [sine, cosine] = lane_sine_cosine(reads.wavenumber[i] * (reads.value[i] - r));
-  sums.cosine[k] += cosine;
-  sums.sine[k] += sine;
-}
+/// Likewise the sum alone.
+struct SumAlone {
+  template <Kind kKind>
+  static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
+                  LaneSums& sums) {
+    const double dx = place.x - reads.x[i];
+    const double dy = place.y - reads.y[i];
+    const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
+    const double r = std::sqrt(std::max(square, 1e-4));
+    const auto [sine, cosine] = lane_sine_cosine(reads.wavenumber[i] * (reads.value[i] - r));
+    sums.cosine[k] += cosine;
+    sums.sine[k] += sine;
+  }
+};
 
 /// Calls `add(i, k, sums)` for each of `count` reads, by turns into each lane.
 template <class Add>
@@ -118,21 +124,28 @@ LaneSums by_kind(Kind kind, const Of& of) {
   return of(std::integral_constant<Kind, Kind::kFree>{});
 }
 
+/// What `What` adds of all reads of an aperture.
+template <class What>
+LaneSums lane_sums(const TagPhases& phases, const Aperture& part, const HeightModel& height,
+                   const PlaceVector& place, InstructionSet set) {
+  const ReadArrays reads = arrays_of(phases, part);
+  const PlaceInLanes at{place[0], place[1], place[2], height.z};
+  return by_kind(height.kind, [&](auto kind) {
+    LaneSums sums;
+    in_lanes(set, [&] {
+      sums = added_up(part.count, [&](Eigen::Index i, int k, LaneSums& all) {
+        What::template add<decltype(kind)::value>(reads, at, i, k, all);
+      });
+    });
+    return sums;
+  });
+}
+
 }  // namespace
 
 WaveSlopes wave_slopes(const TagPhases& phases, const Aperture& part, const HeightModel& height,
                        const PlaceVector& place, InstructionSet set) {
-  const ReadArrays reads = arrays_of(phases, part);
-  const PlaceInLanes at{place[0], place[1], place[2], height.z};
-  const LaneSums sums = by_kind(height.kind, [&](auto kind) {
-    LaneSums of_kind;
-    in_lanes(set, [&] {
-      of_kind = added_up(part.count, [&](Eigen::Index i, int k, LaneSums& all) {
-        add_wave<decltype(kind)::value>(reads, at, i, k, all);
-      });
-    });
-    return of_kind;
-  });
+  const LaneSums sums = lane_sums<WithSlopes>(phases, part, height, place, set);
   WaveSlopes slopes;
   slopes.sum = {sum_of(sums.cosine), sum_of(sums.sine)};
   slopes.in_phase << sum_of(sums.cosine_x), sum_of(sums.cosine_y), sum_of(sums.cosine_z);
@@ -148,17 +161,7 @@ WaveSlopes wave_slopes(const TagPhases& phases, const Aperture& part, const Heig
 std::complex<double> wave_sum(const TagPhases& phases, const Aperture& part,
                               const HeightModel& height, const PlaceVector& place,
                               InstructionSet set) {
-  const ReadArrays reads = arrays_of(phases, part);
-  const PlaceInLanes at{place[0], place[1], place[2], height.z};
-  const LaneSums sums = by_kind(height.kind, [&](auto kind) {
-    LaneSums of_kind;
-    in_lanes(set, [&] {
-      of_kind = added_up(part.count, [&](Eigen::Index i, int k, LaneSums& all) {
-        add_sum<decltype(kind)::value>(reads, at, i, k, all);
-      });
-    });
-    return of_kind;
-  });
+  const LaneSums sums = lane_sums<SumAlone>(phases, part, height, place, set);
   return {sum_of(sums.cosine), sum_of(sums.sine)};
 }
 
