@@ -48,7 +48,7 @@ class Telling {
   /// Tells all but the reads after `until`, up to which no read will be added any more.
   void tell(Time until);
 
-  /// Reads that were added, those that are not made yet excepted: none after tell().
+  /// How many reads were added; those that are made as they are told count from then on.
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
