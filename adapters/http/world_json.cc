@@ -108,7 +108,7 @@ Json solids_json(const Scene& scene, const Scenario& scenario) {
 }
 
 Json obstacle_json(const ObstacleSpec& obstacle, Time now) {
-  const Eigen::Vector3d p_W = held_pose_at(obstacle.motion, now).translation;
+  const Eigen::Vector3d p_W = held_position_at(obstacle.motion, now);
   const BodySpec body = obstacle.body.value_or(BodySpec{});
   Json json = {{"name", obstacle.name},
                {"position", {p_W.x(), p_W.y()}},

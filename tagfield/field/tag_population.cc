@@ -99,14 +99,6 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
   }
 }
 
-void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
-               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies) {
-  replies.clear();
-  read_tags(antenna, p_WA, stamp, seed, tags, [&](std::span<const TagReply> some) {
-    replies.insert(replies.end(), some.begin(), some.end());
-  });
-}
-
 TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply) {
   return {reply.stamp,        antenna.reader,  antenna.name,   tag,
           reply.frequency_hz, reply.phase_rad, reply.rssi_dbm, reply.doppler_hz};

@@ -111,10 +111,6 @@ void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Ti
                std::uint64_t seed, const TagPopulation& tags,
                const std::function<void(std::span<const TagReply>)>& take);
 
-/// All of them into `replies` (emptied first).
-void read_tags(const AntennaParameters& antenna, const Eigen::Vector3d& p_WA, Time stamp,
-               std::uint64_t seed, const TagPopulation& tags, std::vector<TagReply>& replies);
-
 /// The whole record of a reply.
 TagRead to_read(const AntennaParameters& antenna, const std::string& tag, const TagReply& reply);
 

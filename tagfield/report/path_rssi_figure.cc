@@ -23,7 +23,7 @@ struct PlacedRead {
 std::vector<PlacedRead> placed(const AntennaTrack& track, const std::string& tag) {
   std::vector<PlacedRead> list;
   for (const TagRead* read : reads_of(track, tag)) {
-    list.push_back({read, held_pose_at(track.best(), read->stamp).translation});
+    list.push_back({read, held_position_at(track.best(), read->stamp)});
   }
   return list;
 }

@@ -38,8 +38,7 @@ Eigen::Vector3d true_velocity(const Trajectory& places, Time stamp) {
 
 void add_errors(const TrackPoint& point, const Trajectory& places, TrackOutcome& outcome) {
   const Eigen::Vector3d v = true_velocity(places, point.stamp);
-  const Eigen::Vector2d error =
-      (point.p_WT - held_pose_at(places, point.stamp).translation).head<2>();
+  const Eigen::Vector2d error = (point.p_WT - held_position_at(places, point.stamp)).head<2>();
   const double speed = v.head<2>().norm();
   Eigen::Vector2d along(1.0, 0.0);
   if (speed > 0.0) along = v.head<2>() / speed;
@@ -49,8 +48,7 @@ void add_errors(const TrackPoint& point, const Trajectory& places, TrackOutcome&
 }
 
 double nees_of(const TrackPoint& point, const Trajectory& places) {
-  const Eigen::Vector2d error =
-      (point.p_WT - held_pose_at(places, point.stamp).translation).head<2>();
+  const Eigen::Vector2d error = (point.p_WT - held_position_at(places, point.stamp)).head<2>();
   const Eigen::Matrix2d covariance = point.covariance.topLeftCorner<2, 2>();
   return 0.5 * error.dot(covariance.inverse() * error);
 }

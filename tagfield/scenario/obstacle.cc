@@ -30,7 +30,7 @@ Obstacles obstacles_at(const std::vector<ObstacleSpec>& specs, Time stamp) {
   Obstacles obstacles;
   for (const ObstacleSpec& spec : specs) {
     if (!is_there(spec, stamp)) continue;
-    const Eigen::Vector2d centre = held_pose_at(spec.motion, stamp).translation.head<2>();
+    const Eigen::Vector2d centre = held_position_at(spec.motion, stamp).head<2>();
     if (spec.radius_m > 0.0) {
       obstacles.discs.push_back({centre, spec.radius_m});
     } else {

@@ -88,13 +88,20 @@ void Telling::tell(Time stamp, const Reads& reads) {
   }
 }
 
-void Telling::tell(Time stamp, const Unmade& unmade) {
+void Telling::make(Time stamp, const Unmade& unmade,
+                   const std::function<void(std::span<const TagReply>)>& take) {
   const FieldAntenna& antenna = *unmade.antenna;
   read_tags(antenna.parameters, unmade.p_WA, stamp, antenna.seed, *unmade.tags,
             [&](std::span<const TagReply> replies) {
               reads_ += static_cast<std::int64_t>(replies.size());
-              tell_together(antenna.parameters, stamp, *unmade.tags, replies);
+              take(replies);
             });
+}
+
+void Telling::tell(Time stamp, const Unmade& unmade) {
+  make(stamp, unmade, [&](std::span<const TagReply> replies) {
+    tell_together(unmade.antenna->parameters, stamp, *unmade.tags, replies);
+  });
 }
 
 void Telling::tell(Time stamp, const Update& update) const {
@@ -151,12 +158,9 @@ void Telling::keep(Event& event, std::vector<Event>& kept) {
   if (const auto* const reads = std::get_if<Reads>(&event.what)) {
     keep_all(*reads->antenna, *reads->tags, reads->replies);
   } else if (const auto* const unmade = std::get_if<Unmade>(&event.what)) {
-    const FieldAntenna& antenna = *unmade->antenna;
-    read_tags(antenna.parameters, unmade->p_WA, event.stamp, antenna.seed, *unmade->tags,
-              [&](std::span<const TagReply> replies) {
-                reads_ += static_cast<std::int64_t>(replies.size());
-                keep_all(antenna, *unmade->tags, replies);
-              });
+    make(event.stamp, *unmade, [&](std::span<const TagReply> replies) {
+      keep_all(*unmade->antenna, *unmade->tags, replies);
+    });
   } else {
     kept.push_back(std::move(event));
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -90,6 +91,9 @@ class Telling {
   void tell(Time stamp, const Read& read) const;
   void tell(Time stamp, const Reads& reads);
   void tell(Time stamp, const Unmade& unmade);
+  /// Makes reads, and counts them, some hundreds a call of `take`.
+  void make(Time stamp, const Unmade& unmade,
+            const std::function<void(std::span<const TagReply>)>& take);
   void tell_together(const AntennaParameters& antenna, Time stamp, const TagPopulation& tags,
                      std::span<const TagReply> replies);
   [[nodiscard]] static bool is_kept(const Event& event, Time until);

@@ -10,6 +10,7 @@
 
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/channel/paper_model.h"
+#include "tagfield/field/test/replies_of.h"
 
 namespace tagfield {
 namespace {
@@ -57,12 +58,10 @@ RC_GTEST_PROP(ReadTags, ReportOnlyWhatReachesTheSensitivity, ()) {
   for (std::uint32_t i = 0; i < 700; ++i) tags.add(i, "tag" + std::to_string(i), {0.01 * i, 0, 1});
   AntennaParameters parameters = antenna();
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-  std::vector<TagReply> all;
-  read_tags(parameters, kOrigin, Time{}, seed, tags, all);
+  const std::vector<TagReply> all = replies_of(parameters, kOrigin, Time{}, seed, tags);
   const double least_dbm = *rc::gen::inRange(-100, -20);
   paper(parameters).sensitivity_dbm = least_dbm;
-  std::vector<TagReply> heard;
-  read_tags(parameters, kOrigin, Time{}, seed, tags, heard);
+  const std::vector<TagReply> heard = replies_of(parameters, kOrigin, Time{}, seed, tags);
   std::size_t next = 0;
   for (const TagReply& reply : all) {
     if (reply.rssi_dbm < least_dbm) continue;
@@ -103,8 +102,7 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
   RC_ASSERT(tags.size() == expected.size());
   const Eigen::Vector3d p_WA = any_place();
   const Time stamp{Duration(*rc::gen::inRange<std::int64_t>(0, 1'000'000'000))};
-  std::vector<TagReply> replies;
-  read_tags(antenna(), p_WA, stamp, 7, tags, replies);
+  const std::vector<TagReply> replies = replies_of(antenna(), p_WA, stamp, 7, tags);
 
   const double range = perturbed_range(antenna(), stamp, 7);
   std::size_t in_range = 0;
@@ -126,9 +124,7 @@ RC_GTEST_PROP(ReadTags, GiveWhatEachTagAloneGives, ()) {
 TEST(ReadTags, GiveNothingForAnAntennaThatIsNowhere) {
   TagPopulation tags(3.5);
   tags.add(0, "A", kOrigin);
-  std::vector<TagReply> replies(3);
-  read_tags(antenna(), {std::nan(""), 0.0, 0.0}, Time{}, 1, tags, replies);
-  EXPECT_TRUE(replies.empty());
+  EXPECT_TRUE(replies_of(antenna(), {std::nan(""), 0.0, 0.0}, Time{}, 1, tags).empty());
 }
 
 }  // namespace

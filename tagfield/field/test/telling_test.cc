@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "tagfield/field/test/replies_of.h"
+
 namespace tagfield {
 namespace {
 
@@ -209,9 +211,9 @@ TEST(Telling, MakesReadsAsItTellsThem) {
   later.telling.add(field.antenna, at_nanos(5), field.tags, Eigen::Vector3d::Zero());
   EXPECT_EQ(later.telling.reads(), 0);
   Told made;
-  std::vector<TagReply> replies;
-  read_tags(field.antenna->parameters, Eigen::Vector3d::Zero(), at_nanos(5), field.antenna->seed,
-            field.tags, replies);
+  const std::vector<TagReply> replies =
+      replies_of(field.antenna->parameters, Eigen::Vector3d::Zero(), at_nanos(5),
+                 field.antenna->seed, field.tags);
   ASSERT_EQ(replies.size(), 1000U);
   for (const TagReply& reply : replies) {
     made.telling.add(to_read(field.antenna->parameters, field.tags.id(reply.slot), reply),

@@ -27,7 +27,7 @@ struct LaneSums {
   Lane xx = {}, xy = {}, yy = {}, xz = {}, yz = {}, zz = {};
 };
 
-/// A read as its antenna, phase and wave number, and the place, by themselves.
+/// Reads as TagPhases has them, from the first of an aperture on.
 struct ReadArrays {
   const double* x;
   const double* y;
@@ -35,6 +35,7 @@ struct ReadArrays {
   const double* value;
   const double* wavenumber;
 };
+/// The unknowns of the place.
 struct PlaceInLanes {
   double x, y, third;
   double level;  ///< HeightModel::z.
@@ -47,18 +48,29 @@ inline double square_up(const PlaceInLanes& place, double z) {
   return up * up;
 }
 
+/// One read's wave e^{jψ}, and where its antenna is.
+struct Wave {
+  double dx, dy, r;  ///< To the place [m].
+  double sine, cosine;
+};
+
+template <Kind kKind>
+inline Wave wave_of(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i) {
+  const double dx = place.x - reads.x[i];
+  const double dy = place.y - reads.y[i];
+  const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
+  const double r = std::sqrt(std::max(square, 1e-4));
+  const auto [sine, cosine] = lane_sine_cosine(reads.wavenumber[i] * (reads.value[i] - r));
+  return {dx, dy, r, sine, cosine};
+}
+
 /// Read `i` into lane `k`, with what changes as the place moves.
 struct WithSlopes {
   template <Kind kKind>
   static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
                   LaneSums& sums) {
-    const double dx = place.x - reads.x[i];
-    const double dy = place.y - reads.y[i];
-    const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
-    const double r = std::sqrt(std::max(square, 1e-4));
-    const double wavenumber = reads.wavenumber[i];
-    const auto [sine, cosine] = lane_sine_cosine(wavenumber * (reads.value[i] - r));
-    const double slope = wavenumber / r;
+    const auto [dx, dy, r, sine, cosine] = wave_of<kKind>(reads, place, i);
+    const double slope = reads.wavenumber[i] / r;
     const double x = slope * dx;
     const double y = slope * dy;
     sums.cosine[k] += cosine;
@@ -89,13 +101,9 @@ struct SumAlone {
   template <Kind kKind>
   static void add(const ReadArrays& reads, const PlaceInLanes& place, Eigen::Index i, int k,
                   LaneSums& sums) {
-    const double dx = place.x - reads.x[i];
-    const double dy = place.y - reads.y[i];
-    const double square = dx * dx + dy * dy + square_up<kKind>(place, reads.z[i]);
-    const double r = std::sqrt(std::max(square, 1e-4));
-    const auto [sine, cosine] = lane_sine_cosine(reads.wavenumber[i] * (reads.value[i] - r));
-    sums.cosine[k] += cosine;
-    sums.sine[k] += sine;
+    const Wave wave = wave_of<kKind>(reads, place, i);
+    sums.cosine[k] += wave.cosine;
+    sums.sine[k] += wave.sine;
   }
 };
 

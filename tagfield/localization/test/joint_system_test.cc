@@ -32,7 +32,7 @@ made::Hall two_antennas(unsigned seed, int tags) {
   for (auto& [id, samples] : hall.problem.samples) {
     for (const PhaseSample& sample : samples["a"]) {
       PhaseSample other = sample;
-      other.p_WA = held_pose_at(second.X_WA, sample.stamp).translation;
+      other.p_WA = held_position_at(second.X_WA, sample.stamp);
       samples["b"].push_back(other);
     }
   }

@@ -49,7 +49,7 @@ double bound_of(const made::Hall& hall, const made::Path& path, double phase_noi
   input.truth.tracks["a"] = made::track_along(path);
   for (auto& [tag, samples] : input.truth.samples) {
     for (PhaseSample& sample : samples["a"]) {
-      sample.p_WA = held_pose_at(input.truth.tracks["a"].X_WA, sample.stamp).translation;
+      sample.p_WA = held_position_at(input.truth.tracks["a"].X_WA, sample.stamp);
     }
   }
   input.places = hall.truth;

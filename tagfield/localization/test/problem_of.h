@@ -68,7 +68,7 @@ inline void make_late(Hall& hall, double late_s) {
       const Trajectory& track = hall.problem.tracks.at(antenna).X_WA;
       for (PhaseSample& sample : series) {
         sample.stamp += duration_from_seconds(late_s);
-        sample.p_WA = held_pose_at(track, sample.stamp).translation;
+        sample.p_WA = held_position_at(track, sample.stamp);
       }
     }
   }

@@ -7,8 +7,7 @@ namespace tagfield {
 namespace {
 
 MovingBody body_of(const ObstacleSpec& obstacle, Time stamp) {
-  MovingBody body{obstacle.name, obstacle.body->material,
-                  held_pose_at(obstacle.motion, stamp).translation};
+  MovingBody body{obstacle.name, obstacle.body->material, held_position_at(obstacle.motion, stamp)};
   body.is_round = obstacle.radius_m > 0.0;
   const Eigen::Vector2d half = body.is_round ? Eigen::Vector2d::Constant(obstacle.radius_m)
                                              : Eigen::Vector2d(0.5 * obstacle.size_m);
