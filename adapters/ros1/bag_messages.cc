@@ -2,11 +2,18 @@
 #include "adapters/ros1/bag_messages.h"
 
 #include <fmt/format.h>
+#include <nav_msgs/Odometry.h>
+#include <tagfield_msgs/AntennaTruth.h>
+#include <tagfield_msgs/TagPositions.h>
+#include <tagfield_msgs/TagReads.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "adapters/ros2/ros2_messages.h"
 #include "tagfield/base/range_check.h"
 
 namespace tagfield {
@@ -18,23 +25,46 @@ constexpr std::size_t kLongestName = 1000;   ///< Bytes.
 constexpr std::uint32_t kLastSecond = 4'000'000'000;
 constexpr Duration kReset = std::chrono::seconds(1);
 
-double checked(double value, double greatest, const std::string& what, const MessagePlace& place) {
+/// One of a list's elements, in complaints alone: "reads[3].epc".
+struct FieldName {
+  const char* list = "";
+  std::size_t index = 0;
+  const char* field = "";
+};
+std::string to_text(const FieldName& name) {
+  return fmt::format("{}[{}]{}", name.list, name.index, name.field);
+}
+const std::string& to_text(const std::string& name) { return name; }
+
+template <class Name>
+double checked(double value, double greatest, const Name& what, const MessagePlace& place) {
   if (!(std::abs(value) <= greatest)) {
-    fail_at(place, fmt::format("{} is {}, expected a number within ±{:g}", what, value, greatest));
+    fail_at(place, fmt::format("{} is {}, expected a number within ±{:g}", to_text(what), value,
+                               greatest));
   }
   return value;
 }
 
-std::string checked_name(const std::string& name, const std::string& what,
-                         const MessagePlace& place) {
-  if (name.empty()) fail_at(place, what + " is empty, expected a name");
+template <class Name>
+const std::string& checked_name(const std::string& name, const Name& what,
+                                const MessagePlace& place) {
+  if (name.empty()) fail_at(place, fmt::format("{} is empty, expected a name", to_text(what)));
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   if (name.size() > kLongestName || std::any_of(name.begin(), name.end(), is_control)) {
     fail_at(place,
-            fmt::format("{} is no name: {} bytes{}", what, name.size(),
+            fmt::format("{} is no name: {} bytes{}", to_text(what), name.size(),
                         name.size() > kLongestName ? "" : ", control characters among them"));
   }
   return name;
+}
+
+Time stamp_of(const ros2::builtin_interfaces::Time& stamp, const MessagePlace& place) {
+  if (stamp.sec < 0) fail_at(place, fmt::format("stamp is {} s, expected 0 or more", stamp.sec));
+  if (stamp.nanosec >= 1'000'000'000) {
+    fail_at(place, fmt::format("header.stamp is {} s and {} ns, expected a time", stamp.sec,
+                               stamp.nanosec));
+  }
+  return Time(std::chrono::seconds(stamp.sec) + Duration(stamp.nanosec));
 }
 
 Time stamp_of(const ros::Time& stamp, const MessagePlace& place) {
@@ -57,7 +87,8 @@ Eigen::Vector3d place_of(const Point& p, const std::string& what, const MessageP
           checked(p.z, kMostCoordinate_m, what + ".z", place)};
 }
 
-Eigen::Quaterniond rotation_of(const geometry_msgs::Quaternion& q, const std::string& what,
+template <typename Quaternion>
+Eigen::Quaterniond rotation_of(const Quaternion& q, const std::string& what,
                                const MessagePlace& place) {
   const Eigen::Quaterniond quaternion(q.w, q.x, q.y, q.z);
   const auto rotation = as_rotation(quaternion);
@@ -67,8 +98,8 @@ Eigen::Quaterniond rotation_of(const geometry_msgs::Quaternion& q, const std::st
   return *rotation;
 }
 
-RigidTransform pose_of(const geometry_msgs::Pose& pose, const std::string& what,
-                       const MessagePlace& place) {
+template <typename Pose>
+RigidTransform pose_of(const Pose& pose, const std::string& what, const MessagePlace& place) {
   return {rotation_of(pose.orientation, what + ".orientation", place),
           place_of(pose.position, what + ".position", place)};
 }
@@ -85,7 +116,8 @@ void keep_last_places(std::vector<TagPosition>& positions, Time stamp) {
 }
 
 void forget(BagContent& content, Time stamp) {
-  BagContent kept;
+  content.sink->on_reset();
+  BagContent kept(*content.sink);
   kept.truth.tag_positions = std::move(content.truth.tag_positions);
   keep_last_places(kept.truth.tag_positions, stamp);
   for (StampedTransform& transform : content.transforms) {
@@ -109,22 +141,23 @@ void follow_clock(const std::string& stream, Time stamp, const MessagePlace& pla
   entry = std::max(entry, stamp);
 }
 
-TagRead read_of(const tagfield_msgs::TagRead& message, std::size_t index,
-                const MessagePlace& place) {
-  const std::string at = fmt::format("reads[{}].", index);
+template <class Message>
+TagRead read_of(const Message& message, std::size_t index, const MessagePlace& place) {
+  const auto at = [index](const char* field) { return FieldName{"reads", index, field}; };
   TagRead read;
   read.stamp = stamp_of(message.header.stamp, place);
-  if (!message.reader.empty()) read.reader = checked_name(message.reader, at + "reader", place);
-  read.antenna = checked_name(message.antenna, at + "antenna", place);
-  read.tag = checked_name(message.epc, at + "epc", place);
-  read.frequency_hz = checked(message.frequency, kGreatestFrequency, at + "frequency", place);
+  if (!message.reader.empty()) read.reader = checked_name(message.reader, at(".reader"), place);
+  read.antenna = checked_name(message.antenna, at(".antenna"), place);
+  read.tag = checked_name(message.epc, at(".epc"), place);
+  read.frequency_hz = checked(message.frequency, kGreatestFrequency, at(".frequency"), place);
   if (!(read.frequency_hz > 0.0)) {
-    fail_at(place, fmt::format("{}frequency is {}, expected more than 0", at, read.frequency_hz));
+    fail_at(place, fmt::format("{} is {}, expected more than 0", to_text(at(".frequency")),
+                               read.frequency_hz));
   }
-  read.phase_rad = checked(message.phase, kGreatestLevel, at + "phase", place);
-  read.rssi_dbm = checked(message.rssi, kGreatestLevel, at + "rssi", place);
+  read.phase_rad = checked(message.phase, kGreatestLevel, at(".phase"), place);
+  read.rssi_dbm = checked(message.rssi, kGreatestLevel, at(".rssi"), place);
   if (!std::isnan(message.doppler)) {
-    read.doppler_hz = checked(message.doppler, kGreatestLevel, at + "doppler", place);
+    read.doppler_hz = checked(message.doppler, kGreatestLevel, at(".doppler"), place);
   }
   return read;
 }
@@ -152,8 +185,9 @@ std::string last_name(const std::string& topic) {
   return slash == std::string::npos ? topic : topic.substr(slash + 1);
 }
 
-void take(const tagfield_msgs::TagReads& message, const MessagePlace& place, BagContent& content,
-          Diagnostics& diagnostics) {
+template <class TagReads>
+void take_reads(const TagReads& message, const MessagePlace& place, BagContent& content,
+                Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(message.antenna, "antenna", place);
   const std::string frame = frame_of(message.header.frame_id);
@@ -165,15 +199,13 @@ void take(const tagfield_msgs::TagReads& message, const MessagePlace& place, Bag
       fail_at(place, fmt::format("reads[{}].antenna is '{}', expected '{}' as the message says", i,
                                  read.antenna, antenna));
     }
-    if (read.stamp != content.updates.back().stamp) {
-      content.updates.push_back({read.stamp, antenna, frame});
-    }
-    content.reads.push_back(std::move(read));
+    content.sink->on_read(std::move(read), frame);
   }
 }
 
-void take(const tagfield_msgs::AntennaTruth& message, const MessagePlace& place,
-          BagContent& content, Diagnostics& diagnostics) {
+template <class AntennaTruth>
+void take_antenna_truth(const AntennaTruth& message, const MessagePlace& place, BagContent& content,
+                        Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(message.antenna, "antenna", place);
   if (message.epcs.size() != message.distances.size()) {
@@ -185,14 +217,15 @@ void take(const tagfield_msgs::AntennaTruth& message, const MessagePlace& place,
   content.truth_frame = frame_of(message.header.frame_id);
   content.truth.antenna_poses.push_back({stamp, antenna, X_WA});
   for (std::size_t i = 0; i < message.epcs.size(); ++i) {
-    content.truth.distances.push_back(
-        {stamp, antenna, checked_name(message.epcs[i], fmt::format("epcs[{}]", i), place),
-         checked(message.distances[i], kMostCoordinate_m, fmt::format("distances[{}]", i), place)});
+    content.sink->on_distance(
+        {stamp, antenna, checked_name(message.epcs[i], FieldName{"epcs", i}, place),
+         checked(message.distances[i], kMostCoordinate_m, FieldName{"distances", i}, place)});
   }
 }
 
-void take(const tagfield_msgs::TagPositions& message, const MessagePlace& place,
-          BagContent& content, Diagnostics& /*diagnostics*/) {
+template <class TagPositions>
+void take_tag_positions(const TagPositions& message, const MessagePlace& place, BagContent& content,
+                        Diagnostics& /*diagnostics*/) {
   const Time stamp = stamp_of(message.header.stamp, place);
   for (std::size_t i = 0; i < message.tags.size(); ++i) {
     const std::string at = fmt::format("tags[{}].", i);
@@ -202,8 +235,9 @@ void take(const tagfield_msgs::TagPositions& message, const MessagePlace& place,
   }
 }
 
-void take(const nav_msgs::Odometry& message, const MessagePlace& place, BagContent& content,
-          Diagnostics& diagnostics) {
+template <class Odometry>
+void take_odometry(const Odometry& message, const MessagePlace& place, BagContent& content,
+                   Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string robot = checked_name(robot_of(place.topic), "the topic's namespace", place);
   const RigidTransform X_WB = pose_of(message.pose.pose, "pose.pose", place);
@@ -211,11 +245,12 @@ void take(const nav_msgs::Odometry& message, const MessagePlace& place, BagConte
   content.truth.robot_poses.push_back({stamp, robot, X_WB});
 }
 
-void take(const tf2_msgs::TFMessage& message, const MessagePlace& place, BagContent& content,
-          Diagnostics& diagnostics) {
+template <class TFMessage>
+void take_transforms(const TFMessage& message, const MessagePlace& place, BagContent& content,
+                     Diagnostics& diagnostics) {
   const bool is_static = last_name(place.topic) == "tf_static";
   for (std::size_t i = 0; i < message.transforms.size(); ++i) {
-    const geometry_msgs::TransformStamped& transform = message.transforms[i];
+    const auto& transform = message.transforms[i];
     const std::string at = fmt::format("transforms[{}].", i);
     StampedTransform taken;
     taken.stamp = stamp_of(transform.header.stamp, place);
@@ -232,8 +267,8 @@ void take(const tf2_msgs::TFMessage& message, const MessagePlace& place, BagCont
   }
 }
 
-void take(const rfid_sensor::TagArray& message, const MessagePlace& place, double frequency_hz,
-          BagContent& content, Diagnostics& diagnostics) {
+void take_array(const rfid_sensor::TagArray& message, const MessagePlace& place,
+                double frequency_hz, BagContent& content, Diagnostics& diagnostics) {
   const Time stamp = stamp_of(message.header.stamp, place);
   const std::string antenna = checked_name(sensor_of(place.topic), "the topic's sensor", place);
   const geometry_msgs::Quaternion& q = message.antennaPose.orientation;
@@ -257,10 +292,31 @@ void take(const rfid_sensor::TagArray& message, const MessagePlace& place, doubl
                     frequency_hz,
                     checked(tag.phi, kGreatestLevel, at + "phi", place),
                     checked(tag.rssi, kGreatestLevel, at + "rssi", place)};
-    content.truth.distances.push_back(
+    content.sink->on_distance(
         {stamp, antenna, read.tag, checked(tag.dist, kMostCoordinate_m, at + "dist", place)});
-    content.reads.push_back(std::move(read));
+    content.sink->on_read(std::move(read), "");
   }
 }
+
+template void take_reads(const tagfield_msgs::TagReads&, const MessagePlace&, BagContent&,
+                         Diagnostics&);
+template void take_reads(const ros2::tagfield_msgs::TagReads&, const MessagePlace&, BagContent&,
+                         Diagnostics&);
+template void take_antenna_truth(const tagfield_msgs::AntennaTruth&, const MessagePlace&,
+                                 BagContent&, Diagnostics&);
+template void take_antenna_truth(const ros2::tagfield_msgs::AntennaTruth&, const MessagePlace&,
+                                 BagContent&, Diagnostics&);
+template void take_tag_positions(const tagfield_msgs::TagPositions&, const MessagePlace&,
+                                 BagContent&, Diagnostics&);
+template void take_tag_positions(const ros2::tagfield_msgs::TagPositions&, const MessagePlace&,
+                                 BagContent&, Diagnostics&);
+template void take_odometry(const nav_msgs::Odometry&, const MessagePlace&, BagContent&,
+                            Diagnostics&);
+template void take_odometry(const ros2::nav_msgs::Odometry&, const MessagePlace&, BagContent&,
+                            Diagnostics&);
+template void take_transforms(const tf2_msgs::TFMessage&, const MessagePlace&, BagContent&,
+                              Diagnostics&);
+template void take_transforms(const ros2::tf2_msgs::TFMessage&, const MessagePlace&, BagContent&,
+                              Diagnostics&);
 
 }  // namespace tagfield

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
+#include <string_view>
+#include <utility>
 
 #include "adapters/ros1/bag_content.h"
 #include "adapters/ros1/bag_structure.h"
@@ -34,25 +35,39 @@ void sort_by_stamp(std::vector<Stamped>& list) {
                    [](const Stamped& a, const Stamped& b) { return a.stamp < b.stamp; });
 }
 
-/// Drops all but the first of those with the same key; how many that were.
-template <typename Element, typename KeyOf>
-std::size_t keep_first(std::vector<Element>& list, const KeyOf& key_of) {
-  std::set<decltype(key_of(list.front()))> seen;
-  const std::size_t before = list.size();
-  const auto is_repeat = [&](const Element& element) {
-    return !seen.insert(key_of(element)).second;
-  };
-  list.erase(std::remove_if(list.begin(), list.end(), is_repeat), list.end());
-  return before - list.size();
+/// Of a list by stamp, drops all but the first of those with the same stamp and key; how many that
+/// were.
+template <typename Stamped, typename KeyOf>
+std::size_t keep_first(std::vector<Stamped>& list, const KeyOf& key_of) {
+  std::vector<char> repeats(list.size(), 0);
+  std::set<decltype(key_of(list.front()))> seen;  // At one stamp.
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i == 0 || list[i].stamp != list[i - 1].stamp) seen.clear();
+    repeats[i] = seen.insert(key_of(list[i])).second ? 0 : 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (repeats[i] != 0) continue;
+    if (kept != i) list[kept] = std::move(list[i]);
+    ++kept;
+  }
+  const std::size_t dropped = list.size() - kept;
+  list.erase(list.end() - static_cast<std::ptrdiff_t>(dropped), list.end());
+  return dropped;
 }
 
-/// Sorted, each read once, phases wrapped.
+std::string_view antenna_of(const AntennaPose& pose) { return pose.antenna; }
+
+template <typename OfTag>  // TagRead or TrueDistance
+std::pair<std::string_view, std::string_view> antenna_and_tag(const OfTag& of_tag) {
+  return {of_tag.antenna, of_tag.tag};
+}
+
+/// Sorted, each read once.
 std::vector<TagRead> tidy_reads(std::vector<TagRead> reads, const std::string& path,
                                 Diagnostics& diagnostics) {
-  for (TagRead& read : reads) read.phase_rad = wrap_to_two_pi(read.phase_rad);
   sort_by_stamp(reads);
-  const std::size_t repeats = keep_first(
-      reads, [](const TagRead& read) { return std::tuple(read.stamp, read.antenna, read.tag); });
+  const std::size_t repeats = keep_first(reads, antenna_and_tag<TagRead>);
   if (repeats > 0) {
     diagnostics.warn({path, 0}, fmt::format("{} reads repeat the stamp, antenna and tag of "
                                             "another, of which the first counts",
@@ -68,7 +83,7 @@ bool same_pose(const RigidTransform& a, const RigidTransform& b) {
 /// Sorted, each stamp once.
 std::vector<AntennaPose> ordered_poses(std::vector<AntennaPose> poses) {
   sort_by_stamp(poses);
-  keep_first(poses, [](const AntennaPose& pose) { return std::tuple(pose.stamp, pose.antenna); });
+  keep_first(poses, antenna_of);
   return poses;
 }
 
@@ -110,9 +125,7 @@ Truth tidy_truth(Truth truth) {
   truth.robot_poses = tidy_poses(std::move(truth.robot_poses));
   truth.tag_positions = changes_of(std::move(truth.tag_positions));
   sort_by_stamp(truth.distances);
-  keep_first(truth.distances, [](const TrueDistance& distance) {
-    return std::tuple(distance.stamp, distance.antenna, distance.tag);
-  });
+  keep_first(truth.distances, antenna_and_tag<TrueDistance>);
   return truth;
 }
 
@@ -149,7 +162,7 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   }
   sort_by_stamp(content.updates);
   keep_first(content.updates,
-             [](const RecordedUpdate& update) { return std::tuple(update.stamp, update.antenna); });
+             [](const RecordedUpdate& update) -> std::string_view { return update.antenna; });
   TransformedPoses found =
       poses_from_transforms(std::move(content.transforms), content.updates, options.frames);
   if (!found.poses.empty() && found.frame == recording.truth_frame) {
@@ -158,11 +171,105 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   return {found.source, found.frame, tidy_poses(std::move(found.poses))};
 }
 
-BagContent content_of(const std::string& path, const BagOptions& options,
+BagContent content_of(const std::string& path, const BagOptions& options, const BagReadSink& sink,
                       Diagnostics& diagnostics) {
-  if (is_ros2_recording(path)) return sweep_ros2(path, options.on_progress, diagnostics);
+  if (is_ros2_recording(path)) return sweep_ros2(path, sink, options.on_progress, diagnostics);
   require_whole_bag(path);
-  return sweep_bag(path, options.frequency_hz, options.on_progress, diagnostics);
+  return sweep_bag(path, options.frequency_hz, sink, options.on_progress, diagnostics);
+}
+
+TagRead&& with_wrapped_phase(TagRead&& read) {
+  read.phase_rad = wrap_to_two_pi(read.phase_rad);
+  return std::move(read);
+}
+
+/// Holds reads and distances as long as each are no more than `most`; of more reads it has an
+/// overview.
+class HeldReads {
+ public:
+  explicit HeldReads(std::size_t most) : most_(most) {}
+
+  [[nodiscard]] BagReadSink sink() {
+    return {[this](TagRead&& read, const std::string& frame) { add(std::move(read), frame); },
+            [this](TrueDistance&& distance) { add(std::move(distance)); },
+            [this] { *this = HeldReads(most_, resets_ + 1); }};
+  }
+
+  /// Moves them to where they belong.
+  void give(BagContent& content, BagRecording& recording) {
+    recording.reads = std::move(reads_);
+    content.truth.distances = std::move(distances_);
+    content.updates.insert(content.updates.end(), std::make_move_iterator(updates_.begin()),
+                           std::make_move_iterator(updates_.end()));
+  }
+  [[nodiscard]] const std::optional<ReadOverview>& overview() const { return overview_; }
+  [[nodiscard]] bool has_distances() const { return has_distances_; }
+  [[nodiscard]] std::size_t resets() const { return resets_; }
+
+ private:
+  void add(TagRead&& read, const std::string& frame) {
+    if (overview_) return tagfield::add(read, *overview_);
+    if (updates_.empty() || updates_.back().stamp != read.stamp ||
+        updates_.back().antenna != read.antenna) {
+      updates_.push_back({read.stamp, read.antenna, frame});
+    }
+    reads_.push_back(with_wrapped_phase(std::move(read)));
+    if (reads_.size() > most_) hold_no_more();
+  }
+  void add(TrueDistance&& distance) {
+    has_distances_ = true;
+    if (overview_) return;
+    distances_.push_back(std::move(distance));
+    if (distances_.size() > most_) hold_no_more();
+  }
+  void hold_no_more() {
+    overview_ = overview_of(reads_);
+    std::vector<TagRead>().swap(reads_);
+    std::vector<TrueDistance>().swap(distances_);
+    std::vector<RecordedUpdate>().swap(updates_);
+  }
+  HeldReads(std::size_t most, std::size_t resets) : most_(most), resets_(resets) {}
+
+  std::size_t most_;
+  std::size_t resets_ = 0;
+  bool has_distances_ = false;
+  std::vector<TagRead> reads_;
+  std::vector<TrueDistance> distances_;
+  std::vector<RecordedUpdate> updates_;  ///< At the stamps of reads.
+  std::optional<ReadOverview> overview_;
+};
+
+/// Tells what comes after so many resets.
+void tell_again(const std::string& path, const BagOptions& options, std::size_t resets,
+                std::size_t count, const BagReads& to) {
+  const Silence silence;
+  std::size_t resets_left = resets;
+  std::size_t told = 0;
+  const BagReadSink sink{[&](TagRead&& read, const std::string& /*frame*/) {
+                           if (resets_left > 0) return;
+                           ++told;
+                           if (to.on_read) to.on_read(with_wrapped_phase(std::move(read)));
+                         },
+                         [&](TrueDistance&& distance) {
+                           if (resets_left == 0 && to.on_distance) to.on_distance(distance);
+                         },
+                         [&] { resets_left -= resets_left > 0 ? 1 : 0; }, true};
+  BagOptions once_more = options;
+  once_more.on_progress = to.on_progress;
+  Diagnostics told_before;
+  content_of(path, once_more, sink, told_before);
+  if (told == count) return;
+  fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
+                              "recording that stays as it is",
+                              count, told));
+}
+
+UntoldReads untold(const std::string& path, const BagOptions& options, const HeldReads& held) {
+  const std::size_t count = held.overview()->count;
+  return {*held.overview(), held.has_distances(),
+          [path, options, resets = held.resets(), count](const BagReads& to) {
+            tell_again(path, options, resets, count, to);
+          }};
 }
 
 }  // namespace
@@ -170,10 +277,14 @@ BagContent content_of(const std::string& path, const BagOptions& options,
 BagRecording read_bag(const std::string& path, const BagOptions& options,
                       Diagnostics& diagnostics) {
   const Silence silence;
-  BagContent content = content_of(path, options, diagnostics);
+  HeldReads held(options.most_reads);
+  const BagReadSink sink = held.sink();
+  BagContent content = content_of(path, options, sink, diagnostics);
   BagRecording recording;
+  held.give(content, recording);
+  if (held.overview()) recording.untold = untold(path, options, held);
   recording.duration_s = duration_of(content);
-  recording.reads = tidy_reads(std::move(content.reads), path, diagnostics);
+  recording.reads = tidy_reads(std::move(recording.reads), path, diagnostics);
   recording.truth = tidy_truth(std::move(content.truth));
   recording.truth_frame = content.truth_frame;
   recording.believed = believed_of(content, options, recording);

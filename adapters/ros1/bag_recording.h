@@ -4,12 +4,15 @@
 /// file, a database of rosbag2, or a folder of them.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tagfield/base/error.h"
+#include "tagfield/files/read_overview.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/stream/tag_read.h"
 #include "tagfield/stream/truth.h"
@@ -22,6 +25,22 @@ struct BagOptions {
   /// Carrier of reads that don't say theirs (rfid_sensor/TagArray) [Hz].
   std::optional<double> frequency_hz;
   std::function<void(double share)> on_progress;  ///< Called with 0 … 1, or empty.
+  /// More reads than these, or true distances, are not held: see BagRecording::untold.
+  std::size_t most_reads = std::numeric_limits<std::size_t>::max();
+};
+
+/// The reads of a bag that has more of them than are held.
+struct BagReads {
+  std::function<void(const TagRead&)> on_read;           ///< Gets each, or is empty.
+  std::function<void(const TrueDistance&)> on_distance;  ///< Likewise.
+  std::function<void(double share)> on_progress;         ///< Called with 0 … 1, or empty.
+};
+struct UntoldReads {
+  ReadOverview overview;
+  bool has_distances = false;
+  /// Goes through the bag once more: reads and distances as they were recorded, so that some may be
+  /// out of order or repeat others. Throws Error where the bag has others now.
+  std::function<void(const BagReads&)> tell;
 };
 
 /// Where an antenna stood, by what the robot believed or was told.
@@ -33,7 +52,12 @@ struct PoseSet {
 
 struct BagRecording {
   std::vector<TagRead> reads;  ///< By stamp, each once.
-  PoseSet believed;            ///< At the stamps of all updates of an antenna that have one.
+  /// Set where there are more of either than `most_reads`: then `reads` and the truth's distances
+  /// are empty.
+  std::optional<UntoldReads> untold;
+  /// At the stamps of all updates of an antenna that have one, and, unless they are untold, of
+  /// reads.
+  PoseSet believed;
   /// Empty where the bag tells none. A tag at rest has one row, a moving one a row each change.
   Truth truth;
   std::string truth_frame;  ///< That the truth is in; "" where there is none.

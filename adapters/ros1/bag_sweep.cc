@@ -2,8 +2,13 @@
 #include "adapters/ros1/bag_sweep.h"
 
 #include <fmt/format.h>
+#include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <tagfield_msgs/AntennaTruth.h>
+#include <tagfield_msgs/TagPositions.h>
+#include <tagfield_msgs/TagReads.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <map>
 #include <set>
@@ -87,8 +92,13 @@ void read_bytes(const rosbag::MessageInstance& instance, std::vector<std::uint8_
 /// Goes through a bag once.
 class Sweep {
  public:
-  Sweep(const std::string& path, std::optional<double> frequency_hz, Diagnostics& diagnostics)
-      : path_(path), frequency_hz_(frequency_hz), diagnostics_(diagnostics), bag_(path) {}
+  Sweep(const std::string& path, std::optional<double> frequency_hz, const BagReadSink& sink,
+        Diagnostics& diagnostics)
+      : path_(path),
+        frequency_hz_(frequency_hz),
+        diagnostics_(diagnostics),
+        bag_(path),
+        content_(sink) {}
 
   BagContent content(const std::function<void(double)>& on_progress) {
     choose_kinds();
@@ -99,6 +109,7 @@ class Sweep {
     double done = 0.0;
     for (const rosbag::MessageInstance& instance : view) {
       take_message(instance);
+      content_.forget_unwanted();
       if (on_progress) on_progress(++done / size);
     }
     return std::move(content_);
@@ -146,24 +157,24 @@ class Sweep {
     read_bytes(instance, bytes_);
     switch (of_topic_.at(topic)) {
       case Kind::kReads:
-        return take_as<tagfield_msgs::TagReads>(place);
+        return take_reads(decode<tagfield_msgs::TagReads>(bytes_, place), place, content_,
+                          diagnostics_);
       case Kind::kAntennaTruth:
-        return take_as<tagfield_msgs::AntennaTruth>(place);
+        return take_antenna_truth(decode<tagfield_msgs::AntennaTruth>(bytes_, place), place,
+                                  content_, diagnostics_);
       case Kind::kTagPositions:
-        return take_as<tagfield_msgs::TagPositions>(place);
+        return take_tag_positions(decode<tagfield_msgs::TagPositions>(bytes_, place), place,
+                                  content_, diagnostics_);
       case Kind::kRobot:
-        return take_as<nav_msgs::Odometry>(place);
+        return take_odometry(decode<nav_msgs::Odometry>(bytes_, place), place, content_,
+                             diagnostics_);
       case Kind::kTransforms:
-        return take_as<tf2_msgs::TFMessage>(place);
+        return take_transforms(decode<tf2_msgs::TFMessage>(bytes_, place), place, content_,
+                               diagnostics_);
       case Kind::kArray:
-        take(decode<rfid_sensor::TagArray>(bytes_, place), place,
-             frequency_hz_.value_or(kAssumedFrequency), content_, diagnostics_);
+        take_array(decode<rfid_sensor::TagArray>(bytes_, place), place,
+                   frequency_hz_.value_or(kAssumedFrequency), content_, diagnostics_);
     }
-  }
-
-  template <typename Message>
-  void take_as(const MessagePlace& place) {
-    take(decode<Message>(bytes_, place), place, content_, diagnostics_);
   }
 
   const std::string& path_;
@@ -180,10 +191,10 @@ class Sweep {
 }  // namespace
 
 BagContent sweep_bag(const std::string& path, std::optional<double> frequency_hz,
-                     const std::function<void(double share)>& on_progress,
+                     const BagReadSink& sink, const std::function<void(double share)>& on_progress,
                      Diagnostics& diagnostics) {
   return with_bag_errors(
-      path, [&] { return Sweep(path, frequency_hz, diagnostics).content(on_progress); });
+      path, [&] { return Sweep(path, frequency_hz, sink, diagnostics).content(on_progress); });
 }
 
 }  // namespace tagfield

@@ -13,10 +13,11 @@
 namespace tagfield {
 
 /// What the messages of the bag say, in the order of receipt; which are looked at, see read_bag().
-/// `frequency_hz` is the carrier of reads that don't say theirs; without it one is assumed with a
-/// warning. `on_progress` is called with 0 … 1, or empty. Throws Error as read_bag().
+/// `sink`, which must outlive the content, gets the reads and true distances. `frequency_hz` is the
+/// carrier of reads that don't say theirs; without it one is assumed with a warning. `on_progress`
+/// is called with 0 … 1, or empty. Throws Error as read_bag().
 BagContent sweep_bag(const std::string& path, std::optional<double> frequency_hz,
-                     const std::function<void(double share)>& on_progress,
+                     const BagReadSink& sink, const std::function<void(double share)>& on_progress,
                      Diagnostics& diagnostics);
 
 }  // namespace tagfield

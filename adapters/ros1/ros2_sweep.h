@@ -14,7 +14,8 @@ namespace tagfield {
 /// As sweep_bag(), by the types of ROS 2: tagfield_msgs' TagReads, AntennaTruth and TagPositions,
 /// tf2_msgs' TFMessage, nav_msgs' Odometry; out of an MCAP file, a database of rosbag2, or a folder
 /// of them. Throws Error as sweep_bag(), and where this program was built without their kind.
-BagContent sweep_ros2(const std::string& path, const std::function<void(double share)>& on_progress,
+BagContent sweep_ros2(const std::string& path, const BagReadSink& sink,
+                      const std::function<void(double share)>& on_progress,
                       Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -136,11 +136,12 @@ void read(CdrReader& cdr, std::array<T, N>& values) {
 template <class T>
 void read(CdrReader& cdr, std::vector<T>& values) {
   const std::size_t length = cdr.take_length();
-  values.clear();
-  while (cdr.is_whole() && values.size() < length) {
-    values.emplace_back();
-    read(cdr, values.back());
+  std::size_t count = 0;
+  while (cdr.is_whole() && count < length) {
+    if (count == values.size()) values.emplace_back();  // Else one from before, with its memory.
+    read(cdr, values[count++]);
   }
+  values.resize(count);
 }
 
 /// A message's bytes.

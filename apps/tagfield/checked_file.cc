@@ -10,6 +10,7 @@
 
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_method.h"
+#include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/suite_recording.h"
 #include "tagfield/events/events_yaml.h"
 #include "tagfield/experiment/bench/prepared.h"
@@ -219,9 +220,11 @@ Json describe_calibration(const std::string& path) {
 }
 
 Json describe_recording(const std::string& path, Diagnostics& diagnostics) {
-  const BagRecording bag = read_bag(path, {}, diagnostics);
+  BagOptions options;
+  options.most_reads = kReadsToReadAnew;
+  const BagRecording bag = read_bag(path, options, diagnostics);
   Json json = {{"kind", "recording of ROS"}};
-  add_reads(overview_of(bag.reads), json);
+  add_reads(bag.untold ? bag.untold->overview : overview_of(bag.reads), json);
   json["duration_s"] = bag.duration_s;
   json["believed_poses"] = bag.believed.poses.empty()
                                ? std::string("none")

@@ -157,14 +157,38 @@ bool is_empty(const Truth& truth) {
          truth.distances.empty();
 }
 
+/// Reads, and the truth with its distances, that are not held in memory.
+void stage_untold(const UntoldReads& untold, const Truth& truth, StagedFolder& folder) {
+  const bool has_doppler = untold.overview.has_doppler;
+  const bool has_truth = untold.has_distances || !is_empty(truth);
+  if (has_truth) stage_true_places(truth, folder);
+  ProgressBar bar("writing reads");
+  BagReads rows;
+  rows.on_progress = [&bar](double share) { bar.show(share); };
+  folder.add_written("reads.csv", [&](GrowingFile& reads) {
+    reads.text() += reads_header(has_doppler);
+    rows.on_read = [&](const TagRead& read) {
+      append_row(read, has_doppler, reads.text());
+      reads.sync();
+    };
+    if (!has_truth) return untold.tell(rows);
+    folder.add_written(kDistancesFile, [&](GrowingFile& distances) {
+      distances.text() += kDistancesHeader;
+      rows.on_distance = [&](const TrueDistance& distance) {
+        append_row(distance, distances.text());
+        distances.sync();
+      };
+      untold.tell(rows);
+    });
+  });
+}
+
 void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWithWorld>& loaded,
            const LocalizationOptions& options, const LocalizationResult& result,
            StagedFolder& folder) {
-  if (recording.stored) {
-    folder.add_copy("reads.csv", recording.stored->table);
-  } else if (!recording.table.empty()) {
+  if (!recording.table.empty()) {
     folder.add_copy("reads.csv", recording.table);
-  } else {
+  } else if (!recording.untold) {
     folder.add("reads.csv", reads_to_csv(recording.reads));
   }
   folder.add("antenna_poses.csv", poses_to_csv(recording.poses.poses));
@@ -178,7 +202,11 @@ void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWit
   if (!options.known.reference_tags.empty()) {
     folder.add("reference_tags.csv", tag_places_to_csv(options.known.reference_tags));
   }
-  if (!is_empty(recording.truth)) stage_truth(recording.truth, folder);
+  if (recording.untold) {
+    stage_untold(*recording.untold, recording.truth, folder);
+  } else if (!is_empty(recording.truth)) {
+    stage_truth(recording.truth, folder);
+  }
   if (!loaded) return;
   if (!options.known.heights.of_tag.empty()) {
     folder.add("tag_heights.csv", tag_heights_to_csv(options.known.heights.of_tag));
@@ -243,14 +271,13 @@ std::set<std::string> references_of(const LocalizeArguments& arguments,
 RecordingToLocalize recording_of(const LocalizeArguments& arguments, const std::string& out,
                                  const std::set<std::string>& references,
                                  Diagnostics& diagnostics) {
-  if (is_bag(arguments.recording)) {
-    if (arguments.part_reads) throw Error("localize: --part-reads goes with CSV only");
-    if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
-    return bag_recording(arguments, diagnostics);
-  }
-  refuse_options_of_bags(arguments);
   // A calibration changes them.
   const bool keep = !arguments.calibration.empty();
+  if (is_bag(arguments.recording)) {
+    if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
+    return bag_recording(arguments, out, references, keep, diagnostics);
+  }
+  refuse_options_of_bags(arguments);
   RecordingToLocalize recording = csv_recording(arguments, out, references, keep, diagnostics);
   warn_of_odd_reads(arguments.recording, recording.overview, diagnostics);
   warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);

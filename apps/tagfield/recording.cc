@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "adapters/archive/unpacked_archive.h"
 #include "adapters/ros1/bag_recording.h"
@@ -56,6 +58,11 @@ BagOptions options_of(const LocalizeArguments& arguments) {
 std::string frames_of_reads(const BagRecording& bag) {
   std::set<std::string> antennas;
   for (const TagRead& read : bag.reads) antennas.insert(read.antenna);
+  if (bag.untold) {
+    for (const auto& [antenna, last] : bag.untold->overview.last_by_antenna) {
+      antennas.insert(antenna);
+    }
+  }
   return fmt::format("'{}'", fmt::join(antennas, "', '"));
 }
 
@@ -73,7 +80,7 @@ void choose_poses(const LocalizeArguments& arguments, const BagOptions& options,
     recording.poses = std::move(believed);
     recording.other = truth;
   }
-  if (!recording.poses.poses.empty() || bag.reads.empty()) return;
+  if (!recording.poses.poses.empty() || (bag.reads.empty() && !bag.untold)) return;
   if (wanted == "true") {
     fail({arguments.recording, 0}, "has no true antenna poses (tagfield_msgs/AntennaTruth)");
   }
@@ -82,6 +89,13 @@ void choose_poses(const LocalizeArguments& arguments, const BagOptions& options,
                    "of the reads",
                    frames_of_reads(bag), automatic ? "no tagfield_msgs/AntennaTruth and " : "",
                    fmt::join(options.frames, "', '")));
+}
+
+BagRecording bag_with_progress(const std::string& path, BagOptions options,
+                               Diagnostics& diagnostics) {
+  ProgressBar bar("reading");
+  options.on_progress = [&bar](double share) { bar.show(share); };
+  return read_bag(path, options, diagnostics);
 }
 
 /// Only in the same frame do errors mean anything.
@@ -94,17 +108,54 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
                                           frame, bag.truth_frame));
 }
 
+/// Reads that are too many for memory are stored in parts, or else read anew.
+void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const std::string& out,
+                    const std::set<std::string>& references, RecordingToLocalize& recording,
+                    Diagnostics& diagnostics) {
+  recording.overview = source.overview;
+  if (part) {
+    recording.stored = store_reads(std::move(source), out, *part, references, diagnostics);
+  } else {
+    recording.source = std::move(source);
+  }
+}
+
+/// How many reads of a bag are kept in memory.
+std::size_t most_reads(const LocalizeArguments& arguments, bool keep) {
+  if (arguments.part_reads) {
+    return *arguments.part_reads == 0 ? std::numeric_limits<std::size_t>::max() : 0;
+  }
+  return keep ? kManyReads : kReadsToReadAnew;
+}
+
+/// So many reads a part, where they are to be located in parts.
+std::optional<std::size_t> part_of_bag(const LocalizeArguments& arguments,
+                                       const UntoldReads& untold) {
+  if (arguments.part_reads) return arguments.part_reads;
+  return untold.overview.count > kManyReads ? std::optional(kReadsOfPart) : std::nullopt;
+}
+
+/// The reads of a bag that has too many for memory.
+void take_untold(const LocalizeArguments& arguments, const std::string& out,
+                 const std::set<std::string>& references, RecordingToLocalize& recording,
+                 Diagnostics& diagnostics) {
+  keep_elsewhere(reads_of_bag(arguments.recording, *recording.untold),
+                 part_of_bag(arguments, *recording.untold), out, references, recording,
+                 diagnostics);
+  if (!recording.stored || recording.other.poses.empty()) return;
+  diagnostics.warn({arguments.recording, 0},
+                   fmt::format("its reads are located in parts: with poses '{}' alone, not with "
+                               "'{}' to be compared with",
+                               recording.poses.name, recording.other.name));
+  recording.other = {};
+}
+
 }  // namespace
 
 EachRead reads_of(const RecordingToLocalize& recording) {
-  if (recording.table.empty()) return each_of(recording.reads);
+  if (!recording.source) return each_of(recording.reads);
   return EachRead([&recording](const EachRead::Take& take) {
-    std::size_t count = 0;
-    for_each_read(recording.table, [&](const TagRead& read) {
-      ++count;
-      take(read);
-    });
-    require_same_count(recording.table, recording.overview.count, count);
+    recording.source->for_each(take, [](double /*share*/) {});
   });
 }
 
@@ -122,17 +173,10 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std:
     files = own_tables("localize", arguments.recording, arguments.poses);
     part = part_of_table(files.reads, arguments.part_reads);
   }
-  if (part) {
-    recording.poses = {"given", read_poses_csv(files.poses)};
-    recording.stored = store_reads(files.reads, out, *part, references, diagnostics);
-    recording.overview = recording.stored->overview;
-  } else if (can_be_stored && !keep && is_read_anew(files.reads)) {
+  if (part || (can_be_stored && !keep && is_read_anew(files.reads))) {
     recording.poses = {"given", read_poses_csv(files.poses)};
     recording.table = files.reads;
-    ProgressBar bar("reading");
-    for_each_read(
-        files.reads, [&](const TagRead& read) { add(read, recording.overview); },
-        [&](double share) { bar.show(share); });
+    keep_elsewhere(reads_of_table(files.reads), part, out, references, recording, diagnostics);
   } else {
     ReadsAndPoses tables =
         read_tables("localize", arguments.recording, arguments.poses, arguments.format);
@@ -144,22 +188,28 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std:
   return recording;
 }
 
-RecordingToLocalize bag_recording(const LocalizeArguments& arguments, Diagnostics& diagnostics) {
+RecordingToLocalize bag_recording(const LocalizeArguments& arguments, const std::string& out,
+                                  const std::set<std::string>& references, bool keep,
+                                  Diagnostics& diagnostics) {
   const std::set<std::string> words = {"", "auto", "true", "tf", "odometry"};
   if (words.count(arguments.poses) == 0) {
     throw Error(fmt::format("localize: --poses is '{}', expected {} for a bag", arguments.poses,
                             kPoseWords));
   }
   BagOptions options = options_of(arguments);
-  ProgressBar bar("reading");
-  options.on_progress = [&bar](double share) { bar.show(share); };
-  BagRecording bag = read_bag(arguments.recording, options, diagnostics);
+  options.most_reads = most_reads(arguments, keep);
+  BagRecording bag = bag_with_progress(arguments.recording, options, diagnostics);
   RecordingToLocalize recording;
   choose_poses(arguments, options, bag, recording);
   compare_frames(arguments.recording, bag,
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
-  recording.reads = std::move(bag.reads);
-  recording.overview = overview_of(recording.reads);
+  if (bag.untold) {
+    recording.untold = std::move(bag.untold);
+    take_untold(arguments, out, references, recording, diagnostics);
+  } else {
+    recording.reads = std::move(bag.reads);
+    recording.overview = overview_of(recording.reads);
+  }
   recording.truth = std::move(bag.truth);
   recording.path_length_m = driven_path(recording.truth, recording.poses.poses);
   recording.duration_s = bag.duration_s;

@@ -26,9 +26,11 @@ struct NamedPoses {
 
 struct RecordingToLocalize {
   std::vector<TagRead> reads;  ///< All, or none where they are stored or not kept.
-  /// The table, where its reads are not kept: they are read anew each time they are asked for.
-  std::string table;
+  /// Where reads are not kept: they are read anew each time they are asked for.
+  std::optional<ReadSource> source;
   std::optional<StoredReads> stored;  ///< More than fit in memory.
+  std::string table;                  ///< That the reads come from where they are not kept, or "".
+  std::optional<UntoldReads> untold;  ///< The same of a bag.
   ReadOverview overview;
   NamedPoses poses;
   NamedPoses other;  ///< To be compared with; empty where there are none.
@@ -37,8 +39,7 @@ struct RecordingToLocalize {
   double duration_s = 0.0;  ///< 0 where unknown.
 };
 
-/// The reads that are in memory or in `table`, whose rows are counted each time: throws Error where
-/// it has changed. `recording` must outlive it.
+/// The reads that are in memory or in `source`. `recording` must outlive it.
 EachRead reads_of(const RecordingToLocalize& recording);
 
 /// Reads and poses as CSV. Reads of a table over kTableToReadAnew are not kept unless `keep` is
@@ -49,7 +50,10 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std:
                                   const std::set<std::string>& references, bool keep,
                                   Diagnostics& diagnostics);
 
-/// A rosbag, with a progress bar. Throws Error where it has not the poses that were asked for.
-RecordingToLocalize bag_recording(const LocalizeArguments& arguments, Diagnostics& diagnostics);
+/// A recording of ROS, with a progress bar. Its reads are kept, or not, as those of tables, by
+/// kReadsToReadAnew and kManyReads. Throws Error where it has not the poses that were asked for.
+RecordingToLocalize bag_recording(const LocalizeArguments& arguments, const std::string& out,
+                                  const std::set<std::string>& references, bool keep,
+                                  Diagnostics& diagnostics);
 
 }  // namespace tagfield

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "apps/tagfield/progress_bar.h"
 #include "tagfield/files/reads_csv.h"
@@ -29,12 +30,12 @@ fs::path existing_folder(const std::string& out) {
 void warn_of_thinned_tags(const StoredReads& reads, Diagnostics& diagnostics) {
   std::size_t tags = 0;
   std::size_t most = 0;
-  for (const auto& [tag, count] : reads.overview.count_by_tag) {
+  for (const auto& [tag, count] : reads.source.overview.count_by_tag) {
     if (count > reads.most_of_a_tag) ++tags;
     most = std::max(most, count);
   }
   if (tags == 0) return;
-  diagnostics.warn({reads.table, 0},
+  diagnostics.warn({reads.source.file, 0},
                    fmt::format("{} {} over {} reads, up to {}: every second, third, … counts, so "
                                "that those of one tag fit in memory (--part-reads)",
                                counted(tags, "tag"), tags == 1 ? "has" : "have",
@@ -48,7 +49,7 @@ void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads) 
       .add_option("--part-reads", part_reads,
                   "Work in parts of some tags each, with about so many reads, and keep the "
                   "others on the disk; 0: all at once, in memory. Default: 250000 for CSV of over "
-                  "400 MB, else 0")
+                  "400 MB and recordings of over five million reads, else 0")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}));
 }
 
@@ -73,33 +74,50 @@ bool is_read_anew(const std::string& table) {
   return !unknown && size >= kTableToReadAnew;
 }
 
-void require_same_count(const std::string& table, std::size_t at_first, std::size_t again) {
-  if (again == at_first) return;
-  fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: expected "
-                               "a file that stays as it is",
-                               at_first, again));
+ReadSource reads_of_table(const std::string& table) {
+  ReadSource source;
+  source.file = table;
+  ProgressBar bar("reading");
+  for_each_read(
+      table, [&](const TagRead& read) { add(read, source.overview); },
+      [&](double share) { bar.show(share); });
+  source.for_each = [table, at_first = source.overview.count](
+                        const std::function<void(const TagRead&)>& take,
+                        const std::function<void(double)>& on_progress) {
+    std::size_t again = 0;
+    for_each_read(
+        table,
+        [&](const TagRead& read) {
+          ++again;
+          take(read);
+        },
+        on_progress);
+    if (again == at_first) return;
+    fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: "
+                                 "expected a file that stays as it is",
+                                 at_first, again));
+  };
+  return source;
 }
 
-StoredReads store_reads(const std::string& table, const std::string& out, std::size_t part_reads,
+ReadSource reads_of_bag(const std::string& bag, const UntoldReads& untold) {
+  return {bag, untold.overview,
+          [tell = untold.tell](const std::function<void(const TagRead&)>& take,
+                               const std::function<void(double)>& on_progress) {
+            tell({take, {}, on_progress});
+          }};
+}
+
+StoredReads store_reads(ReadSource source, const std::string& out, std::size_t part_reads,
                         const std::set<std::string>& everywhere, Diagnostics& diagnostics) {
   StoredReads reads;
-  reads.table = table;
+  reads.source = std::move(source);
   reads.most_of_a_tag = part_reads;
-  StageBars bars;
-  for_each_read(
-      table, [&](const TagRead& read) { add(read, reads.overview); },
-      [&](double share) { bars.show("counting reads", share); });
-  reads.store = std::make_unique<ReadStore>(existing_folder(out),
-                                            plan_parts(reads.overview, part_reads, everywhere));
-  std::size_t again = 0;
-  for_each_read(
-      table,
-      [&](const TagRead& read) {
-        reads.store->add(read);
-        ++again;
-      },
-      [&](double share) { bars.show("sorting reads by tag", share); });
-  require_same_count(table, reads.overview.count, again);
+  reads.store = std::make_unique<ReadStore>(
+      existing_folder(out), plan_parts(reads.source.overview, part_reads, everywhere));
+  ProgressBar bar("sorting reads by tag");
+  reads.source.for_each([&](const TagRead& read) { reads.store->add(read); },
+                        [&](double share) { bar.show(share); });
   warn_of_thinned_tags(reads, diagnostics);
   return reads;
 }

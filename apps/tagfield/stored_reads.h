@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Tables of more reads than fit in memory.
+/// Tables and recordings of more reads than fit in memory.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "adapters/ros1/bag_recording.h"
 #include "tagfield/base/error.h"
 #include "tagfield/calibration/calibration.h"
 #include "tagfield/experiment/in_parts.h"
@@ -23,6 +25,9 @@ namespace tagfield {
 inline constexpr std::uintmax_t kLargeTable = 400'000'000;
 /// Reads of tables from this size on are not kept in memory beside what is made of them [bytes].
 inline constexpr std::uintmax_t kTableToReadAnew = 100'000'000;
+/// The same of recordings of ROS, whose reads are counted [reads].
+inline constexpr std::size_t kManyReads = 5'000'000;
+inline constexpr std::size_t kReadsToReadAnew = 1'000'000;
 /// Reads of a part, and the most of one tag.
 inline constexpr std::size_t kReadsOfPart = 250'000;
 
@@ -37,20 +42,34 @@ std::optional<std::size_t> part_of_table(const std::string& table,
 /// Whether a table is a file from kTableToReadAnew on.
 bool is_read_anew(const std::string& table);
 
-/// Throws Error where a table has other reads when it is read again.
-void require_same_count(const std::string& table, std::size_t at_first, std::size_t again);
+/// Reads that are gone through again each time that they are needed.
+struct ReadSource {
+  std::string file;
+  ReadOverview overview;
+  /// Calls `take` with each read, and `on_progress` with 0 … 1. Throws Error where they are not as
+  /// many as at first.
+  std::function<void(const std::function<void(const TagRead&)>& take,
+                     const std::function<void(double)>& on_progress)>
+      for_each;
+};
+
+/// Those of a table, which is gone through once, with a progress bar: complaints about its rows
+/// come now. Throws Error as read_reads_csv() does.
+ReadSource reads_of_table(const std::string& table);
+
+/// Those of a recording.
+ReadSource reads_of_bag(const std::string& bag, const UntoldReads& untold);
 
 struct StoredReads {
-  std::string table;  ///< File.
-  ReadOverview overview;
+  ReadSource source;
   std::unique_ptr<ReadStore> store;
   std::size_t most_of_a_tag = kReadsOfPart;
 };
 
-/// Reads the table twice, with a progress bar each: all complaints come at the first. The store is
-/// in the innermost folder on the way to `out` that exists. Warns of tags of which not all reads
-/// will count. Throws Error as read_reads_csv() and ReadStore do.
-StoredReads store_reads(const std::string& table, const std::string& out, std::size_t part_reads,
+/// Goes through the reads, with a progress bar. The store is in the innermost folder on the way to
+/// `out` that exists. Warns of tags of which not all reads will count. Throws Error as the source
+/// and ReadStore do.
+StoredReads store_reads(ReadSource source, const std::string& out, std::size_t part_reads,
                         const std::set<std::string>& everywhere, Diagnostics& diagnostics);
 
 /// Its parts, as they come from the disk. `reads` must outlive them.

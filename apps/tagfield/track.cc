@@ -277,7 +277,8 @@ int track_table_in_parts(const TrackArguments& arguments, const TableFiles& file
   run.seed = arguments.seed.value_or(1);
   run.believed_poses = read_poses_csv(files.poses);
   run.truth = truth_that_fits(arguments.input, diagnostics);
-  const StoredReads stored = store_reads(files.reads, out, part_reads, {}, diagnostics);
+  const StoredReads stored =
+      store_reads(reads_of_table(files.reads), out, part_reads, {}, diagnostics);
   std::optional<Calibration> calibration;
   if (!arguments.calibration.empty()) {
     calibration = read_calibration(arguments.calibration);
@@ -299,7 +300,7 @@ int track_table_in_parts(const TrackArguments& arguments, const TableFiles& file
   result.summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
   catch_interrupts();
-  stage_summary(result.summary, run, result.summary.tags.size(), stored.overview.count,
+  stage_summary(result.summary, run, result.summary.tags.size(), stored.source.overview.count,
                 !arguments.no_page, folder);
   folder.commit(track_file_names());
   return tell(arguments, result, out);

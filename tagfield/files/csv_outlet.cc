@@ -32,7 +32,7 @@ CsvOutlet::CsvOutlet(StagedFolder& folder)
       antennas_(grown(folder, "truth/antenna_poses.csv", poses_header("antenna", false))),
       robots_(grown(folder, "truth/robot_poses.csv", poses_header("robot", false))),
       tags_(grown(folder, "truth/tags.csv", kTagsHeader)),
-      distances_(grown(folder, "truth/distances.csv", kDistancesHeader)) {}
+      distances_(grown(folder, kDistancesFile, kDistancesHeader)) {}
 
 CsvOutlet::~CsvOutlet() { begin_reads(); }
 

@@ -14,6 +14,7 @@ void add(const TagRead& read, ReadOverview& overview) {
   if (!is_first && read.stamp < last->second) ++overview.backwards;
   last->second = read.stamp;
   overview.carriers_hz.insert(read.frequency_hz);
+  overview.has_doppler = overview.has_doppler || read.doppler_hz.has_value();
   overview.first = std::min(overview.first, read.stamp);
   overview.last = std::max(overview.last, read.stamp);
 }

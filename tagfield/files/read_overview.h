@@ -20,6 +20,7 @@ struct ReadOverview {
   std::unordered_map<std::string, std::size_t> count_by_tag;
   std::unordered_map<std::string, Time> last_by_antenna;  ///< Stamp of each antenna's last read.
   std::set<double> carriers_hz;
+  bool has_doppler = false;  ///< Some read tells it.
   Time first = Time::max();  ///< Least stamp, and greatest.
   Time last = Time::min();
 };

@@ -249,17 +249,24 @@ void StagedFolder::add(const fs::path& name, const std::string& text) {
   added_.insert(name);
 }
 
-void StagedFolder::add_copy(const fs::path& name, const fs::path& from) {
+void StagedFolder::add_written(const fs::path& name,
+                               const std::function<void(GrowingFile&)>& write) {
   require_free(name);
   const fs::path place = staging_ / name;
   make_folder(place.parent_path());
   GrowingFile file(place, folder_ / name);
-  read_in_blocks(from.string(), [&](std::string_view block) {
-    file.text().append(block);
-    file.sync();
-  });
+  write(file);
   file.finish();
   added_.insert(name);
+}
+
+void StagedFolder::add_copy(const fs::path& name, const fs::path& from) {
+  add_written(name, [&from](GrowingFile& file) {
+    read_in_blocks(from.string(), [&file](std::string_view block) {
+      file.text().append(block);
+      file.sync();
+    });
+  });
 }
 
 void StagedFolder::keep(const fs::path& name) { kept_.insert(name); }

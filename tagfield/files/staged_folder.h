@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -69,6 +70,11 @@ class StagedFolder {
   /// Adds a file under its path relative to the folder. Throws Error where one stands that Tagfield
   /// didn't write, and where the way there leads through a symbolic link.
   void add(const std::filesystem::path& name, const std::string& text);
+
+  /// Adds a file, however large, that `write` fills. Throws Error as add() does, and what `write`
+  /// throws.
+  void add_written(const std::filesystem::path& name,
+                   const std::function<void(GrowingFile&)>& write);
 
   /// Adds a copy of a file, however large. Throws Error as add() does, and where it can't be
   /// copied.

@@ -17,8 +17,12 @@ inline constexpr const char* kDistancesHeader = "stamp_s,antenna,tag,distance_m\
 void append_row(const TagPosition& position, std::string& text);
 void append_row(const TrueDistance& distance, std::string& text);
 
-/// Adds truth/antenna_poses.csv, truth/robot_poses.csv, truth/tags.csv (`stamp_s,tag,x_m,y_m,z_m`)
-/// and truth/distances.csv (`stamp_s,antenna,tag,distance_m`).
+inline constexpr const char* kDistancesFile = "truth/distances.csv";
+
+/// Adds truth/antenna_poses.csv, truth/robot_poses.csv and truth/tags.csv
+/// (`stamp_s,tag,x_m,y_m,z_m`).
+void stage_true_places(const Truth& truth, StagedFolder& folder);
+/// And truth/distances.csv (`stamp_s,antenna,tag,distance_m`).
 void stage_truth(const Truth& truth, StagedFolder& folder);
 
 /// Reads them from a run's folder, distances excepted (nothing judges by them). Throws Error if one

@@ -64,6 +64,25 @@ def a_bag_gives_what_its_tables_give(context):
 
 
 @case
+def a_bag_is_located_in_parts_as_its_tables_are(context):
+    folder, bag = odometry_run(context)
+    known = ["--tag-heights", folder / "tag_heights.csv", "--method", "hyperbola"]
+    context.run_well("localize", bag, *known, "--out", "whole")
+    result = context.run_well("localize", bag, *known, "--part-reads", 3000, "--out", "parts")
+    whole, parts = context.folder / "whole", context.folder / "parts"
+    for name in ("estimates.csv", "antenna_poses.csv", *TABLES):
+        check_equal((parts / name).read_bytes(), (whole / name).read_bytes(), name)
+    check_equal(set(files_in(parts)) ^ set(files_in(whole)), {"compared_poses.csv"}, "the files")
+    summary = read_json(parts / "summary.json")
+    check_equal(summary["error_m"], read_json(whole / "summary.json")["error_m"], "the errors")
+    check_in("its reads are located in parts: with poses 'true' alone, not with 'odometry'",
+             result.err, "what it says")
+    context.run_well("localize", bag, *known, "--part-reads", 0, "--out", "at_once")
+    check_equal((context.folder / "at_once/summary.json").read_bytes(),
+                (whole / "summary.json").read_bytes(), "the summary of all at once")
+
+
+@case
 def poses_can_be_chosen(context):
     folder, bag = odometry_run(context)
     heights = ["--tag-heights", folder / "tag_heights.csv"]

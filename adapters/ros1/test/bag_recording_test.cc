@@ -11,6 +11,7 @@
 #include "tagfield/base/test/error_text.h"
 #include "tagfield/base/test/temporary_folder.h"
 #include "tagfield/base/units.h"
+#include "tagfield/files/reads_csv.h"
 #include "tagfield/localization/locate.h"
 
 namespace tagfield {
@@ -312,6 +313,94 @@ TEST(ReadBag, WarnsOfReadsThatRepeatAnother) {
   ASSERT_EQ(bag.reads.size(), 1U);
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
   EXPECT_TRUE(contains(diagnostics.warnings()[0], "2 reads repeat"));
+}
+
+/// Everything that the untold reads tell.
+BagRecording told(const BagRecording& bag) {
+  BagRecording all;
+  bag.untold->tell({[&](const TagRead& read) { all.reads.push_back(read); },
+                    [&](const TrueDistance& distance) { all.truth.distances.push_back(distance); },
+                    {}});
+  return all;
+}
+
+TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(bag_in(folder));
+    write_turn(writer);
+  }
+  const BagRecording held = recording_of(bag_in(folder));
+  ASSERT_FALSE(held.untold);
+  BagOptions options;
+  options.most_reads = 190;
+  EXPECT_FALSE(recording_of(bag_in(folder), options).untold);
+  options.most_reads = 189;
+  const BagRecording bag = recording_of(bag_in(folder), options);
+  ASSERT_TRUE(bag.untold);
+  EXPECT_TRUE(bag.reads.empty());
+  EXPECT_TRUE(bag.truth.distances.empty());
+  EXPECT_TRUE(bag.untold->has_distances);
+  EXPECT_EQ(bag.untold->overview.count, 190U);
+  EXPECT_EQ(bag.untold->overview.tags, std::vector<std::string>{"tag"});
+  EXPECT_EQ(bag.untold->overview.last, held.reads.back().stamp);
+  for (int times = 0; times < 2; ++times) {
+    const BagRecording all = told(bag);
+    EXPECT_EQ(reads_to_csv(all.reads), reads_to_csv(held.reads));
+    ASSERT_EQ(all.truth.distances.size(), held.truth.distances.size());
+    for (std::size_t i = 0; i < all.truth.distances.size(); ++i) {
+      EXPECT_EQ(all.truth.distances[i].stamp, held.truth.distances[i].stamp);
+      EXPECT_EQ(all.truth.distances[i].distance_m, held.truth.distances[i].distance_m);
+    }
+  }
+  // All else is as it was.
+  ASSERT_EQ(bag.believed.poses.size(), held.believed.poses.size());
+  EXPECT_EQ(bag.believed.poses.back().X_WA.translation,
+            held.believed.poses.back().X_WA.translation);
+  EXPECT_EQ(bag.truth.antenna_poses.size(), held.truth.antenna_poses.size());
+  EXPECT_EQ(bag.truth.tag_positions.size(), 1U);
+  EXPECT_EQ(bag.duration_s, held.duration_s);
+}
+
+TEST(ReadBag, TellsOnlyReadsAfterTheLastReset) {
+  BagOptions options;
+  options.most_reads = 1;
+  const TemporaryFolder folder;
+  {
+    BagWriter writer(bag_in(folder));
+    int received = 0;
+    for (const double t : {10.0, 11.0, 12.0, 0.5, 1.5, 5.0, 0.25, 1.25, 2.25}) {
+      writer.receipt = at(20.0 + ++received);
+      writer.reads(at(t), "a", {read_at(at(t), {0.0, 0.0, 0.0})});
+    }
+  }
+  const BagRecording bag = recording_of(bag_in(folder), options);
+  ASSERT_TRUE(bag.untold);
+  EXPECT_EQ(bag.untold->overview.count, 3U);
+  const std::vector<TagRead> reads = told(bag).reads;
+  ASSERT_EQ(reads.size(), 3U);
+  EXPECT_EQ(reads.front().stamp, at(0.25));
+  EXPECT_EQ(reads.back().stamp, at(2.25));
+  EXPECT_FALSE(bag.untold->has_distances);
+}
+
+TEST(ReadBag, RefusesABagThatHasOtherReadsTheSecondTime) {
+  BagOptions options;
+  options.most_reads = 0;
+  const TemporaryFolder folder;
+  const auto write = [&](int reads) {
+    BagWriter writer(bag_in(folder));
+    for (int i = 0; i < reads; ++i) {
+      writer.reads(at(1.0 + i), "a", {read_at(at(1.0 + i), {0.0, 0.0, 0.0})});
+    }
+  };
+  write(3);
+  const BagRecording bag = recording_of(bag_in(folder), options);
+  ASSERT_TRUE(bag.untold);
+  write(2);
+  const std::string message = error_of([&] { told(bag); });
+  EXPECT_TRUE(contains(message, "run.bag: had 3 reads at first and 2 when they were read again"))
+      << message;
 }
 
 TEST(ReadBag, ReadsCompressedBags) {
