@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -47,14 +46,14 @@ std::string records_of(InputFile& file, const Piece& piece) {
   return records;
 }
 
-Held hold(InputFile& file, const Contents& contents, const Piece& piece) {
+Held hold(InputFile& file, const std::set<McapChannelId>& wanted, const Piece& piece) {
   Held held;
   held.records = records_of(file, piece);
   std::string_view rest = held.records;
   for (std::size_t at = 0; const auto record = take_record(rest);
        at = held.records.size() - rest.size()) {
     const auto message = record->op == Op::kMessage ? message_in(record->content) : std::nullopt;
-    if (message && contents.channels.count(message->channel) > 0) {
+    if (message && wanted.count(message->channel) > 0) {
       held.order.emplace_back(message->log_time_ns, at);
     }
   }
@@ -65,9 +64,11 @@ Held hold(InputFile& file, const Contents& contents, const Piece& piece) {
 /// Pieces merged by time: one is held from when its first message may be next until its last was.
 class Merge {
  public:
-  Merge(InputFile& file, const Contents& contents) : file_(file), contents_(contents) {
-    by_time_.resize(contents.pieces.size());
-    std::iota(by_time_.begin(), by_time_.end(), std::size_t{0});
+  Merge(InputFile& file, const Contents& contents, const std::set<McapChannelId>& wanted)
+      : file_(file), contents_(contents), wanted_(wanted) {
+    for (std::size_t i = 0; i < contents.pieces.size(); ++i) {
+      if (has_wanted(contents.pieces[i])) by_time_.push_back(i);
+    }
     std::stable_sort(by_time_.begin(), by_time_.end(), [&](std::size_t a, std::size_t b) {
       return contents_.pieces[a].first_ns < contents_.pieces[b].first_ns;
     });
@@ -86,11 +87,16 @@ class Merge {
   }
 
  private:
+  [[nodiscard]] bool has_wanted(const Piece& piece) const {
+    return std::any_of(piece.channels.begin(), piece.channels.end(),
+                       [&](McapChannelId channel) { return wanted_.count(channel) > 0; });
+  }
+
   void hold_what_is_due() {
     for (; next_ < by_time_.size(); ++next_) {
       const Piece& piece = contents_.pieces[by_time_[next_]];
       if (!heads_.empty() && piece.first_ns > heads_.top().first) return;
-      Held& held = held_[by_time_[next_]] = hold(file_, contents_, piece);
+      Held& held = held_[by_time_[next_]] = hold(file_, wanted_, piece);
       held_bytes_ += held.size();
       if (held_bytes_ > kMostHeldBytes) {
         fail({file_.path(), 0}, "has chunks of more than 512 MB that overlap in time");
@@ -110,6 +116,7 @@ class Merge {
 
   InputFile& file_;
   const Contents& contents_;
+  const std::set<McapChannelId>& wanted_;
   std::vector<std::size_t> by_time_;  ///< Pieces by their first message.
   std::size_t next_ = 0;              ///< Of those.
   std::map<std::size_t, Held> held_;
@@ -148,7 +155,18 @@ std::uint64_t McapReader::message_count(McapChannelId channel) const {
 }
 
 void McapReader::read(const std::function<void(const McapMessage&)>& tell) {
-  Merge(state_->file, state_->contents).run(tell);
+  std::set<McapChannelId> all;
+  for (const auto& [id, channel] : channels()) all.insert(id);
+  read(all, tell);
+}
+
+void McapReader::read(const std::set<McapChannelId>& wanted,
+                      const std::function<void(const McapMessage&)>& tell) {
+  std::set<McapChannelId> known;
+  for (const McapChannelId id : wanted) {
+    if (channels().count(id) > 0) known.insert(id);
+  }
+  Merge(state_->file, state_->contents, known).run(tell);
 }
 
 }  // namespace tagfield

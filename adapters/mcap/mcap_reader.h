@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "adapters/mcap/mcap_channel.h"
@@ -33,10 +34,13 @@ class McapReader {
   /// Messages that read() tells of.
   [[nodiscard]] std::uint64_t message_count(McapChannelId channel) const;
 
-  /// Tells each message of a channel in channels(), in order of log time; those of one time in the
-  /// order of the file. Holds the chunks whose times overlap. Throws Error where those are more
+  /// Tells each message of a channel in channels(), or of those of them that are `wanted`, in order
+  /// of log time; those of one time in the order of the file. Holds the chunks whose times overlap,
+  /// and passes over those without a wanted message. Throws Error where those are more
   /// than 512 MB, or the file was changed since it was opened.
   void read(const std::function<void(const McapMessage&)>& tell);
+  void read(const std::set<McapChannelId>& wanted,
+            const std::function<void(const McapMessage&)>& tell);
 
  private:
   struct State;

@@ -19,6 +19,10 @@ namespace tagfield {
 namespace fs = std::filesystem;
 namespace {
 
+/// A message of this part of a chunk or more has a chunk of its own, so that who wants only others
+/// can pass over it.
+constexpr std::size_t kLargeShare = 4;
+
 using mcap_internal::ClosedChunk;
 using mcap_internal::crc_of;
 using mcap_internal::kHeadBytes;
@@ -256,13 +260,15 @@ void McapWriter::write(McapChannelId channel, std::uint64_t log_time_ns,
                             kMostMcapMessageBytes));
   }
   state.guarded([&] {
+    const bool is_large = bytes.size() >= state.options.chunk_bytes / kLargeShare;
+    if (is_large) state.close();
     state.make_room(kHeadBytes + mcap_internal::kMessageHeadBytes + bytes.size());
     state.chunk.records += std::exchange(state.definitions, {});
     Counted& counted = state.channels[channel - 1U];
     state.chunk.add({channel, counted.next_sequence++, log_time_ns, publish_time_ns, bytes});
     ++counted.messages;
     state.times.add(log_time_ns);
-    if (state.chunk.records.size() >= state.options.chunk_bytes) state.close();
+    if (is_large || state.chunk.records.size() >= state.options.chunk_bytes) state.close();
   });
 }
 

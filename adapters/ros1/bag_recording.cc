@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -171,11 +173,25 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   return {found.source, found.frame, tidy_poses(std::move(found.poses))};
 }
 
-BagContent content_of(const std::string& path, const BagOptions& options, const BagReadSink& sink,
-                      Diagnostics& diagnostics) {
-  if (is_ros2_recording(path)) return sweep_ros2(path, sink, options.on_progress, diagnostics);
+/// Goes through a bag of ROS 1 or a recording of ROS 2, as often as it is called.
+using GoThrough = std::function<BagContent(
+    const BagReadSink& sink, const std::function<void(double)>& on_progress, Diagnostics&)>;
+
+GoThrough going_through(const std::string& path, std::optional<double> frequency_hz,
+                        Diagnostics& diagnostics) {
+  if (is_ros2_recording(path)) {
+    return [files = std::make_shared<Ros2Files>(path, diagnostics)](
+               const BagReadSink& sink, const std::function<void(double)>& on_progress,
+               Diagnostics& of_this_time) {
+      return sweep_ros2(*files, sink, on_progress, of_this_time);
+    };
+  }
   require_whole_bag(path);
-  return sweep_bag(path, options.frequency_hz, sink, options.on_progress, diagnostics);
+  return
+      [path, frequency_hz](const BagReadSink& sink, const std::function<void(double)>& on_progress,
+                           Diagnostics& of_this_time) {
+        return sweep_bag(path, frequency_hz, sink, on_progress, of_this_time);
+      };
 }
 
 TagRead&& with_wrapped_phase(TagRead&& read) {
@@ -240,7 +256,7 @@ class HeldReads {
 };
 
 /// Tells what comes after so many resets.
-void tell_again(const std::string& path, const BagOptions& options, std::size_t resets,
+void tell_again(const std::string& path, const GoThrough& go_through, std::size_t resets,
                 std::size_t count, const BagReads& to) {
   const Silence silence;
   std::size_t resets_left = resets;
@@ -254,21 +270,19 @@ void tell_again(const std::string& path, const BagOptions& options, std::size_t 
                            if (resets_left == 0 && to.on_distance) to.on_distance(distance);
                          },
                          [&] { resets_left -= resets_left > 0 ? 1 : 0; }, true};
-  BagOptions once_more = options;
-  once_more.on_progress = to.on_progress;
   Diagnostics told_before;
-  content_of(path, once_more, sink, told_before);
+  go_through(sink, to.on_progress, told_before);
   if (told == count) return;
   fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
                               "recording that stays as it is",
                               count, told));
 }
 
-UntoldReads untold(const std::string& path, const BagOptions& options, const HeldReads& held) {
+UntoldReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held) {
   const std::size_t count = held.overview()->count;
   return {*held.overview(), held.has_distances(),
-          [path, options, resets = held.resets(), count](const BagReads& to) {
-            tell_again(path, options, resets, count, to);
+          [path, go_through, resets = held.resets(), count](const BagReads& to) {
+            tell_again(path, go_through, resets, count, to);
           }};
 }
 
@@ -279,10 +293,11 @@ BagRecording read_bag(const std::string& path, const BagOptions& options,
   const Silence silence;
   HeldReads held(options.most_reads);
   const BagReadSink sink = held.sink();
-  BagContent content = content_of(path, options, sink, diagnostics);
+  const GoThrough go_through = going_through(path, options.frequency_hz, diagnostics);
+  BagContent content = go_through(sink, options.on_progress, diagnostics);
   BagRecording recording;
   held.give(content, recording);
-  if (held.overview()) recording.untold = untold(path, options, held);
+  if (held.overview()) recording.untold = untold(path, go_through, held);
   recording.duration_s = duration_of(content);
   recording.reads = tidy_reads(std::move(recording.reads), path, diagnostics);
   recording.truth = tidy_truth(std::move(content.truth));

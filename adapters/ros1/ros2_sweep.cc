@@ -15,6 +15,8 @@
 namespace tagfield {
 namespace {
 
+constexpr std::size_t kMostOpen = 16;
+
 /// Takes the bytes of a topic's message.
 using Take = std::function<void(std::string_view bytes, const MessagePlace& place,
                                 BagContent& content, Diagnostics& diagnostics)>;
@@ -66,21 +68,24 @@ class Ros2Sweep {
   Ros2Sweep(const BagReadSink& sink, Diagnostics& diagnostics)
       : diagnostics_(diagnostics), content_(sink) {}
 
-  void take_file(const std::string& path, const std::function<void(double)>& on_progress) {
-    const std::unique_ptr<RecordedFile> file = open_recorded_file(path, diagnostics_);
+  void take_file(const std::string& path, RecordedFile& file,
+                 const std::function<void(double)>& on_progress) {
     std::vector<Take> takes;
+    std::vector<char> wanted;
     std::vector<MessagePlace> places;
-    for (const RecordedTopic& topic : file->topics()) {
+    for (const RecordedTopic& topic : file.topics()) {
       takes.push_back(take_of(topic));
+      wanted.push_back(takes.back() ? 1 : 0);
       places.push_back({path, topic.name, 0});
       has_reads_ = has_reads_ || (takes.back() && topic.type == kReadsType);
     }
-    file->read([&](std::size_t topic, std::string_view bytes, double share) {
+    const auto take = [&](std::size_t topic, std::string_view bytes, double share) {
       ++places[topic].number;
-      if (takes[topic]) takes[topic](bytes, places[topic], content_, diagnostics_);
+      takes[topic](bytes, places[topic], content_, diagnostics_);
       content_.forget_unwanted();
       on_progress(share);
-    });
+    };
+    file.read(wanted, take, diagnostics_);
   }
   [[nodiscard]] bool has_reads() const { return has_reads_; }
   [[nodiscard]] BagContent content() { return std::move(content_); }
@@ -93,19 +98,29 @@ class Ros2Sweep {
 
 }  // namespace
 
-BagContent sweep_ros2(const std::string& path, const BagReadSink& sink,
+Ros2Files::Ros2Files(const std::string& path, Diagnostics& diagnostics)
+    : path_(path), files_(files_of_recording(path, diagnostics)), open_(files_.size()) {}
+
+std::shared_ptr<RecordedFile> Ros2Files::open(std::size_t index, Diagnostics& diagnostics) {
+  if (open_[index] != nullptr) return open_[index];
+  std::shared_ptr<RecordedFile> file = open_recorded_file(files_[index], diagnostics);
+  if (files_.size() <= kMostOpen) open_[index] = file;
+  return file;
+}
+
+BagContent sweep_ros2(Ros2Files& files, const BagReadSink& sink,
                       const std::function<void(double share)>& on_progress,
                       Diagnostics& diagnostics) {
-  const std::vector<std::string> files = files_of_recording(path, diagnostics);
   Ros2Sweep sweep(sink, diagnostics);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    sweep.take_file(files[i], [&](double share) {
+    const std::shared_ptr<RecordedFile> file = files.open(i, diagnostics);
+    sweep.take_file(files.path(i), *file, [&](double share) {
       const double done = static_cast<double>(i) + share;
       if (on_progress) on_progress(done / static_cast<double>(files.size()));
     });
   }
   if (!sweep.has_reads()) {
-    fail({path, 0}, "has no reads: no topic of type tagfield_msgs/msg/TagReads");
+    fail({files.path(), 0}, "has no reads: no topic of type tagfield_msgs/msg/TagReads");
   }
   return sweep.content();
 }

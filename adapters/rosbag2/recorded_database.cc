@@ -15,49 +15,52 @@ using rosbag2_internal::Rows;
 class RecordedDatabase : public RecordedFile {
  public:
   RecordedDatabase(const std::string& path, Diagnostics& diagnostics)
-      : path_(path), diagnostics_(diagnostics), database_(path) {
+      : path_(path), database_(path) {
     for (const char* table : {"topics", "messages"}) {
       if (!database_.has_table(table)) {
         fail({path_, 0},
              fmt::format("is no database of rosbag2, or a broken one: no table '{}'", table));
       }
     }
-    read_topics();
+    read_topics(diagnostics);
   }
 
   [[nodiscard]] const std::vector<RecordedTopic>& topics() const override { return topics_; }
-  void read(const Tell& tell) override;
+  void read(const std::vector<char>& wanted, const Tell& tell, Diagnostics& diagnostics) override;
 
  private:
-  void read_topics();
-  void warn(const std::string& message) { diagnostics_.warn({path_, 0}, message); }
-  [[nodiscard]] bool is_too_much(std::uint64_t rows, std::uint64_t bytes);
+  void read_topics(Diagnostics& diagnostics);
+  [[nodiscard]] bool is_too_much(std::uint64_t rows, std::uint64_t bytes,
+                                 Diagnostics& diagnostics) const;
 
   std::string path_;
-  Diagnostics& diagnostics_;
   Database database_;
   std::vector<RecordedTopic> topics_;
   std::map<std::int64_t, std::size_t> indexes_;  ///< By the topics' numbers in the file.
 };
 
-void RecordedDatabase::read_topics() {
+void RecordedDatabase::read_topics(Diagnostics& diagnostics) {
   Rows rows = database_.rows("SELECT id, name, type, serialization_format FROM topics NOT INDEXED");
   while (rows.next()) {
     if (!indexes_.emplace(rows.number(0), topics_.size()).second) continue;
     topics_.push_back(
         {std::string(rows.bytes(1)), std::string(rows.bytes(2)), std::string(rows.bytes(3))});
   }
-  if (rows.is_broken()) warn(fmt::format("its topics are broken ({})", database_.complaint()));
+  if (!rows.is_broken()) return;
+  diagnostics.warn({path_, 0}, fmt::format("its topics are broken ({})", database_.complaint()));
 }
 
 /// Pages that are told of twice could make a small file an endless one.
-bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes) {
+bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes,
+                                   Diagnostics& diagnostics) const {
   if (rows <= database_.size() && bytes <= database_.size()) return false;
-  warn("is broken: it has more messages than it has room for; the rest is left out");
+  diagnostics.warn({path_, 0},
+                   "is broken: it has more messages than it has room for; the rest is left out");
   return true;
 }
 
-void RecordedDatabase::read(const Tell& tell) {
+void RecordedDatabase::read(const std::vector<char>& wanted, const Tell& tell,
+                            Diagnostics& diagnostics) {
   // In the order of the table, which is that of recording. An index may be broken for itself.
   Rows rows = database_.rows("SELECT topic_id, data FROM messages NOT INDEXED");
   std::uint64_t count = 0;
@@ -65,17 +68,20 @@ void RecordedDatabase::read(const Tell& tell) {
   while (rows.next()) {
     const std::string_view data = rows.bytes(1);
     bytes += data.size();
-    if (is_too_much(++count, bytes)) return;
+    if (is_too_much(++count, bytes, diagnostics)) return;
     const auto topic = indexes_.find(rows.number(0));
     if (topic == indexes_.end() || !rows.is_blob(1)) {
-      warn("messages without bytes, or of a topic that is not there, are left out");
+      diagnostics.warn({path_, 0},
+                       "messages without bytes, or of a topic that is not there, are left out");
       continue;
     }
+    if (wanted.at(topic->second) == 0) continue;
     tell(topic->second, data, static_cast<double>(bytes) / static_cast<double>(database_.size()));
   }
   if (!rows.is_broken()) return;
-  warn(fmt::format("is cut off or broken after {} messages ({}); those are used", count,
-                   database_.complaint()));
+  diagnostics.warn({path_, 0},
+                   fmt::format("is cut off or broken after {} messages ({}); those are used", count,
+                               database_.complaint()));
 }
 
 }  // namespace

@@ -31,8 +31,10 @@ class RecordedFile {
   RecordedFile& operator=(const RecordedFile&) = delete;
 
   [[nodiscard]] virtual const std::vector<RecordedTopic>& topics() const = 0;
-  /// All messages that are whole, in the order in which they were recorded.
-  virtual void read(const Tell& tell) = 0;
+  /// All messages of the topics for which `wanted` is not 0 that are whole, in the order in which
+  /// they were recorded; can be called again. What is broken is left out, with a warning.
+  virtual void read(const std::vector<char>& wanted, const Tell& tell,
+                    Diagnostics& diagnostics) = 0;
 };
 
 /// An MCAP file (docs/mcap.md), or, whatever its name, a database of rosbag2: SQLite with the

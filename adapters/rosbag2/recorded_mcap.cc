@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
+#include <set>
 
 #include "adapters/mcap/mcap_reader.h"
 #include "adapters/rosbag2/recorded_file.h"
@@ -14,15 +15,22 @@ class RecordedMcap : public RecordedFile {
       indexes_[id] = topics_.size();
       topics_.push_back(
           {channel.topic, channel.schema ? channel.schema->name : "", channel.message_encoding});
-      messages_ += static_cast<double>(reader_.message_count(id));
     }
   }
 
   [[nodiscard]] const std::vector<RecordedTopic>& topics() const override { return topics_; }
-  void read(const Tell& tell) override {
+  void read(const std::vector<char>& wanted, const Tell& tell,
+            Diagnostics& /*diagnostics*/) override {
+    std::set<McapChannelId> channels;
+    double messages = 0.0;
+    for (const auto& [id, index] : indexes_) {
+      if (wanted.at(index) == 0) continue;
+      channels.insert(id);
+      messages += static_cast<double>(reader_.message_count(id));
+    }
     double done = 0.0;
-    reader_.read([&](const McapMessage& message) {
-      tell(indexes_.at(message.channel), message.bytes, ++done / messages_);
+    reader_.read(channels, [&](const McapMessage& message) {
+      tell(indexes_.at(message.channel), message.bytes, ++done / messages);
     });
   }
 
@@ -30,7 +38,6 @@ class RecordedMcap : public RecordedFile {
   McapReader reader_;
   std::vector<RecordedTopic> topics_;
   std::map<McapChannelId, std::size_t> indexes_;
-  double messages_ = 0.0;
 };
 
 }  // namespace

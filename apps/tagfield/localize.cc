@@ -85,7 +85,7 @@ std::vector<std::string> order_of(const std::optional<ScenarioWithWorld>& loaded
   return loaded ? tags_of(loaded->scenario) : std::vector<std::string>{};
 }
 
-std::vector<TagOutcome> outcomes_of(const RecordingToLocalize& recording,
+std::vector<TagOutcome> outcomes_of(const LoadedRecording& recording,
                                     const LocalizationOptions& options,
                                     const std::vector<TagEstimate>& estimates) {
   return judged_by_counts(estimates, recording.overview.count_by_tag, recording.truth,
@@ -93,7 +93,7 @@ std::vector<TagOutcome> outcomes_of(const RecordingToLocalize& recording,
 }
 
 /// The same reads by the scenario's other methods, after `summary`'s own; none where it names none.
-std::vector<MethodSummary> compared_methods(const RecordingToLocalize& recording,
+std::vector<MethodSummary> compared_methods(const LoadedRecording& recording,
                                             const std::optional<ScenarioWithWorld>& loaded,
                                             LocalizationOptions options, const Summary& summary,
                                             const std::vector<std::string>& order) {
@@ -117,7 +117,7 @@ std::vector<MethodSummary> compared_methods(const RecordingToLocalize& recording
 }
 
 /// The same reads with the other poses.
-std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
+std::optional<ComparedPose> compared(const LoadedRecording& recording,
                                      const LocalizationOptions& options,
                                      const std::vector<std::string>& order) {
   if (recording.other.poses.empty()) return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<ComparedPose> compared(const RecordingToLocalize& recording,
   return result;
 }
 
-Summary summary_of(const LocalizeArguments& arguments, const RecordingToLocalize& recording,
+Summary summary_of(const LocalizeArguments& arguments, const LoadedRecording& recording,
                    const std::optional<ScenarioWithWorld>& loaded,
                    const LocalizationOptions& options, const LocalizationResult& result) {
   Summary summary;
@@ -183,7 +183,7 @@ void stage_untold(const UntoldReads& untold, const Truth& truth, StagedFolder& f
   });
 }
 
-void stage(const RecordingToLocalize& recording, const std::optional<ScenarioWithWorld>& loaded,
+void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWorld>& loaded,
            const LocalizationOptions& options, const LocalizationResult& result,
            StagedFolder& folder) {
   if (!recording.table.empty()) {
@@ -268,17 +268,18 @@ std::set<std::string> references_of(const LocalizeArguments& arguments,
 }
 
 /// The recording, with warnings of what is odd about it.
-RecordingToLocalize recording_of(const LocalizeArguments& arguments, const std::string& out,
-                                 const std::set<std::string>& references,
-                                 Diagnostics& diagnostics) {
+LoadedRecording recording_of(const LocalizeArguments& arguments, const std::string& out,
+                             const std::set<std::string>& references, Diagnostics& diagnostics) {
   // A calibration changes them.
   const bool keep = !arguments.calibration.empty();
   if (is_bag(arguments.recording)) {
     if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
-    return bag_recording(arguments, out, references, keep, diagnostics);
+    return bag_recording({"localize", arguments.recording, arguments.poses, arguments.frame,
+                          arguments.frequency_hz, arguments.part_reads},
+                         out, references, keep, diagnostics);
   }
   refuse_options_of_bags(arguments);
-  RecordingToLocalize recording = csv_recording(arguments, out, references, keep, diagnostics);
+  LoadedRecording recording = csv_recording(arguments, out, references, keep, diagnostics);
   warn_of_odd_reads(arguments.recording, recording.overview, diagnostics);
   warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);
   return recording;
@@ -307,7 +308,7 @@ bool tell_orientation(const std::vector<AntennaPose>& poses) {
 
 }  // namespace
 
-LocalizationResult located_with_progress(const RecordingToLocalize& recording,
+LocalizationResult located_with_progress(const LoadedRecording& recording,
                                          const std::optional<Calibration>& calibration,
                                          LocalizationOptions options, Diagnostics& diagnostics) {
   StageBars bars;
@@ -330,7 +331,7 @@ int localize(const LocalizeArguments& arguments) {
   }
   const auto loaded = scenario_of(arguments, diagnostics);
   const std::string out = folder_of(arguments);
-  RecordingToLocalize recording =
+  LoadedRecording recording =
       recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
       options_of(arguments, loaded, recording.overview, recording.poses.name);

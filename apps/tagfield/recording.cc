@@ -47,7 +47,7 @@ double driven_path(const Truth& truth, const std::vector<AntennaPose>& poses) {
   return sum;
 }
 
-BagOptions options_of(const LocalizeArguments& arguments) {
+BagOptions options_of(const BagArguments& arguments) {
   BagOptions options;
   options.frequency_hz = arguments.frequency_hz;
   if (arguments.poses == "odometry") options.frames = {"world", "odom"};
@@ -67,8 +67,8 @@ std::string frames_of_reads(const BagRecording& bag) {
 }
 
 /// Puts into `poses` and `other` what was asked for.
-void choose_poses(const LocalizeArguments& arguments, const BagOptions& options, BagRecording& bag,
-                  RecordingToLocalize& recording) {
+void choose_poses(const BagArguments& arguments, const BagOptions& options, BagRecording& bag,
+                  LoadedRecording& recording) {
   const NamedPoses truth = {"true", bag.truth.antenna_poses};
   NamedPoses believed = {bag.believed.source, std::move(bag.believed.poses)};
   const std::string& wanted = arguments.poses;
@@ -82,9 +82,9 @@ void choose_poses(const LocalizeArguments& arguments, const BagOptions& options,
   }
   if (!recording.poses.poses.empty() || (bag.reads.empty() && !bag.untold)) return;
   if (wanted == "true") {
-    fail({arguments.recording, 0}, "has no true antenna poses (tagfield_msgs/AntennaTruth)");
+    fail({arguments.bag, 0}, "has no true antenna poses (tagfield_msgs/AntennaTruth)");
   }
-  fail({arguments.recording, 0},
+  fail({arguments.bag, 0},
        fmt::format("has no poses of the antennas {}: {}no transforms (tf) from '{}' to the frames "
                    "of the reads",
                    frames_of_reads(bag), automatic ? "no tagfield_msgs/AntennaTruth and " : "",
@@ -110,7 +110,7 @@ void compare_frames(const std::string& file, const BagRecording& bag, bool belie
 
 /// Reads that are too many for memory are stored in parts, or else read anew.
 void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const std::string& out,
-                    const std::set<std::string>& references, RecordingToLocalize& recording,
+                    const std::set<std::string>& references, LoadedRecording& recording,
                     Diagnostics& diagnostics) {
   recording.overview = source.overview;
   if (part) {
@@ -121,7 +121,7 @@ void keep_elsewhere(ReadSource source, std::optional<std::size_t> part, const st
 }
 
 /// How many reads of a bag are kept in memory.
-std::size_t most_reads(const LocalizeArguments& arguments, bool keep) {
+std::size_t most_reads(const BagArguments& arguments, bool keep) {
   if (arguments.part_reads) {
     return *arguments.part_reads == 0 ? std::numeric_limits<std::size_t>::max() : 0;
   }
@@ -129,21 +129,20 @@ std::size_t most_reads(const LocalizeArguments& arguments, bool keep) {
 }
 
 /// So many reads a part, where they are to be located in parts.
-std::optional<std::size_t> part_of_bag(const LocalizeArguments& arguments,
-                                       const UntoldReads& untold) {
+std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UntoldReads& untold) {
   if (arguments.part_reads) return arguments.part_reads;
   return untold.overview.count > kManyReads ? std::optional(kReadsOfPart) : std::nullopt;
 }
 
 /// The reads of a bag that has too many for memory.
-void take_untold(const LocalizeArguments& arguments, const std::string& out,
-                 const std::set<std::string>& references, RecordingToLocalize& recording,
+void take_untold(const BagArguments& arguments, const std::string& out,
+                 const std::set<std::string>& references, LoadedRecording& recording,
                  Diagnostics& diagnostics) {
-  keep_elsewhere(reads_of_bag(arguments.recording, *recording.untold),
+  keep_elsewhere(reads_of_bag(arguments.bag, *recording.untold),
                  part_of_bag(arguments, *recording.untold), out, references, recording,
                  diagnostics);
   if (!recording.stored || recording.other.poses.empty()) return;
-  diagnostics.warn({arguments.recording, 0},
+  diagnostics.warn({arguments.bag, 0},
                    fmt::format("its reads are located in parts: with poses '{}' alone, not with "
                                "'{}' to be compared with",
                                recording.poses.name, recording.other.name));
@@ -152,17 +151,17 @@ void take_untold(const LocalizeArguments& arguments, const std::string& out,
 
 }  // namespace
 
-EachRead reads_of(const RecordingToLocalize& recording) {
+EachRead reads_of(const LoadedRecording& recording) {
   if (!recording.source) return each_of(recording.reads);
   return EachRead([&recording](const EachRead::Take& take) {
     recording.source->for_each(take, [](double /*share*/) {});
   });
 }
 
-RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references, bool keep,
-                                  Diagnostics& diagnostics) {
-  RecordingToLocalize recording;
+LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::string& out,
+                              const std::set<std::string>& references, bool keep,
+                              Diagnostics& diagnostics) {
+  LoadedRecording recording;
   const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.recording);
   if (arguments.part_reads && !can_be_stored) {
     throw Error("localize: --part-reads goes with CSV in Tagfield's own form only, not packed");
@@ -188,20 +187,20 @@ RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std:
   return recording;
 }
 
-RecordingToLocalize bag_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references, bool keep,
-                                  Diagnostics& diagnostics) {
+LoadedRecording bag_recording(const BagArguments& arguments, const std::string& out,
+                              const std::set<std::string>& references, bool keep,
+                              Diagnostics& diagnostics) {
   const std::set<std::string> words = {"", "auto", "true", "tf", "odometry"};
   if (words.count(arguments.poses) == 0) {
-    throw Error(fmt::format("localize: --poses is '{}', expected {} for a bag", arguments.poses,
-                            kPoseWords));
+    throw Error(fmt::format("{}: --poses is '{}', expected {} for a bag", arguments.command,
+                            arguments.poses, kPoseWords));
   }
   BagOptions options = options_of(arguments);
   options.most_reads = most_reads(arguments, keep);
-  BagRecording bag = bag_with_progress(arguments.recording, options, diagnostics);
-  RecordingToLocalize recording;
+  BagRecording bag = bag_with_progress(arguments.bag, options, diagnostics);
+  LoadedRecording recording;
   choose_poses(arguments, options, bag, recording);
-  compare_frames(arguments.recording, bag,
+  compare_frames(arguments.bag, bag,
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
   if (bag.untold) {
     recording.untold = std::move(bag.untold);

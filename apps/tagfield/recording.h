@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What is to be localized, wherever it comes from.
+/// What is to be localized or tracked, wherever it comes from.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct NamedPoses {
   std::vector<AntennaPose> poses;
 };
 
-struct RecordingToLocalize {
+struct LoadedRecording {
   std::vector<TagRead> reads;  ///< All, or none where they are stored or not kept.
   /// Where reads are not kept: they are read anew each time they are asked for.
   std::optional<ReadSource> source;
@@ -40,20 +40,30 @@ struct RecordingToLocalize {
 };
 
 /// The reads that are in memory or in `source`. `recording` must outlive it.
-EachRead reads_of(const RecordingToLocalize& recording);
+EachRead reads_of(const LoadedRecording& recording);
 
 /// Reads and poses as CSV. Reads of a table over kTableToReadAnew are not kept unless `keep` is
 /// set. `references`: tags at known places, which all parts have of reads that are stored on the
 /// way to `out`. Throws Error where `--poses` is missing, or --part-reads goes with an archive or
 /// other people's tables.
-RecordingToLocalize csv_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references, bool keep,
-                                  Diagnostics& diagnostics);
+LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::string& out,
+                              const std::set<std::string>& references, bool keep,
+                              Diagnostics& diagnostics);
+
+/// What a command was told of a recording of ROS.
+struct BagArguments {
+  std::string command;  ///< For complaints.
+  std::string bag;
+  std::string poses;  ///< One of kPoseWords, or "".
+  std::string frame;  ///< Of its transforms, or "".
+  std::optional<double> frequency_hz;
+  std::optional<std::size_t> part_reads;  ///< See part_of_table().
+};
 
 /// A recording of ROS, with a progress bar. Its reads are kept, or not, as those of tables, by
 /// kReadsToReadAnew and kManyReads. Throws Error where it has not the poses that were asked for.
-RecordingToLocalize bag_recording(const LocalizeArguments& arguments, const std::string& out,
-                                  const std::set<std::string>& references, bool keep,
-                                  Diagnostics& diagnostics);
+LoadedRecording bag_recording(const BagArguments& arguments, const std::string& out,
+                              const std::set<std::string>& references, bool keep,
+                              Diagnostics& diagnostics);
 
 }  // namespace tagfield

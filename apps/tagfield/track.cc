@@ -5,12 +5,13 @@
 #include <memory>
 
 #include "adapters/archive/unpacked_archive.h"
+#include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/recording.h"
 #include "apps/tagfield/scenario_arguments.h"
-#include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/track_files.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
@@ -177,14 +178,28 @@ Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
   return task;
 }
 
-Result track_reads(const TrackArguments& arguments, Diagnostics& diagnostics) {
+/// Reads, poses and truth of tables or, in memory, of a recording of ROS.
+TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecording> recording) {
+  TrackingRun run;
+  run.seed = arguments.seed.value_or(1);
+  if (recording) {
+    run.reads = std::move(recording->reads);
+    run.believed_poses = std::move(recording->poses.poses);
+    run.truth = std::move(recording->truth);
+    return run;
+  }
+  ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
+  run.reads = std::move(tables.reads);
+  run.believed_poses = std::move(tables.poses);
+  run.truth = truth_beside(arguments.input);
+  return run;
+}
+
+Result track_reads(const TrackArguments& arguments, std::optional<LoadedRecording> recording,
+                   Diagnostics& diagnostics) {
   auto [spec, known] = task_of(arguments, diagnostics);
   std::vector<TrackingRun> runs(1);
-  runs[0].seed = arguments.seed.value_or(1);
-  ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
-  runs[0].reads = std::move(tables.reads);
-  runs[0].believed_poses = std::move(tables.poses);
-  runs[0].truth = truth_beside(arguments.input);
+  runs[0] = run_of(arguments, std::move(recording));
   if (!arguments.calibration.empty()) {
     apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
                       runs[0].believed_poses, known);
@@ -265,20 +280,29 @@ Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
   return truth_beside(reads);
 }
 
-/// Tags of a table that doesn't fit in memory, whose tracks may not either.
-int track_table_in_parts(const TrackArguments& arguments, const TableFiles& files,
-                         std::size_t part_reads, Diagnostics& diagnostics) {
+/// A table of reads that don't fit in memory, with all else.
+LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& files,
+                             std::size_t part_reads, const std::string& out,
+                             Diagnostics& diagnostics) {
+  LoadedRecording recording;
+  recording.poses = {"given", read_poses_csv(files.poses)};
+  recording.truth = truth_that_fits(arguments.input, diagnostics);
+  recording.stored = store_reads(reads_of_table(files.reads), out, part_reads, {}, diagnostics);
+  return recording;
+}
+
+/// Tracks tags whose tracks may not fit in memory either.
+int track_parts(const TrackArguments& arguments, const std::string& out, LoadedRecording recording,
+                Diagnostics& diagnostics) {
   auto [spec, known] = task_of(arguments, diagnostics);
   Result result;
   result.summary.name = arguments.input;
   result.summary.method = to_string(spec.options.method);
-  const std::string out = folder_of(arguments, result);
   TrackingRun& run = result.first;
   run.seed = arguments.seed.value_or(1);
-  run.believed_poses = read_poses_csv(files.poses);
-  run.truth = truth_that_fits(arguments.input, diagnostics);
-  const StoredReads stored =
-      store_reads(reads_of_table(files.reads), out, part_reads, {}, diagnostics);
+  run.believed_poses = std::move(recording.poses.poses);
+  run.truth = std::move(recording.truth);
+  const StoredReads& stored = *recording.stored;
   std::optional<Calibration> calibration;
   if (!arguments.calibration.empty()) {
     calibration = read_calibration(arguments.calibration);
@@ -308,8 +332,7 @@ int track_table_in_parts(const TrackArguments& arguments, const TableFiles& file
 
 /// The table where it is to be tracked in parts.
 std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArguments& arguments) {
-  const bool can_be_stored =
-      !is_scenario(arguments.input) && arguments.format.empty() && !is_archive(arguments.input);
+  const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.input);
   if (arguments.part_reads && !can_be_stored) {
     throw Error("track: --part-reads goes with CSV in Tagfield's own form only, not packed");
   }
@@ -320,13 +343,31 @@ std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArg
   return std::pair(std::move(files), *part);
 }
 
+/// A recording of ROS, or tables whose reads don't fit in memory.
+std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
+                                            Diagnostics& diagnostics) {
+  if (is_scenario(arguments.input)) return std::nullopt;
+  if (is_bag(arguments.input)) {
+    if (!arguments.format.empty()) throw Error("track: --format goes with CSV only");
+    return bag_recording(
+        {"track", arguments.input, arguments.poses, "", std::nullopt, arguments.part_reads}, out,
+        {}, true, diagnostics);
+  }
+  const auto table = table_for_parts(arguments);
+  if (!table) return std::nullopt;
+  return stored_table(arguments, table->first, table->second, out, diagnostics);
+}
+
 int track_command(const TrackArguments& arguments) {
   Diagnostics diagnostics;
-  if (const auto table = table_for_parts(arguments)) {
-    return track_table_in_parts(arguments, table->first, table->second, diagnostics);
+  const std::string out_of_reads = folder_of(arguments, {});
+  std::optional<LoadedRecording> recording = recording_of(arguments, out_of_reads, diagnostics);
+  if (recording && recording->stored) {
+    return track_parts(arguments, out_of_reads, std::move(*recording), diagnostics);
   }
-  Result result = is_scenario(arguments.input) ? track_scenario(arguments, diagnostics)
-                                               : track_reads(arguments, diagnostics);
+  Result result = is_scenario(arguments.input)
+                      ? track_scenario(arguments, diagnostics)
+                      : track_reads(arguments, std::move(recording), diagnostics);
   result.summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
   if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
@@ -383,11 +424,13 @@ void add_track_command(CLI::App& app, Action& chosen) {
       ->add_option(
           "READS", arguments->input,
           "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; the folder of "
-          "a run; or a scenario (YAML), which is simulated, tracked and compared with the truth")
+          "a run; a recording of ROS (RUN.bag, RUN.mcap, RUN.db3, or rosbag2's folder); or a "
+          "scenario (YAML), which is simulated, tracked and compared with the truth")
       ->required();
   command->add_option("--poses", arguments->poses,
-                      "With reads, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,"
-                      "qw; one row for one at rest)");
+                      "With reads as CSV, the antennas' poses (CSV: stamp_s,antenna,x_m,y_m,z_m,"
+                      "qx,qy,qz,qw; one row for one at rest). With a recording of ROS: true, tf, "
+                      "odometry, or auto (default): the true ones, else tf");
   add_format_option(*command, arguments->format);
   add_part_option(*command, arguments->part_reads);
   command->add_option("--scenario", arguments->scenario,

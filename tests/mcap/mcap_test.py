@@ -341,6 +341,32 @@ def tags_are_located_from_the_file_as_from_the_tables(context):
 
 
 @case
+def tags_are_tracked_from_the_file_as_from_the_tables(context):
+    scenario = context.shipped("conveyor")
+    run_folder = context.simulate("conveyor", "--record-only", "--mcap", "run.mcap")
+    told = ["--scenario", scenario, "--no-page"]
+    context.run_well("track", run_folder, *told, "--out", "tables")
+    context.run_well("track", "run.mcap", *told, "--out", "file")
+    context.run_well("track", "run.mcap", *told, "--part-reads", 300, "--out", "parts")
+    tables, file, parts = (context.folder / name for name in ("tables", "file", "parts"))
+    check_equal((parts / "tracks.csv").read_bytes(), (file / "tracks.csv").read_bytes(), "tracks in parts")
+    check_equal((file / "verdicts.csv").read_bytes(), (tables / "verdicts.csv").read_bytes(), "verdicts")
+    # The table's phases have six decimals.
+    for row, other in zip(read_csv(file / "tracks.csv"), read_csv(tables / "tracks.csv"), strict=True):
+        check_equal((row["tag"], row["stamp_s"]), (other["tag"], other["stamp_s"]), "tag and stamp")
+        for key in ("x_m", "y_m"):
+            check(abs(float(row[key]) - float(other[key])) < 1e-5, f"{row['tag']}: {key} differs")
+    of_file, of_tables = (json.loads((folder / "tracks.json").read_text(encoding="utf-8"))
+                          for folder in (file, tables))
+    check(abs(of_file["along_m"]["mean"] - of_tables["along_m"]["mean"]) < 1e-6, "the truth is not judged by")
+    for words, says in ((["--poses", "poses.csv"], "track: --poses is 'poses.csv', expected auto, true, tf or odom"),
+                        (["--format", "form.yaml"], "track: --format goes with CSV only")):
+        result = context.run("track", "run.mcap", *words, "--out", "bad")
+        check_equal(result.code, 2, f"exit code with {words}")
+        check_in(says, result.err, "complaint")
+
+
+@case
 def the_page_shows_the_file_as_the_runs_folder(context):
     """But for estimates, which a recording has none of."""
     scenario = context.shipped("two_antennas")

@@ -40,6 +40,12 @@ class Complaints {
   int left_ = kMostWarnings;
 };
 
+/// Adds a channel to those of a piece.
+void note(McapChannelId channel, std::vector<McapChannelId>& channels) {
+  const auto place = std::lower_bound(channels.begin(), channels.end(), channel);
+  if (place == channels.end() || *place != channel) channels.insert(place, channel);
+}
+
 using Counts = std::map<McapChannelId, std::uint64_t>;
 
 /// Goes through a file record by record. All that it is told of lengths and places is checked
@@ -165,7 +171,7 @@ void Scanner::define(Op op, std::uint64_t at, std::string_view content) {
 
 void Scanner::take_chunk(std::uint64_t at, std::uint64_t length) {
   has_chunks_ = true;
-  const Piece piece{at + kHeadBytes, length, true, 0};
+  const Piece piece{at + kHeadBytes, length, true, 0, {}};
   const char* const fault = open_chunk(file_.view(piece.offset, length), records_);
   if (fault != nullptr) {
     return complaints_.say(at, fmt::format("a chunk is left out: {}", fault));
@@ -183,12 +189,13 @@ void Scanner::take_records_of_chunk(std::uint64_t at, Piece piece) {
     const auto message = record->op == Op::kMessage ? message_in(record->content) : std::nullopt;
     if (!message) continue;
     ++found_.counts[message->channel];
+    note(message->channel, piece.channels);
     piece.first_ns =
         has_messages ? std::min(piece.first_ns, message->log_time_ns) : message->log_time_ns;
     has_messages = true;
   }
   if (!rest.empty()) complaints_.say(at, "the chunk does not end with a whole record");
-  if (has_messages) found_.pieces.push_back(piece);
+  if (has_messages) found_.pieces.push_back(std::move(piece));
 }
 
 void Scanner::take_message(std::uint64_t at, std::uint64_t length) {
@@ -200,7 +207,8 @@ void Scanner::take_message(std::uint64_t at, std::uint64_t length) {
   const bool goes_on = !pieces.empty() && !pieces.back().is_chunk &&
                        pieces.back().offset + pieces.back().length == at &&
                        pieces.back().length + size <= kRunBytes;
-  if (!goes_on) pieces.push_back({at, 0, false, message->log_time_ns});
+  if (!goes_on) pieces.push_back({at, 0, false, message->log_time_ns, {}});
+  note(message->channel, pieces.back().channels);
   pieces.back().length += size;
   pieces.back().first_ns = std::min(pieces.back().first_ns, message->log_time_ns);
 }

@@ -21,7 +21,8 @@ struct Piece {
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
   bool is_chunk = false;
-  std::uint64_t first_ns = 0;  ///< Earliest log time.
+  std::uint64_t first_ns = 0;             ///< Earliest log time.
+  std::vector<McapChannelId> channels{};  ///< Of its messages, by rising number.
 };
 
 struct Contents {

@@ -230,6 +230,34 @@ TEST(McapReader, RefusesWhatIsNoMcapFile) {
   EXPECT_TRUE(contains(error(pipe), "a pipe"));
 }
 
+TEST(McapReader, TellsTheMessagesThatAreWanted) {
+  const TemporaryFolder& folder = folder_of_test();
+  const std::string large(3'000'000, '8');  // More than is read at once.
+  const std::string unwanted = chunk(message(2, 2, "2") + message(2, 8, large));
+  const std::string begin =
+      chunk(kDefinitions + message(1, 1, "1") + message(2, 3, "3") + message(1, 9, "9"));
+  const std::string end = chunk(message(1, 5, "5")) + message(2, 6, "6") + message(1, 7, "7");
+  const std::string file = file_of(begin + unwanted + end);
+  Diagnostics diagnostics;
+  McapReader reader(folder.with("f", file), diagnostics);
+  const auto told = [&reader](const std::set<McapChannelId>& wanted) {
+    Texts texts;
+    reader.read(wanted, [&](const McapMessage& message) { texts.emplace_back(message.bytes); });
+    return texts;
+  };
+  EXPECT_EQ(told({1}), (Texts{"1", "5", "7", "9"}));
+  EXPECT_EQ(told({2}), (Texts{"2", "3", "6", large}));
+  EXPECT_EQ(told({1, 2}), (Texts{"1", "2", "3", "5", "6", "7", large, "9"}));
+  EXPECT_EQ(told({}), Texts{});
+  EXPECT_EQ(told({3}), Texts{});
+  // A chunk of others is not looked at again.
+  std::string changed = file;
+  changed[changed.find(unwanted) + unwanted.size() - 1] ^= 1;
+  (void)folder.with("f", changed);
+  EXPECT_EQ(told({1}), (Texts{"1", "5", "7", "9"}));
+  EXPECT_TRUE(contains(error_of([&] { told({2}); }), "changed"));
+}
+
 TEST(McapReader, NoticesThatTheFileWasChanged) {
   const TemporaryFolder& folder = folder_of_test();
   const std::string file = file_of(

@@ -70,6 +70,38 @@ TEST(McapWriter, WritesTheBytesOfTheSpecification) {
                                      le(crc(summary), 4) + kMagic);
 }
 
+TEST(McapWriter, GivesLargeMessagesChunksOfTheirOwn) {
+  McapOptions options = kPlain;
+  options.chunk_bytes = 400;
+  const TemporaryFolder folder;
+  McapWriter writer(folder.file("f"), options);
+  const McapChannelId small = writer.add_channel(channel_of("/small"));
+  const McapChannelId large = writer.add_channel(channel_of("/large"));
+  writer.write(small, 1, 1, "a");
+  writer.write(large, 2, 2, std::string(99, 'b'));  // Not yet large.
+  writer.write(large, 3, 3, std::string(100, 'c'));
+  writer.write(large, 4, 4, std::string(3000, 'd'));
+  writer.write(small, 5, 5, "e");
+  writer.write(small, 6, 6, "f");
+  writer.finish();
+  // Times of each chunk, as they stand at its begin.
+  const std::string file = folder.text_of("f");
+  std::vector<std::pair<int, int>> times;
+  for (int first = 1; first <= 6; ++first) {
+    for (int last = first; last <= 6; ++last) {
+      const std::string head =
+          le(static_cast<std::uint64_t>(first), 8) + le(static_cast<std::uint64_t>(last), 8);
+      for (std::size_t at = 0; (at = file.find(head, at)) != std::string::npos; ++at) {
+        if (at >= 9 && file[at - 9] == 6) times.emplace_back(first, last);
+      }
+    }
+  }
+  EXPECT_EQ(times, (std::vector<std::pair<int, int>>{{1, 2}, {3, 3}, {4, 4}, {5, 6}}));
+  Diagnostics diagnostics;
+  EXPECT_EQ(read_all(folder.file("f"), diagnostics).size(), 6U);
+  EXPECT_TRUE(diagnostics.warnings().empty());
+}
+
 TEST(McapWriter, AFileWithoutMessagesIsWholeToo) {
   const TemporaryFolder folder;
   McapWriter writer(folder.file("f"));

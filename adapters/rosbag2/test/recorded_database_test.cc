@@ -77,11 +77,13 @@ Found read_all(const std::string& path) {
   Diagnostics diagnostics;
   Found found;
   const auto file = open_recorded_database(path, diagnostics);
-  file->read([&](std::size_t topic, std::string_view bytes, double share) {
+  const std::vector<char> all(file->topics().size(), 1);
+  const auto take = [&](std::size_t topic, std::string_view bytes, double share) {
     found.messages.emplace_back(file->topics().at(topic).name, bytes);
     EXPECT_GE(share, 0.0);
     EXPECT_LE(share, 1.0);
-  });
+  };
+  file->read(all, take, diagnostics);
   found.warnings = diagnostics.warnings();
   return found;
 }
