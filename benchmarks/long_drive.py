@@ -3,16 +3,17 @@
 """Time and memory of localizing thousands of tags from one long drive through a hall.
 
     benchmarks/long_drive.py [--tagfield build/release/bin/tagfield] [--hours 0.1 0.25 1] [--tags-an-hour 5000]
-                             [--range 4] [--methods joint ml] [--threads 2]
+                             [--range 4] [--methods joint ml] [--threads 2] [--mcap]
 
 A robot drives up and down aisles of 40 m, 3.5 m apart, at 0.3 m/s past tags at both sides, read 15 times a
 second within 4 m or as told; its believed pose wanders by 3 cm. Prints a row a run: hours, tags, reads, method, CPU and
 wall time, peak memory, how many tags are located, and the mean NEES an axis with the shift that all tags
-share taken out.
+share taken out. With --mcap the same from the run's MCAP file, whose poses by tf are those that it believed.
 """
 
 import argparse
 import csv
+import itertools
 import math
 import os
 import pathlib
@@ -24,6 +25,7 @@ import time
 AISLE_M = 40.0
 GAP_M = 3.5
 SPEED_M_S = 0.3
+POSE_ERROR = ["--pose-sigma", "0.03", "--pose-yaw-sigma", "0.5"]  # As in the scenario.
 
 
 def write_scenario(path, hours, tags, range_m):
@@ -85,25 +87,29 @@ def main():
     parser.add_argument("--range", type=float, default=4.0, help="of the antenna [m]")
     parser.add_argument("--methods", nargs="+", default=["joint"])
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--mcap", action="store_true", help="locate from the run's MCAP file, too")
     arguments = parser.parse_args()
-    print("hours   tags     reads  method    CPU [s]  wall [s]  peak [MB]  located  NEES x, y")
+    print("hours   tags     reads  from   method    CPU [s]  wall [s]  peak [MB]  located  NEES x, y")
     for hours in arguments.hours:
         with tempfile.TemporaryDirectory(prefix="long_drive-") as name:
             folder = pathlib.Path(name)
             tags = round(hours * arguments.tags_an_hour)
             scenario = folder / "drive.yaml"
             write_scenario(scenario, hours, tags, arguments.range)
-            subprocess.run([arguments.tagfield, "run", scenario, "--record-only", "--out", folder / "run"],
+            sources = {"CSV": [folder / "run/reads.csv", "--poses", folder / "run/antenna_poses.csv"]}
+            if arguments.mcap:
+                sources["MCAP"] = [folder / "run.mcap", "--poses", "tf", *POSE_ERROR]
+            recording = ["--mcap", folder / "run.mcap"] if arguments.mcap else []
+            subprocess.run([arguments.tagfield, "run", scenario, "--record-only", "--out", folder / "run", *recording],
                            check=True, stdout=subprocess.DEVNULL)
             with (folder / "run/reads.csv").open("rb") as reads:
                 count = sum(1 for _ in reads) - 1
-            for method in arguments.methods:
+            for method, (source, reads) in itertools.product(arguments.methods, sources.items()):
                 cpu, wall, peak = localized([
-                    arguments.tagfield, "localize", folder / "run/reads.csv", "--poses",
-                    folder / "run/antenna_poses.csv", "--scenario", scenario, "--method", method,
+                    arguments.tagfield, "localize", *reads, "--scenario", scenario, "--method", method,
                     "--threads", str(arguments.threads), "--out", folder / method])
                 located, means = nees(folder / method / "estimates.csv", folder / "run/truth/tags.csv")
-                print(f"{hours:5g} {tags:6d} {count:9d}  {method:8} {cpu:8.1f} {wall:9.1f} {peak:10.0f} "
+                print(f"{hours:5g} {tags:6d} {count:9d}  {source:6} {method:8} {cpu:8.1f} {wall:9.1f} {peak:10.0f} "
                       f"{located:8d}  {means[0]:.2f}, {means[1]:.2f}", flush=True)
 
 

@@ -369,19 +369,21 @@ int localize(const LocalizeArguments& arguments) {
                        // and then nothing half-done lies about.
   StagedFolder folder(out);
   stage(recording, loaded, options, result, folder);
-  if (recording.stored && interrupted()) return kExitInterrupted;
+  const bool in_parts = recording.stored.has_value();
+  if (in_parts && interrupted()) return kExitInterrupted;
   folder.add("summary.json", to_json(summary));
+  const ReadOverview overview = std::move(recording.overview);
+  recording = {};  // Its memory is the page's.
   if (is_of_this_run(arguments, out)) keep_of_this_run(out, loaded, folder);
   const std::string staging = folder.staging().string();
   stage_report(staging, http::view_of(staging), folder);
-  if (recording.stored && interrupted()) return kExitInterrupted;
+  if (in_parts && interrupted()) return kExitInterrupted;
   folder.commit({"report.html", "figures", "compared_poses.csv", "corrected_poses.csv",
                  "reference_tags.csv", "truth", "top_view.json", "tag_heights.csv"});
   if (arguments.as_json) {
     fmt::print("{}", to_json(summary));
   } else {
-    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(recording.overview), table_of(summary),
-               out);
+    fmt::print("{}\n{}page: {}/report.html\n", told_of_reads(overview), table_of(summary), out);
   }
   return kExitOk;
 }

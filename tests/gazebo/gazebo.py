@@ -47,11 +47,11 @@ def require_gazebo(context):
 
 # --- Worlds ---------------------------------------------------------------------------------------
 
-def world(*parts, factor=1.0):
-    """A world of 1 ms steps that runs at a multiple of real time; 0 for as fast as it can."""
+def world(*parts, factor=1.0, step_s=0.001):
+    """A world of such steps that runs at a multiple of real time; 0 for as fast as it can."""
     return (f'<?xml version="1.0"?><sdf version="1.6"><world name="default">'
-            f'<physics type="ode"><max_step_size>0.001</max_step_size>'
-            f'<real_time_update_rate>{1000.0 * factor}</real_time_update_rate></physics>'
+            f'<physics type="ode"><max_step_size>{step_s}</max_step_size>'
+            f'<real_time_update_rate>{factor / step_s}</real_time_update_rate></physics>'
             f'<gravity>0 0 0</gravity>{"".join(parts)}</world></sdf>')
 
 
