@@ -158,7 +158,13 @@ void add_fixed_antennas(const BagRecording& recording, std::vector<AntennaPose>&
   }
 }
 
+bool is_truth_enough(const BagOptions& options, const BagRecording& recording) {
+  return recording.untold && recording.untold->overview.count > options.most_reads_believed &&
+         !recording.truth.antenna_poses.empty();
+}
+
 PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRecording& recording) {
+  if (is_truth_enough(options, recording)) return {};
   if (!content.given_poses.empty()) {
     return {"given", content.truth_frame, tidy_poses(std::move(content.given_poses))};
   }

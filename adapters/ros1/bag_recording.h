@@ -27,6 +27,9 @@ struct BagOptions {
   std::function<void(double share)> on_progress;  ///< Called with 0 … 1, or empty.
   /// More reads than these, or true distances, are not held: see BagRecording::untold.
   std::size_t most_reads = std::numeric_limits<std::size_t>::max();
+  /// Of a bag with untold reads, more than these, and a truth, nothing is believed: `believed` is
+  /// empty, which saves the memory of a pose for each update.
+  std::size_t most_reads_believed = std::numeric_limits<std::size_t>::max();
 };
 
 /// The reads of a bag that has more of them than are held.

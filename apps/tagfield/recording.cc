@@ -141,12 +141,12 @@ void take_untold(const BagArguments& arguments, const std::string& out,
   keep_elsewhere(reads_of_bag(arguments.bag, *recording.untold),
                  part_of_bag(arguments, *recording.untold), out, references, recording,
                  diagnostics);
-  if (!recording.stored || recording.other.poses.empty()) return;
-  diagnostics.warn({arguments.bag, 0},
-                   fmt::format("its reads are located in parts: with poses '{}' alone, not with "
-                               "'{}' to be compared with",
-                               recording.poses.name, recording.other.name));
+  if (!recording.stored) return;
   recording.other = {};
+  diagnostics.warn({arguments.bag, 0},
+                   fmt::format("its reads are worked on in parts: with the poses '{}' alone, and "
+                               "not beside others",
+                               recording.poses.name));
 }
 
 }  // namespace
@@ -197,6 +197,9 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
   }
   BagOptions options = options_of(arguments);
   options.most_reads = most_reads(arguments, keep);
+  if (arguments.poses != "tf" && arguments.poses != "odometry") {
+    options.most_reads_believed = arguments.part_reads ? 0 : kManyReads;
+  }
   BagRecording bag = bag_with_progress(arguments.bag, options, diagnostics);
   LoadedRecording recording;
   choose_poses(arguments, options, bag, recording);

@@ -75,7 +75,7 @@ def a_bag_is_located_in_parts_as_its_tables_are(context):
     check_equal(set(files_in(parts)) ^ set(files_in(whole)), {"compared_poses.csv"}, "the files")
     summary = read_json(parts / "summary.json")
     check_equal(summary["error_m"], read_json(whole / "summary.json")["error_m"], "the errors")
-    check_in("its reads are located in parts: with poses 'true' alone, not with 'odometry'",
+    check_in("its reads are worked on in parts: with the poses 'true' alone, and not beside others",
              result.err, "what it says")
     context.run_well("localize", bag, *known, "--part-reads", 0, "--out", "at_once")
     check_equal((context.folder / "at_once/summary.json").read_bytes(),

@@ -360,6 +360,12 @@ TEST(ReadBag, TellsReadsThatAreTooManyToBeHeld) {
   EXPECT_EQ(bag.truth.antenna_poses.size(), held.truth.antenna_poses.size());
   EXPECT_EQ(bag.truth.tag_positions.size(), 1U);
   EXPECT_EQ(bag.duration_s, held.duration_s);
+  // Where the truth is enough, nothing is believed.
+  options.most_reads_believed = 190;
+  EXPECT_EQ(recording_of(bag_in(folder), options).believed.poses.size(),
+            held.believed.poses.size());
+  options.most_reads_believed = 189;
+  EXPECT_TRUE(recording_of(bag_in(folder), options).believed.poses.empty());
 }
 
 TEST(ReadBag, TellsOnlyReadsAfterTheLastReset) {
