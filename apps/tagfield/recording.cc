@@ -128,18 +128,21 @@ std::size_t most_reads(const BagArguments& arguments, bool keep) {
   return keep ? kManyReads : kReadsToReadAnew;
 }
 
-/// So many reads a part, where they are to be located in parts.
-std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UntoldReads& untold) {
+/// So many reads a part, where they are to be worked on in parts: those too that would have to be
+/// kept in memory and can't be.
+std::optional<std::size_t> part_of_bag(const BagArguments& arguments, const UntoldReads& untold,
+                                       bool keep) {
   if (arguments.part_reads) return arguments.part_reads;
-  return untold.overview.count > kManyReads ? std::optional(kReadsOfPart) : std::nullopt;
+  const bool in_parts = keep || untold.overview.count > kManyReads;
+  return in_parts ? std::optional(kReadsOfPart) : std::nullopt;
 }
 
 /// The reads of a bag that has too many for memory.
 void take_untold(const BagArguments& arguments, const std::string& out,
-                 const std::set<std::string>& references, LoadedRecording& recording,
+                 const std::set<std::string>& references, bool keep, LoadedRecording& recording,
                  Diagnostics& diagnostics) {
   keep_elsewhere(reads_of_bag(arguments.bag, *recording.untold),
-                 part_of_bag(arguments, *recording.untold), out, references, recording,
+                 part_of_bag(arguments, *recording.untold, keep), out, references, recording,
                  diagnostics);
   if (!recording.stored) return;
   recording.other = {};
@@ -164,7 +167,9 @@ LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::str
   LoadedRecording recording;
   const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.recording);
   if (arguments.part_reads && !can_be_stored) {
-    throw Error("localize: --part-reads goes with CSV in Tagfield's own form only, not packed");
+    throw Error(
+        "localize: --part-reads goes with CSV in Tagfield's own form, not packed, and with "
+        "recordings of ROS only");
   }
   std::optional<std::size_t> part;
   TableFiles files;
@@ -207,7 +212,7 @@ LoadedRecording bag_recording(const BagArguments& arguments, const std::string& 
                  recording.poses.name != "true" || !recording.other.poses.empty(), diagnostics);
   if (bag.untold) {
     recording.untold = std::move(bag.untold);
-    take_untold(arguments, out, references, recording, diagnostics);
+    take_untold(arguments, out, references, keep, recording, diagnostics);
   } else {
     recording.reads = std::move(bag.reads);
     recording.overview = overview_of(recording.reads);

@@ -330,13 +330,15 @@ int track_parts(const TrackArguments& arguments, const std::string& out, LoadedR
   return tell(arguments, result, out);
 }
 
+/// Whether reads can be stored in parts.
+bool can_be_stored(const TrackArguments& arguments) {
+  if (is_scenario(arguments.input)) return false;
+  return is_bag(arguments.input) || (arguments.format.empty() && !is_archive(arguments.input));
+}
+
 /// The table where it is to be tracked in parts.
 std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArguments& arguments) {
-  const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.input);
-  if (arguments.part_reads && !can_be_stored) {
-    throw Error("track: --part-reads goes with CSV in Tagfield's own form only, not packed");
-  }
-  if (!can_be_stored) return std::nullopt;
+  if (!can_be_stored(arguments)) return std::nullopt;
   TableFiles files = own_tables("track", arguments.input, arguments.poses);
   const auto part = part_of_table(files.reads, arguments.part_reads);
   if (!part) return std::nullopt;
@@ -346,6 +348,11 @@ std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArg
 /// A recording of ROS, or tables whose reads don't fit in memory.
 std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
                                             Diagnostics& diagnostics) {
+  if (arguments.part_reads && !can_be_stored(arguments)) {
+    throw Error(
+        "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings "
+        "of ROS only");
+  }
   if (is_scenario(arguments.input)) return std::nullopt;
   if (is_bag(arguments.input)) {
     if (!arguments.format.empty()) throw Error("track: --format goes with CSV only");

@@ -229,7 +229,7 @@ def killed_shards_go_on(context):
     for _ in range(6):
         shard = chance.randint(1, 2)
         kills += killed(context, ("sweep", suite, "--shard", f"{shard}/2", "--out", folder, "--save-every",
-                                  "0", "--threads", "1"), chance.uniform(0.0, 0.5 * whole_s))
+                                  "0", "--threads", "1"), chance.uniform(0.0, 0.25 * whole_s))
     check(kills > 0, "no shard was killed")
     check_same(results_of(shards(context, suite, 2, "killed")), results_of(context.folder / "whole"),
                f"shards that were killed {kills} times")
