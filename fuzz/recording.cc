@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings of ROS: the first byte says of which kind.
+// Recordings of ROS: the first byte says of which kind, and whether reads are held or told anew.
 #include <array>
+#include <cstdlib>
 
 #include "adapters/ros1/bag_recording.h"
 #include "fuzz/input.h"
@@ -13,6 +14,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::folder().write(kNames.at(data[0] % kNames.size()), fuzz::text_of(data + 1, size - 1));
   return fuzz::refused_or_taken([&] {
     Diagnostics unheard;
-    read_bag(path, {}, unheard);
+    BagOptions options;
+    if (data[0] >= 128) options.most_reads = 0;
+    const BagRecording bag = read_bag(path, options, unheard);
+    if (!bag.untold) return;
+    std::size_t reads = 0;
+    bag.untold->tell({[&reads](const TagRead& /*read*/) { ++reads; }, {}, {}});
+    if (reads != bag.untold->overview.count) std::abort();
   });
 }

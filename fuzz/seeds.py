@@ -261,8 +261,16 @@ def bag():
 
 
 def recording():
+    """Each to be held, and to be told anew (a first byte of 128 or more)."""
+    for kind, (name, content) in enumerate(recordings()):
+        yield name, bytes([kind]) + content
+        yield f"{name}_told", bytes([129 + kind]) + content
+
+
+def recordings():
+    """A rosbag, an MCAP file and a database."""
     topic, kind = "/rfid/reads", "tagfield_msgs/msg/TagReads"
-    yield "bag", b"\0" + bag()
+    yield "bag", bag()
 
     def mcap_record(op, content):
         return struct.pack("<BQ", op, len(content)) + content
@@ -271,7 +279,7 @@ def recording():
         return struct.pack("<I", len(word)) + word.encode()
 
     magic = b"\x89MCAP0\r\n"
-    yield "mcap", b"\1" + magic + b"".join((
+    yield "mcap", magic + b"".join((
         mcap_record(1, text("ros2") + text("seeds")),
         mcap_record(3, struct.pack("<H", 1) + text(kind) + text("ros2msg") + text("string antenna\n")),
         mcap_record(4, struct.pack("<HH", 1, 1) + text(topic) + text("cdr") + struct.pack("<I", 0)),
@@ -288,7 +296,7 @@ def recording():
             database.execute("INSERT INTO topics VALUES (1, ?, ?, 'cdr')", (topic, kind))
             database.execute("INSERT INTO messages VALUES (1, 1, 5, ?)", (cdr_reads(),))
         database.close()
-        yield "db3", b"\2" + path.read_bytes()
+        yield "db3", path.read_bytes()
 
 
 def archive():
