@@ -195,9 +195,9 @@ TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecordin
   return run;
 }
 
-Result track_reads(const TrackArguments& arguments, std::optional<LoadedRecording> recording,
-                   Diagnostics& diagnostics) {
-  auto [spec, known] = task_of(arguments, diagnostics);
+Result track_reads(const TrackArguments& arguments, Task task,
+                   std::optional<LoadedRecording> recording, Diagnostics& diagnostics) {
+  auto& [spec, known] = task;
   std::vector<TrackingRun> runs(1);
   runs[0] = run_of(arguments, std::move(recording));
   if (!arguments.calibration.empty()) {
@@ -292,9 +292,9 @@ LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& 
 }
 
 /// Tracks tags whose tracks may not fit in memory either.
-int track_parts(const TrackArguments& arguments, const std::string& out, LoadedRecording recording,
-                Diagnostics& diagnostics) {
-  auto [spec, known] = task_of(arguments, diagnostics);
+int track_parts(const TrackArguments& arguments, Task task, const std::string& out,
+                LoadedRecording recording, Diagnostics& diagnostics) {
+  auto& [spec, known] = task;
   Result result;
   result.summary.name = arguments.input;
   result.summary.method = to_string(spec.options.method);
@@ -348,12 +348,6 @@ std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArg
 /// A recording of ROS, or tables whose reads don't fit in memory.
 std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
                                             Diagnostics& diagnostics) {
-  if (arguments.part_reads && !can_be_stored(arguments)) {
-    throw Error(
-        "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings "
-        "of ROS only");
-  }
-  if (is_scenario(arguments.input)) return std::nullopt;
   if (is_bag(arguments.input)) {
     if (!arguments.format.empty()) throw Error("track: --format goes with CSV only");
     return bag_recording(
@@ -367,14 +361,23 @@ std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, con
 
 int track_command(const TrackArguments& arguments) {
   Diagnostics diagnostics;
-  const std::string out_of_reads = folder_of(arguments, {});
-  std::optional<LoadedRecording> recording = recording_of(arguments, out_of_reads, diagnostics);
-  if (recording && recording->stored) {
-    return track_parts(arguments, out_of_reads, std::move(*recording), diagnostics);
+  if (arguments.part_reads && !can_be_stored(arguments)) {
+    throw Error(
+        "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings "
+        "of ROS only");
   }
-  Result result = is_scenario(arguments.input)
-                      ? track_scenario(arguments, diagnostics)
-                      : track_reads(arguments, std::move(recording), diagnostics);
+  Result result;
+  if (is_scenario(arguments.input)) {
+    result = track_scenario(arguments, diagnostics);
+  } else {
+    Task task = task_of(arguments, diagnostics);
+    const std::string out = folder_of(arguments, {});
+    std::optional<LoadedRecording> recording = recording_of(arguments, out, diagnostics);
+    if (recording && recording->stored) {
+      return track_parts(arguments, std::move(task), out, std::move(*recording), diagnostics);
+    }
+    result = track_reads(arguments, std::move(task), std::move(recording), diagnostics);
+  }
   result.summary.warnings = diagnostics.warnings();
   print_warnings(diagnostics);
   if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
