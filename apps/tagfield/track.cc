@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "adapters/archive/unpacked_archive.h"
 #include "adapters/ros1/bag_recording.h"
@@ -197,7 +198,7 @@ TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecordin
 
 Result track_reads(const TrackArguments& arguments, Task task,
                    std::optional<LoadedRecording> recording, Diagnostics& diagnostics) {
-  auto& [spec, known] = task;
+  auto [spec, known] = std::move(task);
   std::vector<TrackingRun> runs(1);
   runs[0] = run_of(arguments, std::move(recording));
   if (!arguments.calibration.empty()) {
@@ -294,7 +295,7 @@ LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& 
 /// Tracks tags whose tracks may not fit in memory either.
 int track_parts(const TrackArguments& arguments, Task task, const std::string& out,
                 LoadedRecording recording, Diagnostics& diagnostics) {
-  auto& [spec, known] = task;
+  auto [spec, known] = std::move(task);
   Result result;
   result.summary.name = arguments.input;
   result.summary.method = to_string(spec.options.method);
