@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/locate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tagfield/localization/aim.h"
@@ -17,6 +19,7 @@
 #include "tagfield/localization/interleaved_tags.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/joint/multipath.h"
+#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/map_error.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
@@ -115,6 +118,38 @@ LocalizationResult checked(const LocalizationProblem& problem, LocalizationResul
   return held_against(less, std::move(result), threads, diagnostics);
 }
 
+/// Whether a method estimates the poses' error where nothing is said of it.
+bool learns_pose_error(const std::string& method) {
+  return method == "joint" || method == "multipath";
+}
+
+bool any_antenna_moved(const LocalizationProblem& problem) {
+  return std::any_of(problem.samples.begin(), problem.samples.end(), [](const auto& of_tag) {
+    return std::any_of(of_tag.second.begin(), of_tag.second.end(),
+                       [](const auto& of) { return extent_of(of.second) >= kStillExtent; });
+  });
+}
+
+bool has_located(const LocalizationProblem& problem, const LocalizationResult& result) {
+  return std::any_of(result.estimates.begin(), result.estimates.end(), [&](const TagEstimate& of) {
+    return !of.candidates.empty() && problem.reference_tags.count(of.tag) == 0;
+  });
+}
+
+/// Places by strengths are so much worse than poses that it does not matter there.
+void warn_of_unknown_pose_error(const LocalizationProblem& problem,
+                                const LocalizationResult& result, Diagnostics& diagnostics) {
+  if (problem.pose_error || !is_by_phase(result.method) || learns_pose_error(result.method)) return;
+  if (!any_antenna_moved(problem) || !has_located(problem, result)) return;
+  const bool is_told = std::any_of(problem.tracks.begin(), problem.tracks.end(),
+                                   [](const auto& of) { return !of.second.covariance.empty(); });
+  diagnostics.warn(fmt::format(
+      "{}, and '{}' takes them as exact: if they are not, places are further off than the expected "
+      "errors say. Give their error (0 if they are exact), or use 'joint', which {}",
+      is_told ? "the poses' covariances are not used" : "nothing is said of the poses' error",
+      result.method, is_told ? "uses them" : "estimates it"));
+}
+
 }  // namespace
 
 LocalizationResult locate_problem(const Method& method, const LocalizationProblem& problem,
@@ -156,7 +191,9 @@ LocalizationResult locate_tags(const EachRead& each_read, const std::vector<Ante
   const Method method = configured(find_method(options.methods, options.method), options.settings);
   LocalizationProblem problem = make_problem(each_read, poses, options.known, diagnostics);
   problem.on_locating = options.on_locating;
-  return locate_problem(method, problem, options.threads, diagnostics);
+  LocalizationResult result = locate_problem(method, problem, options.threads, diagnostics);
+  warn_of_unknown_pose_error(problem, result, diagnostics);
+  return result;
 }
 
 }  // namespace tagfield

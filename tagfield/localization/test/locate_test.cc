@@ -43,6 +43,7 @@ Scenario make_scenario(int tags) {
 LocalizationOptions at_height(double height, int threads = 1) {
   LocalizationOptions options;
   options.known.heights.of_all = height;
+  options.known.pose_error = PoseErrorModel{};  // Exact.
   options.threads = threads;
   return options;
 }
@@ -126,6 +127,50 @@ TEST(Locate, AHeightThatIsNotFiniteIsAnError) {
   Diagnostics diagnostics;
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(locate_tags({}, {}, at_height(infinity), diagnostics), Error);
+}
+
+std::vector<std::string> warnings_of(const Scenario& scenario, LocalizationOptions options,
+                                     const std::string& method) {
+  Diagnostics diagnostics;
+  options.method = method;
+  locate_tags(scenario.reads, scenario.poses, options, diagnostics);
+  return diagnostics.warnings();
+}
+
+bool warns(const Scenario& scenario, const LocalizationOptions& options, const std::string& method,
+           const std::string& words) {
+  const auto warnings = warnings_of(scenario, options, method);
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.find(words) != std::string::npos;
+  });
+}
+
+TEST(Locate, WarnsOfMethodsThatTakePosesOfUnknownErrorAsExact) {
+  Scenario scenario = make_scenario(2);
+  LocalizationOptions unknown = at_height(0.9);
+  unknown.known.pose_error.reset();
+  const std::string nothing = "nothing is said of the poses' error, and ";
+  for (const char* method : {"hyperbola", "ml", "sar"}) {
+    EXPECT_TRUE(warns(scenario, unknown, method, nothing + "'" + method + "' takes them as exact"));
+    EXPECT_FALSE(warns(scenario, at_height(0.9), method, "as exact"));
+  }
+  EXPECT_TRUE(warnings_of(scenario, unknown, "joint").empty());
+  EXPECT_TRUE(warnings_of(scenario, unknown, "landmarc").empty());
+
+  for (AntennaPose& pose : scenario.poses) pose.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  EXPECT_TRUE(warns(scenario, unknown, "ml", "the poses' covariances are not used, and 'ml'"));
+  EXPECT_FALSE(warns(scenario, unknown, "joint", "as exact"));
+}
+
+TEST(Locate, SaysNothingOfPosesWhereNoAntennaMovedOrNothingWasLocated) {
+  Scenario scenario = make_scenario(2);
+  LocalizationOptions unknown = at_height(0.9);
+  unknown.known.pose_error.reset();
+  scenario.reads.resize(4);
+  EXPECT_FALSE(warns(scenario, unknown, "ml", "as exact"));
+  scenario = make_scenario(2);
+  for (AntennaPose& pose : scenario.poses) pose.X_WA = scenario.poses.front().X_WA;
+  EXPECT_FALSE(warns(scenario, unknown, "ml", "as exact"));
 }
 
 }  // namespace
