@@ -61,7 +61,7 @@ BrightestPlace brightest_place(const LocalizationProblem& problem, const std::st
   result.phases = coherent_reads(problem, samples);
   if (!too_few(result.phases).empty()) return result;
   const HeightModel height = height_model(problem, tag, result.phases);
-  const auto places = search_places(result.phases, height, SearchOptions{}, coherent_brightness);
+  const auto places = search_places(result.phases, height, SearchOptions{}, coherent_light());
   if (places.empty()) return result;
   const PlaceVector place = brightest_of(result.phases, height, places);
   const Eigen::ArrayXd errors =

@@ -155,9 +155,9 @@ TagEstimate locate_by_differences(const LocalizationProblem& problem, const std:
     return error_factor(phases, place, to_place(height, place).z(), noise,
                         largest_phase_noise(samples, kLeastNoise), stream);
   };
-  const auto brightness = [&](const SearchReads& reads, const Tile& x, const Tile& y) {
+  const Brightness brightness{[&](const SearchReads& reads, const Tile& x, const Tile& y) {
     return differential_brightness(reads, grid_noise, x, y);
-  };
+  }};
   return locate_by_waves(
       problem, tag, samples, judgement, [&](const TagPhases& phases, const HeightModel& height) {
         return finished(phases, height, search_places(phases, height, options, brightness), noise);

@@ -12,6 +12,8 @@
 
 namespace tagfield {
 
+class PlaneInReach;
+
 /// So many places are worked on at once.
 inline constexpr int kTile = 64;
 using Tile = Eigen::Array<float, kTile, 1>;
@@ -52,18 +54,32 @@ struct Grid {
 /// How bright the places (x, y) of a tile are, relative to the grid's middle [m].
 using GridLevel = std::function<Tile(const Tile& x, const Tile& y)>;
 
+/// So many by so many cells of the coarsest grid are glanced at together.
+inline constexpr int kBlock = 16;
+
+/// A square of such cells.
+struct CellBlock {
+  float x = 0.0f, y = 0.0f;  ///< Middle of its first cell, relative to the grid's middle [m].
+  float cell_m = 0.0f;
+};
+
+/// Of the cell (x + i · cell_m, y + j · cell_m) in (i, j).
+using BlockLight = Eigen::Array<float, kBlock, kBlock>;
+
+/// About how bright the cells of a block are.
+using GridGlance = std::function<BlockLight(const CellBlock& block)>;
+
 struct GridMaximum {
   Eigen::Vector2d p;  ///< [m]
   float brightness = 0.0f;
 };
 
 /// The brightest local maxima on the finest grid, at least 5 cm apart, brightest first, at most
-/// `count`. The first level is of the cells that are `within`, each further one of cells a third as
+/// `count`. The first level is of the cells that are in reach, each further one of cells a third as
 /// wide, where the one before was bright. None where there is no cell. At least one level. A
 /// `glance` that is not empty leaves the first level the brightest tenth of its cells.
-std::vector<GridMaximum> search_grid(const Grid& grid,
-                                     const std::function<bool(const Eigen::Vector2d& p)>& within,
+std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,
-                                     const GridLevel& glance = {});
+                                     const GridGlance& glance = {});
 
 }  // namespace tagfield

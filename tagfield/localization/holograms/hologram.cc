@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/localization/holograms/coherent_fit.h"
 #include "tagfield/localization/holograms/grid_search.h"
 #include "tagfield/localization/holograms/reach.h"
+#include "tagfield/localization/holograms/wave_blocks.h"
 
 namespace tagfield {
 namespace {
@@ -28,12 +30,12 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
 }
 
 /// With the waves of some reads in `waves(first, count)`.
-template <typename Waves>
-Tile added_up(const SearchReads& reads, const Waves& waves) {
-  Tile light = Tile::Zero();
+template <typename Light, typename Waves>
+Light added_up(const SearchReads& reads, const Waves& waves) {
+  Light light = Light::Zero();
   for (const Aperture& aperture : reads.apertures) {
-    const WaveSums sums = waves(&reads.reads[static_cast<std::size_t>(aperture.begin)],
-                                static_cast<std::size_t>(aperture.count));
+    const auto sums = waves(&reads.reads[static_cast<std::size_t>(aperture.begin)],
+                            static_cast<std::size_t>(aperture.count));
     if (aperture.offset_known) {
       light += sums.in_phase;
     } else {
@@ -50,6 +52,32 @@ std::size_t glance_reads(const TagPhases& phases) {
   constexpr std::size_t kOfOne = 100;
   constexpr std::size_t kOfEach = 16;
   return std::max(kOfOne, kOfEach * apertures(phases, kWholeAperture).size());
+}
+
+/// A block's cells, a tile at a time.
+BlockLight glance_in_tiles(const Brightness& brightness, const SearchReads& reads,
+                           const CellBlock& block) {
+  constexpr Eigen::Index kColumns = kTile / kBlock;
+  static_assert(kTile % kBlock == 0 && kBlock % kColumns == 0);
+  BlockLight light;
+  for (Eigen::Index j = 0; j < kBlock; j += kColumns) {
+    Tile x;
+    Tile y;
+    for (Eigen::Index k = 0; k < kTile; ++k) {
+      const Eigen::Index row = j + k / kBlock;
+      x[k] = block.x + static_cast<float>(k % kBlock) * block.cell_m;
+      y[k] = block.y + static_cast<float>(row) * block.cell_m;
+    }
+    light.middleCols<kColumns>(j).reshaped() = brightness.at(reads, x, y);
+  }
+  return light;
+}
+
+GridGlance glance_by(const Brightness& brightness, SearchReads reads) {
+  return [&brightness, reads = std::move(reads)](const CellBlock& block) {
+    return brightness.at_a_glance ? brightness.at_a_glance(reads, block)
+                                  : glance_in_tiles(brightness, reads, block);
+  };
 }
 
 }  // namespace
@@ -103,13 +131,21 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
 }
 
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y) {
-  return added_up(reads, [&](const SearchRead* first, std::size_t count) {
+  return added_up<Tile>(reads, [&](const SearchRead* first, std::size_t count) {
     return wave_sums(first, count, x, y);
   });
 }
 
+BlockLight coherent_glance(const SearchReads& reads, const CellBlock& block) {
+  return added_up<BlockLight>(reads, [&](const SearchRead* first, std::size_t count) {
+    return block_sums(first, count, block);
+  });
+}
+
+Brightness coherent_light() { return {coherent_brightness, coherent_glance}; }
+
 Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
-  return added_up(reads, [&](const SearchRead* first, std::size_t count) {
+  return added_up<Tile>(reads, [&](const SearchRead* first, std::size_t count) {
     return wave_sums(first, count, x, y, z);
   });
 }
@@ -126,25 +162,22 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
   const double size = options.thorough ? std::min(options.cell_m, whole_cell) : options.cell_m;
   double length = options.thorough ? kWholeAperture : kFirstAperture * lambda;
   std::vector<GridLevel> levels;
-  const auto level_of = [&](const TagPhases& reads, double aperture) -> GridLevel {
-    return [&brightness, level = search_reads(reads, aperture, height, middle)](
-               const Tile& x, const Tile& y) { return brightness(level, x, y); };
-  };
   const auto add = [&](const TagPhases& reads, double aperture) {
-    levels.push_back(level_of(reads, aperture));
+    levels.push_back([&brightness, level = search_reads(reads, aperture, height, middle)](
+                         const Tile& x, const Tile& y) { return brightness.at(level, x, y); });
   };
-  GridLevel glance;
+  GridGlance glance;
   if (options.thorough && 2 * glance_reads(phases) <= static_cast<std::size_t>(coarse.size())) {
-    glance = level_of(thinned(phases, glance_reads(phases)), kWholeAperture);
+    glance = glance_by(brightness, search_reads(thinned(phases, glance_reads(phases)),
+                                                kWholeAperture, height, middle));
   }
   double finest = size;
   for (; finest > kFinestCell * lambda; finest /= kGridSplit, length *= 3.0) add(coarse, length);
   add(phases, kWholeAperture);
-  PlaneInReach in_reach(phases, height, options.max_range_m);
-  const auto within = [&](const Eigen::Vector2d& p) { return in_reach.holds(p); };
+  const PlaneInReach in_reach(phases, height, options.max_range_m);
   std::vector<Eigen::Vector2d> places;
   const Grid grid{middle, size, options.max_range_m};
-  for (const GridMaximum& maximum : search_grid(grid, within, levels, options.maxima, glance)) {
+  for (const GridMaximum& maximum : search_grid(grid, in_reach, levels, options.maxima, glance)) {
     places.push_back(maximum.p);
   }
   return places;

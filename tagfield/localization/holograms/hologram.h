@@ -26,8 +26,13 @@ struct SearchReads {
   std::vector<Aperture> apertures;  ///< Of `reads`.
 };
 
-/// Brightness of the places (x, y) of a tile, relative to the same middle [m].
-using Brightness = std::function<Tile(const SearchReads& reads, const Tile& x, const Tile& y)>;
+/// Brightness by some reads, relative to the same middle [m].
+struct Brightness {
+  /// Of the places (x, y) of a tile.
+  std::function<Tile(const SearchReads& reads, const Tile& x, const Tile& y)> at;
+  /// About that of a block's cells; null where tiles have to do.
+  std::function<BlockLight(const SearchReads& reads, const CellBlock& block)> at_a_glance{};
+};
 
 /// Measured less predicted phase of one read [turns], not wrapped.
 inline Tile residual_turns(const SearchRead& read, const Tile& x, const Tile& y) {
@@ -56,6 +61,10 @@ inline void wave_of(const Tile& t, Tile& cosine, Tile& sine) {
 
 /// Σ |Σ e^{j(φ − k r)}| over the apertures, the real part where the offset is known.
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y);
+/// About the same of a block's cells; block_sums() has how near.
+BlockLight coherent_glance(const SearchReads& reads, const CellBlock& block);
+/// Both.
+Brightness coherent_light();
 /// The same, each place with a height of its own above the plane.
 Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z);
 

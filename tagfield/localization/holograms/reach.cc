@@ -9,8 +9,6 @@ namespace tagfield {
 namespace {
 
 constexpr Eigen::Index kReachReads = 60;  ///< Antenna places by which the range is checked.
-constexpr double kSquareSide = 1.0;       ///< [m]
-constexpr double kToCorner = 0.7072 * kSquareSide;
 
 std::vector<Eigen::Vector3d> some_antennas(const TagPhases& phases) {
   const Eigen::Index step = std::max<Eigen::Index>(1, phases.size() / kReachReads);
@@ -20,8 +18,6 @@ std::vector<Eigen::Vector3d> some_antennas(const TagPhases& phases) {
   }
   return antennas;
 }
-
-int square_of(double place) { return static_cast<int>(std::floor(place / kSquareSide)); }
 
 }  // namespace
 
@@ -39,30 +35,21 @@ bool Reach::holds(const Eigen::Vector3d& p) const {
 PlaneInReach::PlaneInReach(const TagPhases& phases, double height, double max_range)
     : reach_(phases, max_range), height_(height) {}
 
-PlaneInReach::Square PlaneInReach::square_around(const Eigen::Vector2d& middle) const {
+bool PlaneInReach::holds(const Eigen::Vector2d& p) const {
+  return reach_.holds({p.x(), p.y(), height_});
+}
+
+PlaneInReach::Part PlaneInReach::part_around(const Eigen::Vector2d& middle, double radius) const {
+  constexpr double kRounding = 1e-9;  // [m]
   std::size_t within = 0;
   std::size_t beyond = 0;
   for (const Eigen::Vector3d& p_WA : reach_.antennas()) {
     const double r = (Eigen::Vector3d(middle.x(), middle.y(), height_) - p_WA).norm();
-    within += static_cast<std::size_t>(r + kToCorner < reach_.max_range());
-    beyond += static_cast<std::size_t>(r - kToCorner > reach_.max_range());
+    within += static_cast<std::size_t>(r + radius + kRounding < reach_.max_range());
+    beyond += static_cast<std::size_t>(r - radius - kRounding > reach_.max_range());
   }
-  if (2 * within >= reach_.antennas().size()) return Square::kAll;
-  return 2 * beyond > reach_.antennas().size() ? Square::kNone : Square::kMixed;
-}
-
-bool PlaneInReach::holds(const Eigen::Vector2d& p) {
-  const std::pair<int, int> at{square_of(p.x()), square_of(p.y())};
-  if (of_last_ == nullptr || at != last_) {
-    const auto [entry, is_new] = squares_.try_emplace(at, Square::kMixed);
-    if (is_new) {
-      entry->second = square_around(kSquareSide * Eigen::Vector2d(at.first + 0.5, at.second + 0.5));
-    }
-    last_ = at;
-    of_last_ = &entry->second;
-  }
-  if (*of_last_ != Square::kMixed) return *of_last_ == Square::kAll;
-  return reach_.holds({p.x(), p.y(), height_});
+  if (2 * within >= reach_.antennas().size()) return Part::kAll;
+  return 2 * beyond > reach_.antennas().size() ? Part::kNone : Part::kMixed;
 }
 
 }  // namespace tagfield

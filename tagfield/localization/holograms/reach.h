@@ -4,8 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "tagfield/localization/tag_phases.h"
@@ -28,23 +26,21 @@ class Reach {
   double max_range_;
 };
 
-/// A Reach for many places (x, y, height): squares of the plane whose places are all alike are
-/// looked at once.
+/// A Reach for many places (x, y, height).
 class PlaneInReach {
  public:
   PlaneInReach(const TagPhases& phases, double height, double max_range);
 
-  bool holds(const Eigen::Vector2d& p);
+  [[nodiscard]] bool holds(const Eigen::Vector2d& p) const;
+
+  /// How many of the places about another it holds. `kMixed` may be all or none, too.
+  enum class Part { kNone, kAll, kMixed };
+  /// Of those up to `radius` from `middle` [m].
+  [[nodiscard]] Part part_around(const Eigen::Vector2d& middle, double radius) const;
 
  private:
-  enum class Square { kNone, kAll, kMixed };
-  [[nodiscard]] Square square_around(const Eigen::Vector2d& middle) const;
-
   Reach reach_;
   double height_;
-  std::map<std::pair<int, int>, Square> squares_;
-  std::pair<int, int> last_{0, 0};  ///< Places come row by row.
-  const Square* of_last_ = nullptr;
 };
 
 }  // namespace tagfield

@@ -48,11 +48,10 @@ std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases&
     };
   };
   const Grid grid{search.middle, kFirstCell * longest_cycle(search.phases), search.max_range_m};
-  PlaneInReach in_reach(search.phases, z, search.max_range_m);
-  const auto within = [&](const Eigen::Vector2d& p) { return in_reach.holds(p); };
+  const PlaneInReach in_reach(search.phases, z, search.max_range_m);
   std::vector<Vector3d> places;
   for (const GridMaximum& maximum :
-       search_grid(grid, within,
+       search_grid(grid, in_reach,
                    {level(0, 0), level(1, 2), level(kForPlaces.first, kForPlaces.last)}, kMaxima)) {
     places.emplace_back(maximum.p.x(), maximum.p.y(), z);
   }

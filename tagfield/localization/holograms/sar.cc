@@ -12,14 +12,14 @@ std::vector<PlaceVector> brightest_places(const TagPhases& phases, const HeightM
                                           SearchOptions options) {
   constexpr double kMost = 0.85;
   constexpr std::size_t kMoreMaxima = 3;  ///< Times as many, as reflections make many.
-  std::vector<PlaceVector> places = search_places(phases, height, options, coherent_brightness);
+  std::vector<PlaceVector> places = search_places(phases, height, options, coherent_light());
   const bool agreed = std::any_of(places.begin(), places.end(), [&](const PlaceVector& place) {
     return coherent_share(phases, height, place) > kMost;
   });
   if (agreed) return places;
   options.thorough = true;
   options.maxima *= kMoreMaxima;
-  return search_places(phases, height, options, coherent_brightness);
+  return search_places(phases, height, options, coherent_light());
 }
 
 TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::string& tag,

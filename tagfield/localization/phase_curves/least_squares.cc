@@ -36,7 +36,7 @@ std::vector<std::string> antennas_of(const TagPhases& phases) {
 /// phases taken for wrapped ones.
 std::vector<Eigen::Vector2d> by_waves(const PlaceSearch& search, double height) {
   std::vector<Eigen::Vector2d> places =
-      search_plane(search.phases, height, SearchOptions{}, coherent_brightness);
+      search_plane(search.phases, height, SearchOptions{}, coherent_light());
   for (Eigen::Vector2d& place : places) place = refine(search.phases, height, place);
   return places;
 }

@@ -19,24 +19,7 @@ TEST(InReach, IsNearerThanTheRangeAtHalfOfTheReads) {
   EXPECT_FALSE(Reach(phases, 2.0).holds({1.0, 0.0, 0.0}));
 }
 
-/// Squares of a metre that the circle of reach only just cuts, at the corner that is furthest from
-/// the antenna or nearest to it.
-TEST(PlaneInReach, HoldsWhatIsWithinACircleRightIntoItsSquaresCorners) {
-  TagPhases phases;
-  phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(1);
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      PlaneInReach far(phases, 0.0, 5.975 * std::sqrt(2.0));
-      EXPECT_TRUE(far.holds({5.96 * x, 5.96 * y})) << x << y;
-      EXPECT_FALSE(far.holds({5.99 * x, 5.99 * y})) << x << y;
-      PlaneInReach near(phases, 0.0, 5.025 * std::sqrt(2.0));
-      EXPECT_TRUE(near.holds({5.01 * x, 5.01 * y})) << x << y;
-      EXPECT_FALSE(near.holds({5.04 * x, 5.04 * y})) << x << y;
-    }
-  }
-}
-
-RC_GTEST_PROP(PlaneInReach, AgreesWithEachPlaceByItself, ()) {
+RC_GTEST_PROP(PlaneInReach, TellsOfPlacesAroundWhatEachTellsOfItself, ()) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   TagPhases phases;
   const auto count = static_cast<Eigen::Index>(1 + rng() % 90);
@@ -47,12 +30,33 @@ RC_GTEST_PROP(PlaneInReach, AgreesWithEachPlaceByItself, ()) {
     phases.z[i] = made::uniform(rng, 0.0, 3.0);
   }
   const double range = made::uniform(rng, 0.5, 6.0);
-  PlaneInReach plane(phases, 1.0, range);
-  for (double x = -11.0; x < 11.0; x += 0.37) {
-    for (double y = -11.0; y < 11.0; y += 0.37) {
-      RC_ASSERT(plane.holds({x, y}) == Reach(phases, range).holds({x, y, 1.0}));
+  const PlaneInReach plane(phases, 1.0, range);
+  const Reach reach(phases, range);
+  for (int k = 0; k < 300; ++k) {
+    const Eigen::Vector2d middle(made::uniform(rng, -11.0, 11.0), made::uniform(rng, -11.0, 11.0));
+    const double radius = made::uniform(rng, 0.0, 1.5);
+    const PlaneInReach::Part part = plane.part_around(middle, radius);
+    for (int at = 0; at < 9; ++at) {
+      const double angle = 0.25 * kPi * at;
+      const Eigen::Vector2d p =
+          middle + (at < 8 ? radius : 0.0) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const bool holds = reach.holds({p.x(), p.y(), 1.0});
+      RC_ASSERT(plane.holds(p) == holds);
+      if (part == PlaneInReach::Part::kAll) RC_ASSERT(holds);
+      if (part == PlaneInReach::Part::kNone) RC_ASSERT(!holds);
     }
   }
+}
+
+/// Of one antenna, a closer look is taken only where the circle of its reach is cut.
+TEST(PlaneInReach, LooksCloserOnlyWhereSomePlacesAreInReachAndSomeAreNot) {
+  TagPhases phases;
+  phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(1);
+  const PlaneInReach plane(phases, 3.0, 5.0);  // A circle of 4 m, seen from above.
+  using Part = PlaneInReach::Part;
+  EXPECT_EQ(plane.part_around({2.0, 0.0}, 0.5), Part::kAll);
+  EXPECT_EQ(plane.part_around({4.1, 0.0}, 0.5), Part::kMixed);
+  EXPECT_EQ(plane.part_around({0.0, 5.0}, 0.5), Part::kNone);
 }
 
 }  // namespace

@@ -7,28 +7,15 @@
 #include <cmath>
 #include <vector>
 
-#include "made_reads.h"
+#include "made_search_reads.h"
 #include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
 
-float some(made::Rng& rng, double most) {
-  return static_cast<float>(made::uniform(rng, -most, most));
-}
-
-std::vector<SearchRead> some_reads(made::Rng& rng) {
-  std::vector<SearchRead> reads(1 + rng() % 40);
-  for (SearchRead& read : reads) {
-    read = {some(rng, 9.0), some(rng, 9.0), some(rng, 2.0), 0.0f, some(rng, 0.5), 5.775f};
-    read.height_squared = read.z * read.z;
-  }
-  return reads;
-}
-
 Tile some_places(made::Rng& rng, double most) {
   Tile places;
-  for (int k = 0; k < kTile; ++k) places[k] = some(rng, most);
+  for (int k = 0; k < kTile; ++k) places[k] = made::some(rng, most);
   return places;
 }
 
@@ -46,7 +33,7 @@ void add_wave(const SearchRead& read, float dx, float dy, float rest, float& in_
 
 RC_GTEST_PROP(WaveSums, AreTheSameBitsAsOneWaveAfterTheOther, ()) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
-  const std::vector<SearchRead> reads = some_reads(rng);
+  const std::vector<SearchRead> reads = made::search_reads(rng, 40);
   const Tile x = some_places(rng, 12.0);
   const Tile y = some_places(rng, 12.0);
   const InstructionSet set = *rc::gen::elementOf(instruction_sets());
@@ -64,7 +51,7 @@ RC_GTEST_PROP(WaveSums, AreTheSameBitsAsOneWaveAfterTheOther, ()) {
 
 RC_GTEST_PROP(WaveSums, AreThoseOfTheAngles, ()) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
-  const std::vector<SearchRead> reads = some_reads(rng);
+  const std::vector<SearchRead> reads = made::search_reads(rng, 40);
   const Tile x = some_places(rng, 12.0);
   const Tile y = some_places(rng, 12.0);
   const Tile z = some_places(rng, 2.0);

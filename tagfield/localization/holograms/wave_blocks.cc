@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/localization/holograms/wave_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tagfield/base/lanes.h"
+
+namespace tagfield {
+namespace {
+
+constexpr int kRows = 4;
+static_assert(kBlock % kRows == 0);
+constexpr std::size_t kAtOnce = 32;  ///< Reads whose waves are kept.
+
+/// A read's waves along the block's middle row, and what turns them on to the other rows. The third
+/// of each is the sum of both parts: three products in place of four make that of complex numbers.
+struct BlockWaves {
+  float cosine[kBlock], sine[kBlock], both[kBlock];
+  float row_cosine[kBlock], row_sine[kBlock], row_both[kBlock];
+};
+
+/// Products' sums, by rows.
+struct ProductSums {
+  float cosines[kBlock][kBlock] = {};
+  float sines[kBlock][kBlock] = {};
+  float both[kBlock][kBlock] = {};
+};
+
+inline void make_waves(const SearchRead& read, const CellBlock& block, BlockWaves& waves) {
+  constexpr float kMiddle = 0.5f * static_cast<float>(kBlock - 1);
+  const float dx = block.x + kMiddle * block.cell_m - read.x;
+  const float dy = block.y + kMiddle * block.cell_m - read.y;
+  const float beside_x = dy * dy + read.height_squared;
+  const float beside_y = dx * dx + read.height_squared;
+  const float middle = std::sqrt(dx * dx + beside_x);
+  for (int k = 0; k < kBlock; ++k) {
+    const float away = (static_cast<float>(k) - kMiddle) * block.cell_m;
+    const float column = std::sqrt((dx + away) * (dx + away) + beside_x);
+    wave_of(read.turns - read.turns_per_metre * column, waves.cosine[k], waves.sine[k]);
+    waves.both[k] = waves.cosine[k] + waves.sine[k];
+    const float row = std::sqrt((dy + away) * (dy + away) + beside_y);
+    wave_of(read.turns_per_metre * (middle - row), waves.row_cosine[k], waves.row_sine[k]);
+    waves.row_both[k] = waves.row_cosine[k] + waves.row_sine[k];
+  }
+}
+
+/// Of kRows rows from `row` on, whose sums stay in registers.
+inline void add_products(const BlockWaves* waves, std::size_t count, int row, ProductSums& all) {
+  float cosines[kRows][kBlock] = {};
+  float sines[kRows][kBlock] = {};
+  float both[kRows][kBlock] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const BlockWaves& of = waves[i];
+#pragma GCC unroll 8
+    for (int j = 0; j < kRows; ++j) {
+      for (int k = 0; k < kBlock; ++k) cosines[j][k] += of.cosine[k] * of.row_cosine[row + j];
+      for (int k = 0; k < kBlock; ++k) sines[j][k] += of.sine[k] * of.row_sine[row + j];
+      for (int k = 0; k < kBlock; ++k) both[j][k] += of.both[k] * of.row_both[row + j];
+    }
+  }
+  for (int j = 0; j < kRows; ++j) {
+    for (int k = 0; k < kBlock; ++k) {
+      all.cosines[row + j][k] += cosines[j][k];
+      all.sines[row + j][k] += sines[j][k];
+      all.both[row + j][k] += both[j][k];
+    }
+  }
+}
+
+}  // namespace
+
+BlockSums block_sums(const SearchRead* reads, std::size_t count, const CellBlock& block,
+                     InstructionSet set) {
+  BlockSums sums;
+  in_lanes(set, [&] {
+    ProductSums all;
+    BlockWaves waves[kAtOnce];
+    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+      const std::size_t some = std::min(kAtOnce, count - begin);
+      for (std::size_t i = 0; i < some; ++i) make_waves(reads[begin + i], block, waves[i]);
+      for (int row = 0; row < kBlock; row += kRows) add_products(waves, some, row, all);
+    }
+    for (int row = 0; row < kBlock; ++row) {
+      for (int k = 0; k < kBlock; ++k) {
+        const float cosines = all.cosines[row][k];
+        const float sines = all.sines[row][k];
+        sums.in_phase(k, row) = cosines - sines;
+        sums.quadrature(k, row) = all.both[row][k] - cosines - sines;
+      }
+    }
+  });
+  return sums;
+}
+
+}  // namespace tagfield

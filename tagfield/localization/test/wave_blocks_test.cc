@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tagfield/localization/holograms/wave_blocks.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "made_search_reads.h"
+#include "tagfield/base/units.h"
+
+namespace tagfield {
+namespace {
+
+using Complex = std::complex<double>;
+
+CellBlock some_block(made::Rng& rng) {
+  return {made::some(rng, 12.0), made::some(rng, 12.0),
+          static_cast<float>(made::uniform(rng, 0.005, 0.05))};
+}
+
+double metres(const SearchRead& read, double x, double y) {
+  return std::hypot(x - static_cast<double>(read.x), y - static_cast<double>(read.y),
+                    static_cast<double>(read.z));
+}
+
+double turns(const SearchRead& read, double r) {
+  return static_cast<double>(read.turns) - static_cast<double>(read.turns_per_metre) * r;
+}
+
+/// Where a cell is from its block's middle, along one axis [m].
+double from_middle(const CellBlock& block, int k) {
+  return (k - 0.5 * (kBlock - 1)) * static_cast<double>(block.cell_m);
+}
+double middle_x(const CellBlock& block) {
+  return static_cast<double>(block.x) - from_middle(block, 0);
+}
+double middle_y(const CellBlock& block) {
+  return static_cast<double>(block.y) - from_middle(block, 0);
+}
+
+Complex at(const BlockSums& sums, int i, int j) {
+  return {static_cast<double>(sums.in_phase(i, j)), static_cast<double>(sums.quadrature(i, j))};
+}
+
+RC_GTEST_PROP(WaveBlocks, AreThoseOfDistancesPutTogetherFromRowAndColumn, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const std::vector<SearchRead> reads = made::search_reads(rng, 80);
+  const CellBlock block = some_block(rng);
+  const BlockSums sums = block_sums(reads.data(), reads.size(), block);
+  const double x = middle_x(block);
+  const double y = middle_y(block);
+  for (int i = 0; i < kBlock; ++i) {
+    for (int j = 0; j < kBlock; ++j) {
+      Complex sum = 0.0;
+      for (const SearchRead& read : reads) {
+        const double r = metres(read, x + from_middle(block, i), y) +
+                         metres(read, x, y + from_middle(block, j)) - metres(read, x, y);
+        sum += std::polar(1.0, kTwoPi * turns(read, r));
+      }
+      // Single precision knows 100 turns to 4·10⁻⁶ of a turn, and three are put together.
+      RC_ASSERT(std::abs(at(sums, i, j) - sum) < 6e-4 * static_cast<double>(reads.size()));
+    }
+  }
+}
+
+/// |∂²r/∂x∂y| = |x y|/r³ is at most 1/2r, r the least anywhere in the block.
+RC_GTEST_PROP(WaveBlocks, AreNearThoseOfTheDistances, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const std::vector<SearchRead> reads = made::search_reads(rng, 80);
+  const CellBlock block = some_block(rng);
+  const BlockSums sums = block_sums(reads.data(), reads.size(), block);
+  const double x = middle_x(block);
+  const double y = middle_y(block);
+  const double to_corner = std::sqrt(2.0) * from_middle(block, kBlock - 1);
+  for (int i = 0; i < kBlock; ++i) {
+    for (int j = 0; j < kBlock; ++j) {
+      const double u = from_middle(block, i);
+      const double v = from_middle(block, j);
+      Complex sum = 0.0;
+      double allowed = 6e-4 * static_cast<double>(reads.size());
+      for (const SearchRead& read : reads) {
+        sum += std::polar(1.0, kTwoPi * turns(read, metres(read, x + u, y + v)));
+        const double nearest = std::max(metres(read, x, y) - to_corner, 1e-3);
+        const double off_m = std::abs(u * v) / (2.0 * nearest);
+        allowed += std::min(2.0, kTwoPi * static_cast<double>(read.turns_per_metre) * off_m);
+      }
+      RC_ASSERT(std::abs(at(sums, i, j) - sum) < allowed);
+    }
+  }
+}
+
+RC_GTEST_PROP(WaveBlocks, AreTheSameBitsInEachSetOfInstructions, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const std::vector<SearchRead> reads = made::search_reads(rng, 80);
+  const CellBlock block = some_block(rng);
+  const BlockSums sums = block_sums(reads.data(), reads.size(), block, InstructionSet::kBaseline);
+  const InstructionSet set = *rc::gen::elementOf(instruction_sets());
+  const BlockSums others = block_sums(reads.data(), reads.size(), block, set);
+  RC_ASSERT((sums.in_phase == others.in_phase).all());
+  RC_ASSERT((sums.quadrature == others.quadrature).all());
+}
+
+}  // namespace
+}  // namespace tagfield
