@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tags come and go by the thousand in the real gzserver: it lives, and its memory grows no more than with as
-many models without sensors.
+"""Tags and antennas come and go by the thousand in the real gzserver, each loading its plugin anew: it lives, and its
+memory grows no more than with as many models without sensors.
 
     spawn_campaign.py --plugins build/gazebo/lib --tagfield … --source … --build …   as the tests in Gazebo
 
 TAGFIELD_SPAWNS is how many tags (default 10,000), 2,000 in each gzserver, and 2,000 models without sensors beside them.
+Antennas are a tenth as many.
 No gzserver takes ten thousand, whatever they are: Gazebo 11 keeps the collision spaces of deleted models, each step looks
 for collisions among all of them, and after some 7,200 models ODE's stack of that search overflows, which ends it.
 """
@@ -39,13 +40,13 @@ def went(log):
     return sum(1 for line in read_if_there(log).splitlines() if line.split()[1] == "-")
 
 
-def growth(context, name, of_name):
-    """Memory that each model leaves behind [kB]; of those that come and go in one server, `of_name(NAME, X, Y)` each."""
-    count = OF_A_SERVER
-    events = "".join(insert(1.0 + EACH_S * i, of_name(f"tag{i}", i % 10, i // 10 % 10))
-                     + remove(1.0 + EACH_S * i + LIFE_S, f"tag{i}") for i in range(count))
+def growth(context, name, of_name, others, count=OF_A_SERVER):
+    """Memory that each model leaves behind [kB]; of those that come and go in one server, `of_name(NAME, X, Y)` each,
+    among `others` that stay."""
+    events = "".join(insert(1.0 + EACH_S * i, of_name(f"{name}_{i}", i % 10, i // 10 % 10))
+                     + remove(1.0 + EACH_S * i + LIFE_S, f"{name}_{i}") for i in range(count))
     log = context.folder / f"{name}.log"
-    text = world(antenna("gate", 5, 5, 3), schedule(log, events, stop=1.0 + EACH_S * count + 2.0), step_s=EACH_S)
+    text = world(others, schedule(log, events, stop=1.0 + EACH_S * count + 2.0), step_s=EACH_S)
     memory = []
     with Run(context, text, name=name, master=False) as running:
         for share in (0.2, 0.4, 0.6, 0.8, 1.0):
@@ -59,14 +60,30 @@ def growth(context, name, of_name):
     return (memory[-1] - memory[0]) * 1000 / (0.8 * count)
 
 
+def check_growth(with_sensors, without, what):
+    """Gazebo itself keeps something of each model and of each sensor."""
+    print(f"each leaves {with_sensors:.2f} kB behind, and {without:.2f} kB without a sensor", flush=True)
+    check_between(with_sensors - without, -10.0, 10.0, f"growth by {what} [kB each]")
+
+
+def bare(name, x, y):
+    return model(name, f"{x} {y} 1 0 0 0", "")
+
+
 @case
 def tags_come_and_go_by_the_thousand(context):
-    without = growth(context, "models", lambda name, x, y: model(name, f"{x} {y} 1 0 0 0", ""))
+    gate = antenna("gate", 5, 5, 3)
+    without = growth(context, "models", bare, gate)
     for server in range(math.ceil(COUNT / OF_A_SERVER)):
-        with_sensors = growth(context, f"tags{server}", lambda name, x, y: tag(name, x, y, 1))
-        print(f"each leaves {with_sensors:.2f} kB behind, and {without:.2f} kB without a sensor", flush=True)
-        # Gazebo itself keeps something of each model and of each sensor.
-        check_between(with_sensors - without, -10.0, 10.0, "growth by tags [kB each]")
+        check_growth(growth(context, f"tags{server}", lambda name, x, y: tag(name, x, y, 1), gate), without, "tags")
+
+
+@case
+def antennas_come_and_go_by_the_hundred(context):
+    count = max(COUNT // 10, 100)
+    shelf = "".join(tag(f"tag{i}", i, 5, 1) for i in range(10))
+    without = growth(context, "models", bare, shelf, count)
+    check_growth(growth(context, "antennas", lambda name, x, y: antenna(name, x, y, 3), shelf, count), without, "antennas")
 
 
 if __name__ == "__main__":
