@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros1/bag_recording.h"
 
-#include <console_bridge/console.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -15,21 +13,13 @@
 #include "adapters/ros1/bag_structure.h"
 #include "adapters/ros1/bag_sweep.h"
 #include "adapters/ros1/bag_transforms.h"
+#include "adapters/ros1/held_reads.h"
 #include "adapters/ros1/ros2_sweep.h"
+#include "adapters/ros1/silence.h"
 #include "adapters/rosbag2/recording_files.h"
-#include "tagfield/base/units.h"
 
 namespace tagfield {
 namespace {
-
-/// rosbag and tf2 print their complaints; here they come as exceptions or are looked for.
-class Silence {
- public:
-  Silence() { console_bridge::noOutputHandler(); }
-  ~Silence() { console_bridge::restorePreviousOutputHandler(); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-};
 
 template <typename Stamped>
 void sort_by_stamp(std::vector<Stamped>& list) {
@@ -179,10 +169,6 @@ PoseSet believed_of(BagContent& content, const BagOptions& options, const BagRec
   return {found.source, found.frame, tidy_poses(std::move(found.poses))};
 }
 
-/// Goes through a bag of ROS 1 or a recording of ROS 2, as often as it is called.
-using GoThrough = std::function<BagContent(
-    const BagReadSink& sink, const std::function<void(double)>& on_progress, Diagnostics&)>;
-
 GoThrough going_through(const std::string& path, std::optional<double> frequency_hz,
                         Diagnostics& diagnostics) {
   if (is_ros2_recording(path)) {
@@ -198,98 +184,6 @@ GoThrough going_through(const std::string& path, std::optional<double> frequency
                            Diagnostics& of_this_time) {
         return sweep_bag(path, frequency_hz, sink, on_progress, of_this_time);
       };
-}
-
-TagRead&& with_wrapped_phase(TagRead&& read) {
-  read.phase_rad = wrap_to_two_pi(read.phase_rad);
-  return std::move(read);
-}
-
-/// Holds reads and distances as long as each are no more than `most`; of more reads it has an
-/// overview.
-class HeldReads {
- public:
-  explicit HeldReads(std::size_t most) : most_(most) {}
-
-  [[nodiscard]] BagReadSink sink() {
-    return {[this](TagRead&& read, const std::string& frame) { add(std::move(read), frame); },
-            [this](TrueDistance&& distance) { add(std::move(distance)); },
-            [this] { *this = HeldReads(most_, resets_ + 1); }};
-  }
-
-  /// Moves them to where they belong.
-  void give(BagContent& content, BagRecording& recording) {
-    recording.reads = std::move(reads_);
-    content.truth.distances = std::move(distances_);
-    content.updates.insert(content.updates.end(), std::make_move_iterator(updates_.begin()),
-                           std::make_move_iterator(updates_.end()));
-  }
-  [[nodiscard]] const std::optional<ReadOverview>& overview() const { return overview_; }
-  [[nodiscard]] bool has_distances() const { return has_distances_; }
-  [[nodiscard]] std::size_t resets() const { return resets_; }
-
- private:
-  void add(TagRead&& read, const std::string& frame) {
-    if (overview_) return tagfield::add(read, *overview_);
-    if (updates_.empty() || updates_.back().stamp != read.stamp ||
-        updates_.back().antenna != read.antenna) {
-      updates_.push_back({read.stamp, read.antenna, frame});
-    }
-    reads_.push_back(with_wrapped_phase(std::move(read)));
-    if (reads_.size() > most_) hold_no_more();
-  }
-  void add(TrueDistance&& distance) {
-    has_distances_ = true;
-    if (overview_) return;
-    distances_.push_back(std::move(distance));
-    if (distances_.size() > most_) hold_no_more();
-  }
-  void hold_no_more() {
-    overview_ = overview_of(reads_);
-    std::vector<TagRead>().swap(reads_);
-    std::vector<TrueDistance>().swap(distances_);
-    std::vector<RecordedUpdate>().swap(updates_);
-  }
-  HeldReads(std::size_t most, std::size_t resets) : most_(most), resets_(resets) {}
-
-  std::size_t most_;
-  std::size_t resets_ = 0;
-  bool has_distances_ = false;
-  std::vector<TagRead> reads_;
-  std::vector<TrueDistance> distances_;
-  std::vector<RecordedUpdate> updates_;  ///< At the stamps of reads.
-  std::optional<ReadOverview> overview_;
-};
-
-/// Tells what comes after so many resets.
-void tell_again(const std::string& path, const GoThrough& go_through, std::size_t resets,
-                std::size_t count, const BagReads& to) {
-  const Silence silence;
-  std::size_t resets_left = resets;
-  std::size_t told = 0;
-  const BagReadSink sink{[&](TagRead&& read, const std::string& /*frame*/) {
-                           if (resets_left > 0) return;
-                           ++told;
-                           if (to.on_read) to.on_read(with_wrapped_phase(std::move(read)));
-                         },
-                         [&](TrueDistance&& distance) {
-                           if (resets_left == 0 && to.on_distance) to.on_distance(distance);
-                         },
-                         [&] { resets_left -= resets_left > 0 ? 1 : 0; }, true};
-  Diagnostics told_before;
-  go_through(sink, to.on_progress, told_before);
-  if (told == count) return;
-  fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
-                              "recording that stays as it is",
-                              count, told));
-}
-
-UntoldReads untold(const std::string& path, const GoThrough& go_through, const HeldReads& held) {
-  const std::size_t count = held.overview()->count;
-  return {*held.overview(), held.has_distances(),
-          [path, go_through, resets = held.resets(), count](const BagReads& to) {
-            tell_again(path, go_through, resets, count, to);
-          }};
 }
 
 }  // namespace

@@ -239,11 +239,6 @@ std::string folder_of(const LocalizeArguments& arguments) {
   return "runs/" + path.stem().string();
 }
 
-void refuse_options_of_bags(const LocalizeArguments& arguments) {
-  if (!arguments.frame.empty()) throw Error("localize: --frame goes with a bag only");
-  if (arguments.frequency_hz) throw Error("localize: --frequency goes with a bag only");
-}
-
 void refuse_unknown_method(const std::string& method) {
   if (method.empty()) return;
   try {
@@ -274,11 +269,11 @@ LoadedRecording recording_of(const LocalizeArguments& arguments, const std::stri
   const bool keep = !arguments.calibration.empty();
   if (is_bag(arguments.recording)) {
     if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
-    return bag_recording({"localize", arguments.recording, arguments.poses, arguments.frame,
-                          arguments.frequency_hz, arguments.part_reads},
-                         out, references, keep, diagnostics);
+    return bag_recording(
+        {"localize", arguments.recording, arguments.poses, arguments.ros, arguments.part_reads},
+        out, references, keep, diagnostics);
   }
-  refuse_options_of_bags(arguments);
+  refuse_ros_options("localize", arguments.ros);
   LoadedRecording recording = csv_recording(arguments, out, references, keep, diagnostics);
   warn_of_odd_reads(arguments.recording, recording.overview, diagnostics);
   warn_of_odd_poses(arguments.poses, recording.poses.poses, diagnostics);
@@ -407,13 +402,7 @@ void add_localize_command(CLI::App& app, Action& chosen) {
                       "ones and tf beside them, else tf");
   add_format_option(*command, arguments->format);
   add_part_option(*command, arguments->part_reads);
-  command->add_option("--frame", arguments->frame,
-                      "With a bag: fixed frame of tf (default: the first of map, world, odom that "
-                      "can express the antennas)");
-  command
-      ->add_option("--frequency", arguments->frequency_hz,
-                   "With a bag of rfid_sensor/TagArray: the carrier [Hz] (default 865.7e6)")
-      ->check(CLI::PositiveNumber);
+  add_ros_options(*command, arguments->ros);
   command->add_option("--scenario", arguments->scenario,
                       "Scenario (YAML): its name, order and known heights of the tags, settings of "
                       "localization, and its world for the page");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/tagfield/command_line.h"
+#include "apps/tagfield/ros_options.h"
 #include "tagfield/localization/locate.h"
 #include "tagfield/sdf/load_world.h"
 
@@ -20,8 +21,7 @@ struct LocalizeArguments {
   std::string method;     ///< "" for the scenario's, or else "auto".
   std::string out;        ///< "" for the default.
   std::string scenario;   ///< File, or "".
-  std::string frame;      ///< Of a bag's transforms, or "".
-  std::optional<double> frequency_hz;
+  RosOptions ros{};
   std::string heights_file;          ///< CSV, or "".
   std::string height_side;           ///< "above", "below", or "".
   std::string old_height_side;       ///< The same by the option's former name.

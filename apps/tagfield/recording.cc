@@ -49,9 +49,9 @@ double driven_path(const Truth& truth, const std::vector<AntennaPose>& poses) {
 
 BagOptions options_of(const BagArguments& arguments) {
   BagOptions options;
-  options.frequency_hz = arguments.frequency_hz;
+  options.frequency_hz = arguments.ros.frequency_hz;
   if (arguments.poses == "odometry") options.frames = {"world", "odom"};
-  if (!arguments.frame.empty()) options.frames = {arguments.frame};
+  if (!arguments.ros.frame.empty()) options.frames = {arguments.ros.frame};
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/tagfield/localize.h"
+#include "apps/tagfield/ros_options.h"
 #include "apps/tagfield/stored_reads.h"
 #include "tagfield/base/error.h"
 #include "tagfield/localization/problem.h"
@@ -55,8 +56,7 @@ struct BagArguments {
   std::string command;  ///< For complaints.
   std::string bag;
   std::string poses;  ///< One of kPoseWords, or "".
-  std::string frame;  ///< Of its transforms, or "".
-  std::optional<double> frequency_hz;
+  RosOptions ros;
   std::optional<std::size_t> part_reads;  ///< See part_of_table().
 };
 

@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tagfield/track.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
 #include <utility>
 
-#include "adapters/archive/unpacked_archive.h"
-#include "adapters/ros1/bag_recording.h"
-#include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
-#include "apps/tagfield/recording.h"
-#include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/track_files.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
-#include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/experiment/tracking_run.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
 #include "tagfield/files/staged_folder.h"
-#include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/files/truth_csv.h"
-#include "tagfield/scenario/calibration_profile.h"
 #include "tagfield/scenario/scenario_yaml.h"
 
 namespace tagfield {
@@ -31,66 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct TrackArguments {
-  std::string input;     ///< Reads as CSV, or a scenario.
-  std::string poses;     ///< CSV; "" with a scenario.
-  std::string format;    ///< How other people's tables are to be read, or "".
-  std::string scenario;  ///< Besides reads, or "".
-  std::vector<std::string> settings;
-  std::optional<std::string> method;
-  std::vector<double> lane;   ///< X Y HEADING_DEG [SIGMA_M].
-  std::vector<double> line;   ///< X Y HEADING_DEG.
-  std::vector<double> speed;  ///< MIN MAX.
-  bool both_ways = false;
-  std::optional<double> acceleration_noise;
-  std::optional<double> tag_height_m;
-  std::string heights_file;
-  std::string calibration;
-  std::optional<std::uint64_t> seed;
-  std::size_t seeds = 1;
-  std::string out;
-  std::optional<std::size_t> part_reads;  ///< See part_of_table().
-  int threads = default_threads();
-  bool no_page = false;
-  bool as_json = false;
-  WorldOptions world{};
-};
-
 bool is_scenario(const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
   return extension == ".yaml" || extension == ".yml";
-}
-
-/// What the command line says goes before what the scenario says.
-void apply(const TrackArguments& arguments, TrackingSpec& spec) {
-  TrackingOptions& options = spec.options;
-  if (arguments.method) options.method = track_method(*arguments.method);
-  if (!arguments.lane.empty()) {
-    Lane lane;
-    lane.point = {arguments.lane[0], arguments.lane[1]};
-    lane.heading_rad = radians(arguments.lane[2]);
-    if (arguments.lane.size() > 3) lane.lateral_sigma_m = arguments.lane[3];
-    options.lane = lane;
-  }
-  if (arguments.both_ways) {
-    if (!options.lane) throw Error("track: --both-ways goes with a lane only");
-    options.lane->both_ways = true;
-  }
-  if (!arguments.line.empty()) {
-    spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};
-  }
-  if (!arguments.speed.empty()) {
-    options.min_speed_m_s = arguments.speed[0];
-    options.max_speed_m_s = arguments.speed[1];
-  }
-  options.acceleration_noise = arguments.acceleration_noise.value_or(options.acceleration_noise);
-  check(options);
-}
-
-ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
-                       Diagnostics& diagnostics) {
-  return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}, arguments.world},
-              diagnostics);
 }
 
 void refuse_options_of_reads(const TrackArguments& arguments) {
@@ -99,6 +36,8 @@ void refuse_options_of_reads(const TrackArguments& arguments) {
         "track: --poses, --scenario and --format go with reads, not with a scenario in their "
         "place");
   }
+  if (arguments.part_reads) throw Error(kUselessParts);
+  refuse_ros_options("track", arguments.ros);
   if (arguments.tag_height_m || !arguments.heights_file.empty()) {
     throw Error(
         "track: a scenario gives heights by localization.tag_height_m "
@@ -106,21 +45,7 @@ void refuse_options_of_reads(const TrackArguments& arguments) {
   }
 }
 
-struct Result {
-  TrackSummary summary;
-  TrackingRun first;
-  bool complete = true;
-};
-
-void gather(const std::vector<TrackingRun>& runs, TrackSummary& summary) {
-  for (const TrackingRun& run : runs) {
-    summary.seeds.push_back(run.seed);
-    summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
-    add_orders(run.order_outcomes, summary.orders);
-  }
-}
-
-Result track_scenario(const TrackArguments& arguments, Diagnostics& diagnostics) {
+TrackResult track_scenario(const TrackArguments& arguments, Diagnostics& diagnostics) {
   refuse_options_of_reads(arguments);
   ScenarioWithWorld loaded = load(arguments, arguments.input, diagnostics);
   apply(arguments, loaded.scenario.tracking);
@@ -133,87 +58,12 @@ Result track_scenario(const TrackArguments& arguments, Diagnostics& diagnostics)
   std::vector<TrackingRun> runs =
       track_seeds(loaded.scenario, arguments.seed.value_or(loaded.scenario.seed), arguments.seeds,
                   control, diagnostics);
-  Result result;
+  TrackResult result;
   result.complete = runs.size() == arguments.seeds && !interrupted();
   result.summary.name = loaded.scenario.name;
   result.summary.method = to_string(loaded.scenario.tracking.options.method);
   gather(runs, result.summary);
   if (!runs.empty()) result.first = std::move(runs.front());
-  return result;
-}
-
-/// Beside reads of a run there is its truth, which judges the tracks and makes none.
-Truth truth_beside(const std::string& reads) {
-  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
-  if (!fs::exists(folder / "truth" / "tags.csv")) return {};
-  return read_truth(folder.empty() ? "." : folder.string());
-}
-
-/// How tags that were read are to be tracked, and what is known of them.
-struct Task {
-  TrackingSpec spec;
-  KnownBeforehand known;
-};
-
-Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
-  if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
-  Task task;
-  auto& [spec, known] = task;
-  if (!arguments.scenario.empty()) {
-    const ScenarioWithWorld loaded = load(arguments, arguments.scenario, diagnostics);
-    spec = loaded.scenario.tracking;
-    known = known_beforehand(loaded.scenario);
-  } else if (!arguments.settings.empty()) {
-    throw Error("track: --set goes with a scenario only");
-  }
-  if (arguments.scenario.empty() &&
-      (arguments.world.skip_missing || arguments.world.allow_outside)) {
-    throw Error("track: --skip-missing and --allow-outside go with a scenario only");
-  }
-  apply(arguments, spec);
-  if (arguments.tag_height_m || !arguments.heights_file.empty()) known.heights = {};
-  if (arguments.tag_height_m) known.heights.of_all = arguments.tag_height_m;
-  if (!arguments.heights_file.empty()) {
-    known.heights.of_tag = read_tag_heights_csv(arguments.heights_file);
-  }
-  return task;
-}
-
-/// Reads, poses and truth of tables or, in memory, of a recording of ROS.
-TrackingRun run_of(const TrackArguments& arguments, std::optional<LoadedRecording> recording) {
-  TrackingRun run;
-  run.seed = arguments.seed.value_or(1);
-  if (recording) {
-    run.reads = std::move(recording->reads);
-    run.believed_poses = std::move(recording->poses.poses);
-    run.truth = std::move(recording->truth);
-    return run;
-  }
-  ReadsAndPoses tables = read_tables("track", arguments.input, arguments.poses, arguments.format);
-  run.reads = std::move(tables.reads);
-  run.believed_poses = std::move(tables.poses);
-  run.truth = truth_beside(arguments.input);
-  return run;
-}
-
-Result track_reads(const TrackArguments& arguments, Task task,
-                   std::optional<LoadedRecording> recording, Diagnostics& diagnostics) {
-  auto [spec, known] = std::move(task);
-  std::vector<TrackingRun> runs(1);
-  runs[0] = run_of(arguments, std::move(recording));
-  if (!arguments.calibration.empty()) {
-    apply_calibration(read_calibration(arguments.calibration), runs[0].reads,
-                      runs[0].believed_poses, known);
-  }
-  if (runs[0].reads.empty()) {
-    diagnostics.warn({arguments.input, 0}, "no reads: cannot track anything");
-  }
-  track(spec, known, arguments.threads, runs[0], diagnostics);
-  Result result;
-  result.summary.name = arguments.input;
-  result.summary.method = to_string(spec.options.method);
-  gather(runs, result.summary);
-  result.first = std::move(runs.front());
   return result;
 }
 
@@ -253,13 +103,13 @@ std::string table_of(const TrackSummary& summary) {
   return text;
 }
 
-std::string folder_of(const TrackArguments& arguments, const Result& result) {
+std::string folder_of(const TrackArguments& arguments, const TrackResult& result) {
   if (!arguments.out.empty()) return arguments.out;
   if (!is_scenario(arguments.input)) return "runs/tracked";
   return "runs/" + folder_name(result.summary.name);
 }
 
-int tell(const TrackArguments& arguments, const Result& result, const std::string& out) {
+int tell(const TrackArguments& arguments, const TrackResult& result, const std::string& out) {
   if (arguments.as_json) {
     fmt::print("{}", to_json(result.summary));
   } else {
@@ -270,128 +120,34 @@ int tell(const TrackArguments& arguments, const Result& result, const std::strin
   return result.complete ? kExitOk : kExitInterrupted;
 }
 
-/// Judges nothing where the truth itself doesn't fit in memory.
-Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
-  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
-  const fs::path tags = folder / "truth" / "tags.csv";
-  if (fs::exists(tags) && fs::file_size(tags) > kLargeTable) {
-    diagnostics.warn({tags.string(), 0}, "does not fit in memory: the tracks are not judged by it");
-    return {};
-  }
-  return truth_beside(reads);
-}
-
-/// A table of reads that don't fit in memory, with all else.
-LoadedRecording stored_table(const TrackArguments& arguments, const TableFiles& files,
-                             std::size_t part_reads, const std::string& out,
-                             Diagnostics& diagnostics) {
-  LoadedRecording recording;
-  recording.poses = {"given", read_poses_csv(files.poses)};
-  recording.truth = truth_that_fits(arguments.input, diagnostics);
-  recording.stored = store_reads(reads_of_table(files.reads), out, part_reads, {}, diagnostics);
-  return recording;
-}
-
-/// Tracks tags whose tracks may not fit in memory either.
-int track_parts(const TrackArguments& arguments, Task task, const std::string& out,
-                LoadedRecording recording, Diagnostics& diagnostics) {
-  auto [spec, known] = std::move(task);
-  Result result;
-  result.summary.name = arguments.input;
-  result.summary.method = to_string(spec.options.method);
-  TrackingRun& run = result.first;
-  run.seed = arguments.seed.value_or(1);
-  run.believed_poses = std::move(recording.poses.poses);
-  run.truth = std::move(recording.truth);
-  const StoredReads& stored = *recording.stored;
-  std::optional<Calibration> calibration;
-  if (!arguments.calibration.empty()) {
-    calibration = read_calibration(arguments.calibration);
-    std::vector<TagRead> none;
-    apply_calibration(*calibration, none, run.believed_poses, known);
-  }
-  StagedFolder folder(out);
-  TrackTables tables(folder);
-  {
-    ProgressBar bar(fmt::format("tracking in {} parts", stored.store->parts()));
-    track_in_parts(
-        spec, known, arguments.threads, parts_of(stored, calibration),
-        [&](const std::vector<TagTrack>& tracks) { tables.add(tracks); },
-        [&](double share) { bar.show(share); }, run, diagnostics);
-  }
-  result.summary.seeds = {run.seed};
-  result.summary.tags = std::move(run.outcomes);
-  add_orders(run.order_outcomes, result.summary.orders);
-  result.summary.warnings = diagnostics.warnings();
-  print_warnings(diagnostics);
-  catch_interrupts();
-  stage_summary(result.summary, run, result.summary.tags.size(), stored.source.overview.count,
-                !arguments.no_page, folder);
-  folder.commit(track_file_names());
-  return tell(arguments, result, out);
-}
-
-/// Whether reads can be stored in parts.
-bool can_be_stored(const TrackArguments& arguments) {
-  if (is_scenario(arguments.input)) return false;
-  return is_bag(arguments.input) || (arguments.format.empty() && !is_archive(arguments.input));
-}
-
-/// The table where it is to be tracked in parts.
-std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArguments& arguments) {
-  if (!can_be_stored(arguments)) return std::nullopt;
-  TableFiles files = own_tables("track", arguments.input, arguments.poses);
-  const auto part = part_of_table(files.reads, arguments.part_reads);
-  if (!part) return std::nullopt;
-  return std::pair(std::move(files), *part);
-}
-
-/// A recording of ROS, or tables whose reads don't fit in memory.
-std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
-                                            Diagnostics& diagnostics) {
-  if (is_bag(arguments.input)) {
-    if (!arguments.format.empty()) throw Error("track: --format goes with CSV only");
-    return bag_recording(
-        {"track", arguments.input, arguments.poses, "", std::nullopt, arguments.part_reads}, out,
-        {}, true, diagnostics);
-  }
-  const auto table = table_for_parts(arguments);
-  if (!table) return std::nullopt;
-  return stored_table(arguments, table->first, table->second, out, diagnostics);
-}
-
-int track_command(const TrackArguments& arguments) {
-  Diagnostics diagnostics;
-  if (arguments.part_reads && !can_be_stored(arguments)) {
-    throw Error(
-        "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings "
-        "of ROS only");
-  }
-  Result result;
-  if (is_scenario(arguments.input)) {
-    result = track_scenario(arguments, diagnostics);
-  } else {
-    Task task = task_of(arguments, diagnostics);
-    const std::string out = folder_of(arguments, {});
-    std::optional<LoadedRecording> recording = recording_of(arguments, out, diagnostics);
-    if (recording && recording->stored) {
-      return track_parts(arguments, std::move(task), out, std::move(*recording), diagnostics);
-    }
-    result = track_reads(arguments, std::move(task), std::move(recording), diagnostics);
-  }
-  result.summary.warnings = diagnostics.warnings();
-  print_warnings(diagnostics);
-  if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
-  const std::string out = folder_of(arguments, result);
-  catch_interrupts();
-  StagedFolder folder(out);
+/// What is written of a scenario's run, or of reads in memory.
+void stage(const TrackArguments& arguments, const TrackResult& result, StagedFolder& folder) {
   if (is_scenario(arguments.input)) {
     folder.add("reads.csv", reads_to_csv(result.first.reads));
     folder.add("antenna_poses.csv", poses_to_csv(result.first.believed_poses));
     stage_truth(result.first.truth, folder);
   }
   stage_tracks(result.summary, result.first, !arguments.no_page, folder);
-  folder.commit(track_file_names());
+}
+
+int track_command(const TrackArguments& arguments) {
+  Diagnostics diagnostics;
+  TrackResult result = is_scenario(arguments.input)
+                           ? track_scenario(arguments, diagnostics)
+                           : track_reads(arguments, folder_of(arguments, {}), diagnostics);
+  result.summary.warnings = diagnostics.warnings();
+  print_warnings(diagnostics);
+  if (!result.complete && result.summary.seeds.empty()) return kExitInterrupted;
+  const std::string out = folder_of(arguments, result);
+  catch_interrupts();
+  const auto folder = result.parts ? result.parts : std::make_shared<StagedFolder>(out);
+  if (result.parts) {
+    stage_summary(result.summary, result.first, result.summary.tags.size(), result.reads_of_parts,
+                  !arguments.no_page, *folder);
+  } else {
+    stage(arguments, result, *folder);
+  }
+  folder->commit(track_file_names());
   return tell(arguments, result, out);
 }
 
@@ -427,6 +183,46 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
 
 }  // namespace
 
+/// What the command line says goes before what the scenario says.
+void apply(const TrackArguments& arguments, TrackingSpec& spec) {
+  TrackingOptions& options = spec.options;
+  if (arguments.method) options.method = track_method(*arguments.method);
+  if (!arguments.lane.empty()) {
+    Lane lane;
+    lane.point = {arguments.lane[0], arguments.lane[1]};
+    lane.heading_rad = radians(arguments.lane[2]);
+    if (arguments.lane.size() > 3) lane.lateral_sigma_m = arguments.lane[3];
+    options.lane = lane;
+  }
+  if (arguments.both_ways) {
+    if (!options.lane) throw Error("track: --both-ways goes with a lane only");
+    options.lane->both_ways = true;
+  }
+  if (!arguments.line.empty()) {
+    spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};
+  }
+  if (!arguments.speed.empty()) {
+    options.min_speed_m_s = arguments.speed[0];
+    options.max_speed_m_s = arguments.speed[1];
+  }
+  options.acceleration_noise = arguments.acceleration_noise.value_or(options.acceleration_noise);
+  check(options);
+}
+
+ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
+                       Diagnostics& diagnostics) {
+  return load(ScenarioArguments{path, arguments.settings, arguments.seed, {}, arguments.world},
+              diagnostics);
+}
+
+void gather(const std::vector<TrackingRun>& runs, TrackSummary& summary) {
+  for (const TrackingRun& run : runs) {
+    summary.seeds.push_back(run.seed);
+    summary.tags.insert(summary.tags.end(), run.outcomes.begin(), run.outcomes.end());
+    add_orders(run.order_outcomes, summary.orders);
+  }
+}
+
 void add_track_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<TrackArguments>();
   CLI::App* command = app.add_subcommand(
@@ -443,6 +239,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
                       "qx,qy,qz,qw; one row for one at rest). With a recording of ROS: true, tf, "
                       "odometry, or auto (default): the true ones, else tf");
   add_format_option(*command, arguments->format);
+  add_ros_options(*command, arguments->ros);
   add_part_option(*command, arguments->part_reads);
   command->add_option("--scenario", arguments->scenario,
                       "With reads, a scenario whose 'tracking' and heights are to be used");

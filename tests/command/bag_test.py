@@ -180,6 +180,9 @@ def the_published_plugins_bag_is_read(context):
     result = context.run("localize", "published.bag", "--frequency", "865.7e6", "--tag-heights",
                          folder / "tag_heights.csv", "--out", "published")
     check_equal(result.err, "", "warnings where the frequency is given")
+    for words, assumed in (([], True), (["--frequency", "865.7e6"], False)):
+        result = context.run_well("track", "published.bag", *words, "--out", "tracked")
+        check_equal("865.7 MHz is assumed" in result.err, assumed, f"track {words}: {result.err}")
 
 
 def files_with_times(folder):
@@ -242,6 +245,11 @@ def bad_options_get_one_line(context):
     expect_complaint(context, ["localize", bag, "--poses", "true"], "has no true antenna poses")
     expect_complaint(context, ["localize", bag, "--frame", "moon"], "from 'moon'")
     expect_complaint(context, ["localize", bag, "--frequency", "0"], "--frequency")
+    expect_complaint(context, ["track", bag, "--frame", "moon"], "from 'moon'")
+    for words in (["--frame", "map"], ["--frequency", "866e6"]):
+        says = f"track: {words[0]} goes with a recording of ROS only"
+        expect_complaint(context, ["track", folder, *words], says)
+        expect_complaint(context, ["track", context.source / "scenarios/two_antennas.yaml", *words], says)
     expect_complaint(context, ["localize", bag, "--scenario", "none.yaml"], "none.yaml")
     expect_complaint(context, ["localize", folder / "reads.csv"], "--poses")
     expect_complaint(context, ["localize", folder / "reads.csv", "--poses",

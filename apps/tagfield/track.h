@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What `track` was told, and what it makes of reads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/tagfield/command_line.h"
+#include "apps/tagfield/ros_options.h"
+#include "apps/tagfield/scenario_arguments.h"
+#include "tagfield/experiment/tracking_run.h"
+#include "tagfield/files/staged_folder.h"
+
+namespace tagfield {
+
+struct TrackArguments {
+  std::string input;     ///< Reads as CSV, or a scenario.
+  std::string poses;     ///< CSV; "" with a scenario.
+  std::string format;    ///< How other people's tables are to be read, or "".
+  std::string scenario;  ///< Besides reads, or "".
+  std::vector<std::string> settings;
+  std::optional<std::string> method;
+  std::vector<double> lane;   ///< X Y HEADING_DEG [SIGMA_M].
+  std::vector<double> line;   ///< X Y HEADING_DEG.
+  std::vector<double> speed;  ///< MIN MAX.
+  bool both_ways = false;
+  std::optional<double> acceleration_noise;
+  std::optional<double> tag_height_m;
+  std::string heights_file;
+  std::string calibration;
+  std::optional<std::uint64_t> seed;
+  std::size_t seeds = 1;
+  std::string out;
+  RosOptions ros{};
+  std::optional<std::size_t> part_reads;  ///< See part_of_table().
+  int threads = default_threads();
+  bool no_page = false;
+  bool as_json = false;
+  WorldOptions world{};
+};
+
+/// Of --part-reads.
+inline constexpr const char* kUselessParts =
+    "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings of "
+    "ROS only";
+
+struct TrackResult {
+  TrackSummary summary;
+  TrackingRun first;
+  bool complete = true;
+  /// Where reads were tracked in parts: the folder with their tracks and verdicts.
+  std::shared_ptr<StagedFolder> parts{};
+  std::size_t reads_of_parts = 0;
+};
+
+/// What the command line says goes before what the scenario says. Throws Error on what doesn't go
+/// together.
+void apply(const TrackArguments& arguments, TrackingSpec& spec);
+
+/// The scenario at `path` with what --set replaces.
+ScenarioWithWorld load(const TrackArguments& arguments, const std::string& path,
+                       Diagnostics& diagnostics);
+
+/// Adds the runs' outcomes.
+void gather(const std::vector<TrackingRun>& runs, TrackSummary& summary);
+
+/// Tracks the tags of a recording of ROS or of tables, in parts on the way to `out` where the reads
+/// don't fit in memory. Throws Error on arguments that don't go with those.
+TrackResult track_reads(const TrackArguments& arguments, const std::string& out,
+                        Diagnostics& diagnostics);
+
+}  // namespace tagfield
