@@ -7,10 +7,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/lane_math.h"
 #include "tagfield/base/lanes.h"
 #include "tagfield/base/stream_words.h"
@@ -311,7 +311,7 @@ RadioModel without_any_effect() {
 /// An antenna at walking pace or at rest, 15 updates a second, that reads all it hears.
 void one_antenna(benchmark::State& state, const std::string& path, const Eigen::Vector3d& middle,
                  double speed_m_s = 0.3) {
-  if (path.empty() || !std::filesystem::exists(path)) {
+  if (path.empty() || !is_there(path)) {
     state.SkipWithError("no such world: set TAGFIELD_AWS_WORLD");
     return;
   }

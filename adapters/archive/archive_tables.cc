@@ -4,6 +4,7 @@
 
 #include "adapters/archive/unpacked_archive.h"
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
@@ -20,7 +21,7 @@ bool is_archive(const std::string& path) {
   constexpr const char* kEndings[] = {".tar", ".tar.zst", ".tar.gz", ".tar.xz",
                                       ".tgz", ".csv.zst", ".csv.gz", ".csv.xz"};
   return std::any_of(std::begin(kEndings), std::end(kEndings), [&](const char* ending) {
-    return ends_with(path, ending) && !fs::is_directory(path);
+    return ends_with(path, ending) && !is_folder(path);
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include "adapters/archive/libarchive.h"
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 
 namespace tagfield {
 namespace fs = std::filesystem;
@@ -128,7 +129,7 @@ class Unpacking {
     }
     const fs::path target = folder_ / place;
     fs::create_directories(target.parent_path());
-    if (fs::exists(target)) refuse(fmt::format("'{}' twice", place.string()));
+    if (is_there(target)) refuse(fmt::format("'{}' twice", place.string()));
     write(target);
   }
 

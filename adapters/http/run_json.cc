@@ -11,6 +11,7 @@
 
 #include "adapters/http/embedded.h"
 #include "adapters/http/world_json.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/map/map_file.h"
@@ -232,7 +233,7 @@ Surroundings read_surroundings(const std::string& folder) {
   namespace fs = std::filesystem;
   Surroundings around;
   const std::string scene = folder + "/scene.json";
-  if (fs::exists(scene)) {
+  if (is_there(scene)) {
     around.scene = read_text_file(scene);
     if (!Json::parse(around.scene, nullptr, false).is_object()) {
       throw Error(fmt::format("{}: is no JSON object", scene));
@@ -240,9 +241,9 @@ Surroundings read_surroundings(const std::string& folder) {
   }
   const std::string map = folder + "/map.yaml";
   Diagnostics unheard;
-  if (fs::exists(map)) around.map = read_map(map, unheard);
+  if (is_there(map)) around.map = read_map(map, unheard);
   const std::string robots = folder + "/truth/robot_poses.csv";
-  if (fs::exists(robots)) around.robot_poses = read_poses_csv(robots, "robot");
+  if (is_there(robots)) around.robot_poses = read_poses_csv(robots, "robot");
   return around;
 }
 

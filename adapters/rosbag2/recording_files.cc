@@ -67,8 +67,10 @@ std::vector<std::string> files_in(const fs::path& folder) {
 /// The file in `folder` that a metadata.yaml names.
 std::string file_named(const fs::path& folder, const YamlValue& name) {
   const fs::path relative = name.text();
-  const fs::path inside =
-      fs::weakly_canonical(folder / relative).lexically_relative(fs::weakly_canonical(folder));
+  std::error_code error;
+  const fs::path inside = fs::weakly_canonical(folder / relative, error)
+                              .lexically_relative(fs::weakly_canonical(folder));
+  if (error) name.fail("can't be looked for: " + error.message());
   if (relative.is_absolute() || inside.empty() || *inside.begin() == "..") {
     name.fail(fmt::format("is '{}', which is not in this folder", relative.string()));
   }

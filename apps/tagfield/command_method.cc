@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
@@ -128,7 +129,7 @@ int run_program(const std::string& command, const std::string& folder, const std
 /// ": " and the last line of the log that says anything, or nothing.
 std::string last_line(const fs::path& log) {
   constexpr std::size_t kMostLog = 1U << 26U;
-  std::string text = fs::exists(log) ? read_text_file(log.string(), kMostLog) : "";
+  std::string text = is_there(log) ? read_text_file(log.string(), kMostLog) : "";
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
   const std::size_t begin = text.rfind('\n');
   if (begin != std::string::npos) text.erase(0, begin + 1);
@@ -146,7 +147,7 @@ void run_command(const std::string& command, const fs::path& folder) {
     throw Error(
         fmt::format("the command ended with code {}{}", WEXITSTATUS(status), last_line(log)));
   }
-  if (!fs::exists(folder / "estimates.csv")) {
+  if (!is_there(folder / "estimates.csv")) {
     throw Error(fmt::format(
         "the command wrote no estimates.csv into the folder that it was given{}", last_line(log)));
   }

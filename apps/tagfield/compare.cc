@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/report/comparison_page.h"
@@ -32,10 +33,10 @@ std::string name_of_run(const std::string& folder) {
 }
 
 Summary summary_of_run(const std::string& folder) {
-  if (!fs::is_directory(folder)) fail({folder, 0}, "no such folder");
+  if (!is_folder(folder)) fail({folder, 0}, "no such folder");
   finish_commit(folder);
   const std::string file = (fs::path(folder) / "summary.json").string();
-  if (!fs::exists(file)) {
+  if (!is_there(file)) {
     fail({folder, 0}, "holds no summary.json: expected the folder of 'run' or 'localize'");
   }
   return summary_from_json(read_text_file(file), file);
@@ -45,7 +46,7 @@ Summary summary_of_run(const std::string& folder) {
 std::vector<Silhouette> geometry_of_runs(const CompareArguments& arguments) {
   for (const std::string& folder : {arguments.first, arguments.second}) {
     const std::string file = (fs::path(folder) / "top_view.json").string();
-    if (fs::exists(file)) return read_top_view(file);
+    if (is_there(file)) return read_top_view(file);
   }
   return {};
 }
@@ -88,7 +89,7 @@ void print(const RunComparison& comparison) {
 
 void write(const RunComparison& comparison, const std::vector<Silhouette>& geometry,
            const std::string& out) {
-  if (fs::exists(fs::path(out) / "summary.json")) {
+  if (is_there(fs::path(out) / "summary.json")) {
     fail({out, 0}, "holds a run: expected another folder for the comparison (--out)");
   }
   StagedFolder folder(out);

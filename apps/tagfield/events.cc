@@ -12,6 +12,7 @@
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/start_time.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/utc.h"
 #include "tagfield/events/epcis.h"
 #include "tagfield/events/event_json.h"
@@ -44,9 +45,9 @@ std::vector<TagRead> reads_in_bag(const std::string& path, Diagnostics& diagnost
 
 /// A table, or that in the folder of a run.
 std::vector<TagRead> reads_in_table(const std::string& path) {
-  const bool is_folder = fs::is_directory(path);
-  const fs::path file = is_folder ? fs::path(path) / "reads.csv" : fs::path(path);
-  if (is_folder) finish_commit(path);
+  const bool of_run = is_folder(path);
+  const fs::path file = of_run ? fs::path(path) / "reads.csv" : fs::path(path);
+  if (of_run) finish_commit(path);
   ProgressBar bar("reading");
   return read_reads_csv(file.string(), [&bar](double share) { bar.show(share); });
 }

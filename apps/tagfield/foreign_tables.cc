@@ -9,6 +9,7 @@
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/reads_csv.h"
@@ -23,10 +24,10 @@ namespace fs = std::filesystem;
 /// The file of a format that is told by its name, as "adarf".
 std::string format_file(const std::string& command, const std::string& format) {
   const fs::path path(format);
-  if (path.has_extension() || path.has_parent_path() || fs::exists(path)) return format;
+  if (path.has_extension() || path.has_parent_path() || is_there(path)) return format;
   const fs::path folder = shared_folder("profiles") / "datasets";
   const fs::path file = folder / (format + ".yaml");
-  if (fs::exists(file)) return file.string();
+  if (is_there(file)) return file.string();
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -83,7 +84,7 @@ TableFiles own_tables(const std::string& command, const std::string& reads,
   return files;
 }
 
-bool is_run(const std::string& path) { return fs::exists(fs::path(path) / "reads.csv"); }
+bool is_run(const std::string& path) { return is_there(fs::path(path) / "reads.csv"); }
 
 void add_format_option(CLI::App& command, std::string& format) {
   command.add_option("--format", format,

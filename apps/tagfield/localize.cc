@@ -20,6 +20,7 @@
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/files/files.h"
@@ -217,7 +218,7 @@ void stage(const LoadedRecording& recording, const std::optional<ScenarioWithWor
 /// Whether the reads are those of the folder's own run, so that its truth and world are theirs.
 bool is_of_this_run(const LocalizeArguments& arguments, const std::string& out) {
   fs::path of_reads = fs::weakly_canonical(arguments.recording);
-  if (!fs::is_directory(of_reads)) of_reads = of_reads.parent_path();
+  if (!is_folder(of_reads)) of_reads = of_reads.parent_path();
   return of_reads == fs::weakly_canonical(out) && !is_bag(arguments.recording);
 }
 
@@ -227,7 +228,7 @@ void keep_of_this_run(const std::string& out, const std::optional<ScenarioWithWo
   if (loaded) return;
   for (const char* name : {"top_view.json", "tag_heights.csv"}) {
     const fs::path file = fs::path(out) / name;
-    if (fs::exists(file)) folder.add(name, read_text_file(file.string()));
+    if (is_there(file)) folder.add(name, read_text_file(file.string()));
   }
 }
 
@@ -235,7 +236,7 @@ std::string folder_of(const LocalizeArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   if (!is_bag(arguments.recording)) return "runs/localized";
   fs::path path = arguments.recording;
-  if (fs::is_directory(path)) path = fs::canonical(path);
+  if (is_folder(path)) path = fs::canonical(path);
   return "runs/" + path.stem().string();
 }
 

@@ -7,6 +7,7 @@
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/table.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/experiment/judge.h"
 #include "tagfield/files/reads_csv.h"
@@ -69,7 +70,7 @@ int score(const ScoreArguments& arguments) {
   const Truth truth = read_truth(arguments.run);
   std::map<std::string, Eigen::Vector3d> references;
   const fs::path of_references = folder / "reference_tags.csv";
-  if (fs::exists(of_references)) references = read_tag_places_csv(of_references.string());
+  if (is_there(of_references)) references = read_tag_places_csv(of_references.string());
 
   Diagnostics diagnostics;
   const std::map<std::string, double> heights = true_heights(truth);

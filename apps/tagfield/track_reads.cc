@@ -11,6 +11,7 @@
 #include "apps/tagfield/recording.h"
 #include "apps/tagfield/track.h"
 #include "apps/tagfield/track_files.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/experiment/known_beforehand.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/tag_heights_csv.h"
@@ -24,8 +25,8 @@ namespace fs = std::filesystem;
 
 /// Beside reads of a run there is its truth, which judges the tracks and makes none.
 Truth truth_beside(const std::string& reads) {
-  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
-  if (!fs::exists(folder / "truth" / "tags.csv")) return {};
+  const fs::path folder = is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+  if (!is_there(folder / "truth" / "tags.csv")) return {};
   return read_truth(folder.empty() ? "." : folder.string());
 }
 
@@ -99,9 +100,9 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
 
 /// Judges nothing where the truth itself doesn't fit in memory.
 Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
-  const fs::path folder = fs::is_directory(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+  const fs::path folder = is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
   const fs::path tags = folder / "truth" / "tags.csv";
-  if (fs::exists(tags) && fs::file_size(tags) > kLargeTable) {
+  if (is_there(tags) && fs::file_size(tags) > kLargeTable) {
     diagnostics.warn({tags.string(), 0}, "does not fit in memory: the tracks are not judged by it");
     return {};
   }

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/number.h"
 #include "tagfield/base/units.h"
 #include "tagfield/files/folder_entries.h"
@@ -269,7 +270,7 @@ bool in_natural_order(const std::string& a, const std::string& b) {
 /// The file itself, or the tables of a folder.
 std::vector<std::string> tables_of(const std::string& path) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(path)) return {path};
+  if (!is_folder(path)) return {path};
   std::vector<std::string> names;
   for (const fs::path& entry : entries_of(path)) {
     if (entry.extension() == ".csv") names.push_back(entry.filename().string());

@@ -221,9 +221,9 @@ void StagedFolder::require_free(const fs::path& name) const {
   if (!is_within(name)) throw Error(fmt::format("'{}' is no path below a folder", name.string()));
   require_way(folder_, name);
   std::error_code error;
-  const fs::file_status there = fs::symlink_status(folder_ / name, error);
-  if (!fs::exists(there)) return;
-  if (fs::is_directory(there)) fail({(folder_ / name).string(), 0}, "is a folder, expected a file");
+  const fs::file_status status = fs::symlink_status(folder_ / name, error);
+  if (!fs::exists(status)) return;
+  if (fs::is_directory(status)) fail({(folder_ / name).string(), 0}, "is a folder, expected a file");
   if (own_.count(name) > 0) return;
   fail(
       {(folder_ / name).string(), 0},

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/report/figures.h"
 #include "tagfield/report/internal/inventory_section.h"
@@ -75,7 +76,7 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
 
 /// Nothing is made where there is no run.
 void require_run_folder(const std::string& folder) {
-  if (!std::filesystem::is_directory(folder)) fail({folder, 0}, "no such folder");
+  if (!is_folder(folder)) fail({folder, 0}, "no such folder");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/poses_csv.h"
 #include "tagfield/files/truth_csv.h"
@@ -98,7 +99,7 @@ void take_compared_poses(const std::string& file, Trajectories& believed) {
 
 /// The way of the one robot in such a file; empty without the file.
 Trajectory read_way(const std::string& file) {
-  if (!fs::exists(file)) return {};
+  if (!is_there(file)) return {};
   Trajectories ways = by_antenna(read_poses_csv(file));
   return ways.empty() ? Trajectory{} : std::move(ways.begin()->second);
 }
@@ -106,7 +107,7 @@ Trajectory read_way(const std::string& file) {
 void take_map(const std::string& folder, RunFiles& run) {
   const std::string map_file = folder + "/map.yaml";
   Diagnostics ignored;
-  if (fs::exists(map_file)) run.map = read_map(map_file, ignored);
+  if (is_there(map_file)) run.map = read_map(map_file, ignored);
   run.mapping_way = {read_way(folder + "/mapping_path.csv"),
                      read_way(folder + "/truth/mapping_path.csv")};
 }
@@ -132,17 +133,17 @@ RunFiles read_run_files(const std::string& folder) {
   run.reads_in_table = drawn.of;
   Trajectories believed = by_antenna(read_poses_csv(folder + "/antenna_poses.csv"));
   const std::string compared = folder + "/compared_poses.csv";
-  if (run.summary.pose == "true" && run.summary.compared_pose && fs::exists(compared)) {
+  if (run.summary.pose == "true" && run.summary.compared_pose && is_there(compared)) {
     take_compared_poses(compared, believed);
   }
   Trajectories truth;
-  if (fs::exists(folder + "/truth")) truth = take_truth(read_truth(folder), run);
-  if (fs::exists(folder + "/top_view.json")) {
+  if (is_there(folder + "/truth")) truth = take_truth(read_truth(folder), run);
+  if (is_there(folder + "/top_view.json")) {
     run.top_view = read_top_view(folder + "/top_view.json");
   }
   if (run.summary.navigation) take_map(folder, run);
   const std::string tracks = folder + "/tracks.json";
-  if (fs::exists(tracks) && fs::exists(folder + "/order.csv")) {
+  if (is_there(tracks) && is_there(folder + "/order.csv")) {
     run.tracked = {track_numbers_from_json(read_text_file(tracks), tracks),
                    read_orders_csv(folder + "/order.csv")};
   }

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/number.h"
 
 namespace tagfield {
@@ -20,16 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBlankInUri = "%20";
-
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
 
 void add_folder(std::vector<std::string>& folders, const fs::path& folder) {
   if (!folder.empty() && is_folder(folder)) {

@@ -194,6 +194,19 @@ def word_faults(path, text):
                 yield f"{path}:{line_at(bare, match.start())}: a room {what}: {match.group()}"
 
 
+# Of a path alone, they throw where the system can't tell.
+THROWS = re.compile(r"\b(?:fs|std::filesystem)::(?:exists|is_regular_file|is_directory)"
+                    r"\((?!status\)|fs::symlink_status\()(?:[^(),]|\([^()]*\))*\)")
+
+
+def path_faults(path, text):
+    if path.startswith("tests/") or is_test(path):
+        return
+    bare = without_comments(text)
+    for match in THROWS.finditer(bare):
+        yield f"{path}:{line_at(bare, match.start())}: throws: {match.group()}, use base/file_kind.h"
+
+
 def header_faults(path, text):
     if not path.endswith(".h"):
         return
@@ -272,7 +285,7 @@ def faults(root):
         if room not in ROOMS:
             found.append(f"tagfield/{room}: is no room of docs/architecture.md")
     for path, text in sources(root):
-        for rule in (include_faults, word_faults, header_faults):
+        for rule in (include_faults, word_faults, path_faults, header_faults):
             found.extend(rule(path, text))
     found.extend(repeated_types(sources(root)))
     return found
@@ -303,6 +316,8 @@ GOOD = {
                             '#include "tagfield/stream/truth.h"\n',
     "adapters/gazebo_classic/field.cc": '#include <gazebo/gazebo.hh>\n#include <sdf/sdf.hh>\n'
                                         '#include "tagfield/base/error.h"\n',
+    "tagfield/files/kind.cc": "bool a = fs::exists(path, error) || fs::is_directory(status);\n"
+                              "bool b = fs::exists(fs::symlink_status(path / x, error));\n",
     "adapters/mcap/writer.cc": '#include "adapters/mcap/records.h"\n'
                                '#include "tagfield/base/error.h"\n#include <zstd.h>\n',
     "adapters/gazebo_classic/plugins/a.cc": '#include "adapters/ros1/link.h"\n'
@@ -323,6 +338,7 @@ PLANTED = (  # a file, its content, what must be said of it
     ("tagfield/scenario/a.cc", '#include "tagfield/report/page.h"\n',
      "scenario/ must not know report/"),
     ("tagfield/localization/a.cc", '#include "tagfield/stream/truth.h"\n', "may see it"),
+    ("apps/tagfield/a.cc", "bool a = fs::exists(folder / name());\n", "use base/file_kind.h"),
     ("tagfield/world/a.cc", "#include <sdf/Root.hh>\n",
      "only the plugins for Gazebo include sdformat"),
     ("benchmarks/a.cc", '#include "tagfield/stream/truth.h"\n', "may see it"),

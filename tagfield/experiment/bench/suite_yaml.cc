@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tagfield/base/spelling.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/overrides_yaml.h"
@@ -204,7 +205,7 @@ struct Common {
 
 std::string scenario_of(const YamlValue& value, const Common& common) {
   std::string path = resolve_path(value);
-  if (common.on_disk && !fs::is_regular_file(path)) {
+  if (common.on_disk && !is_file(path)) {
     value.fail(fmt::format("is '{}', but there is no such file", path));
   }
   return path;

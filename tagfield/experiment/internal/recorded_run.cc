@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/csv.h"
 #include "tagfield/files/tag_heights_csv.h"
 #include "tagfield/report/text.h"
@@ -120,7 +121,7 @@ void warn_of_strangers(const SuiteRecording& recording, const Recording& run,
 std::optional<std::string> missing_file(const SuiteRecording& recording) {
   for (const std::string& path :
        {recording.reads, recording.poses, recording.truth, recording.heights}) {
-    if (!path.empty() && !std::filesystem::exists(path)) return path;
+    if (!path.empty() && !is_there(path)) return path;
   }
   return std::nullopt;
 }

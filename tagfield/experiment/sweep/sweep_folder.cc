@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/files.h"
 #include "tagfield/files/folder_entries.h"
 
@@ -23,11 +24,6 @@ constexpr std::size_t kMostSourceBytes = 64'000'000;
 
 std::string path_in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
-}
-
-bool is_there(const std::string& path) {
-  std::error_code error;
-  return fs::exists(path, error);
 }
 
 std::string host_name() {

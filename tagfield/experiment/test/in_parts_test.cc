@@ -49,6 +49,7 @@ LocalizationOptions by_hyperbola() {
   LocalizationOptions options;
   options.method = "hyperbola";
   options.known.heights.of_all = 1.0;
+  options.known.pose_error = PoseErrorModel{};  // Exact.
   return options;
 }
 

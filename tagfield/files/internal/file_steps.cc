@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "tagfield/base/error.h"
+#include "tagfield/base/file_kind.h"
 #include "tagfield/files/staged_folder.h"
 
 namespace tagfield::files_internal {
@@ -28,7 +29,7 @@ void rename_over(const fs::path& from, const fs::path& to) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
+  if (error || !is_folder(folder)) {
     fail({folder.string(), 0},
          fmt::format("can't be made a folder{}", error ? ": " + error.message() : ""));
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tagfield/base/file_kind.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/profile.h"
@@ -18,14 +19,14 @@ namespace {
 /// A file, or the name of a shipped profile. A file of that name comes first.
 std::string profile_file(const YamlValue& value, const std::vector<ProfileKind>& kinds) {
   std::string path = resolve_path(value);
-  if (std::filesystem::is_regular_file(path)) return path;
+  if (is_file(path)) return path;
   std::string shipped = shipped_profile(value.text(), kinds);
   if (!shipped.empty()) return shipped;
   std::vector<std::string> known;
   for (const ProfileKind kind : kinds) {
     for (const std::string& name : shipped_profiles(kind)) known.push_back(name);
   }
-  value.fail(fmt::format("there is no file '{}', and no such profile is shipped{}", path,
+  value.fail(fmt::format("is '{}': there is no such file, and no such profile is shipped{}", path,
                          suggestion(value.text(), known)));
 }
 

@@ -102,6 +102,14 @@ TEST(LoadScenario, ComplainsByLine) {
   EXPECT_NE(complaint("robots:", "robots: [").find("not valid YAML"), std::string::npos);
 }
 
+/// Fuzzing found that a name too long for the system left as an exception of another kind.
+TEST(LoadScenario, ComplainsOfAProfileThatCantBeLookedFor) {
+  const std::string name(300, 'a');
+  const std::string complained = complaint("seed: 7", "seed: 7\ntag_profile: " + name);
+  EXPECT_EQ(complained.rfind("3: tag_profile is '", 0), 0U) << complained;
+  EXPECT_NE(complained.find(name + "': there is no such file"), std::string::npos) << complained;
+}
+
 TEST(LoadScenario, TakesOverridesWithTheirOwnPlace) {
   const std::string path = write_scenario(kWhole);
   EXPECT_EQ(
