@@ -7,8 +7,8 @@
 #include <limits>
 #include <set>
 
-#include "tagfield/base/spelling.h"
 #include "tagfield/base/file_kind.h"
+#include "tagfield/base/spelling.h"
 #include "tagfield/base/units.h"
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/internal/overrides_yaml.h"
