@@ -42,55 +42,61 @@ double middle_y(const CellBlock& block) {
   return static_cast<double>(block.y) - from_middle(block, 0);
 }
 
+/// What block_sums() makes of a cell.
 Complex at(const BlockSums& sums, int i, int j) {
   return {static_cast<double>(sums.in_phase(i, j)), static_cast<double>(sums.quadrature(i, j))};
 }
 
-RC_GTEST_PROP(WaveBlocks, AreThoseOfDistancesPutTogetherFromRowAndColumn, ()) {
+/// Holds each cell of some block against the sum over the reads of waves over `metres_at(read, x,
+/// y, u, v)`, (x, y) the block's middle and (u, v) the cell from there, within what `allowed` has
+/// for each read.
+template <class MetresAt, class Allowed>
+void hold_sums_against(const MetresAt& metres_at, const Allowed& allowed) {
   made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
   const std::vector<SearchRead> reads = made::search_reads(rng, 80);
   const CellBlock block = some_block(rng);
   const BlockSums sums = block_sums(reads.data(), reads.size(), block);
   const double x = middle_x(block);
   const double y = middle_y(block);
-  for (int i = 0; i < kBlock; ++i) {
-    for (int j = 0; j < kBlock; ++j) {
-      Complex sum = 0.0;
-      for (const SearchRead& read : reads) {
-        const double r = metres(read, x + from_middle(block, i), y) +
-                         metres(read, x, y + from_middle(block, j)) - metres(read, x, y);
-        sum += std::polar(1.0, kTwoPi * turns(read, r));
-      }
-      // Single precision knows 100 turns to 4·10⁻⁶ of a turn, and three are put together.
-      RC_ASSERT(std::abs(at(sums, i, j) - sum) < 6e-4 * static_cast<double>(reads.size()));
-    }
-  }
-}
-
-/// |∂²r/∂x∂y| = |x y|/r³ is at most 1/2r, r the least anywhere in the block.
-RC_GTEST_PROP(WaveBlocks, AreNearThoseOfTheDistances, ()) {
-  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
-  const std::vector<SearchRead> reads = made::search_reads(rng, 80);
-  const CellBlock block = some_block(rng);
-  const BlockSums sums = block_sums(reads.data(), reads.size(), block);
-  const double x = middle_x(block);
-  const double y = middle_y(block);
-  const double to_corner = std::sqrt(2.0) * from_middle(block, kBlock - 1);
   for (int i = 0; i < kBlock; ++i) {
     for (int j = 0; j < kBlock; ++j) {
       const double u = from_middle(block, i);
       const double v = from_middle(block, j);
       Complex sum = 0.0;
-      double allowed = 6e-4 * static_cast<double>(reads.size());
+      double most = 0.0;
       for (const SearchRead& read : reads) {
-        sum += std::polar(1.0, kTwoPi * turns(read, metres(read, x + u, y + v)));
-        const double nearest = std::max(metres(read, x, y) - to_corner, 1e-3);
-        const double off_m = std::abs(u * v) / (2.0 * nearest);
-        allowed += std::min(2.0, kTwoPi * static_cast<double>(read.turns_per_metre) * off_m);
+        sum += std::polar(1.0, kTwoPi * turns(read, metres_at(read, x, y, u, v)));
+        most += allowed(read, block, u, v);
       }
-      RC_ASSERT(std::abs(at(sums, i, j) - sum) < allowed);
+      RC_ASSERT(std::abs(at(sums, i, j) - sum) < most);
     }
   }
+}
+
+/// Single precision knows 100 turns to 4·10⁻⁶ of a turn, and three are put together.
+constexpr double kRounding = 6e-4;
+
+RC_GTEST_PROP(WaveBlocks, AreThoseOfDistancesPutTogetherFromRowAndColumn, ()) {
+  hold_sums_against(
+      [](const SearchRead& read, double x, double y, double u, double v) {
+        return metres(read, x + u, y) + metres(read, x, y + v) - metres(read, x, y);
+      },
+      [](const SearchRead&, const CellBlock&, double, double) { return kRounding; });
+}
+
+/// |∂²r/∂x∂y| = |x y|/r³ is at most 1/2r, r the least anywhere in the block.
+RC_GTEST_PROP(WaveBlocks, AreNearThoseOfTheDistances, ()) {
+  hold_sums_against([](const SearchRead& read, double x, double y, double u,
+                       double v) { return metres(read, x + u, y + v); },
+                    [](const SearchRead& read, const CellBlock& block, double u, double v) {
+                      const double to_corner = std::sqrt(2.0) * from_middle(block, kBlock - 1);
+                      const double nearest = std::max(
+                          metres(read, middle_x(block), middle_y(block)) - to_corner, 1e-3);
+                      const double off_m = std::abs(u * v) / (2.0 * nearest);
+                      const double turned =
+                          kTwoPi * static_cast<double>(read.turns_per_metre) * off_m;
+                      return kRounding + std::min(2.0, turned);
+                    });
 }
 
 RC_GTEST_PROP(WaveBlocks, AreTheSameBitsInEachSetOfInstructions, ()) {
