@@ -731,7 +731,7 @@ def physics_that_cannot_be(context):
             ("sensitivity_dbm: -20}", "sensitivity_dbm: 30}",
              "sensitivity_dbm must be below the antennas' transmit_power_dbm (30)"),
             ("profiles: [reader.yaml]", "profiles: [tag.yaml]", "is a tag profile"),
-            ("profiles: [reader.yaml]", "profiles: [absent.yaml]", "there is no file"),
+            ("profiles: [reader.yaml]", "profiles: [absent.yaml]", "absent.yaml': there is no such file"),
             ("cable_loss_db: 1", "cable_los_db: 1", "did you mean 'cable_loss_db'")):
         text = replaced(PHYSICS, old, new)
         expect_bad_scenario(context, new, text, says)

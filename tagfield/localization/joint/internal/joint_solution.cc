@@ -320,9 +320,10 @@ JointCovariance covariance_by_knots(const JointSystem& system, const Linear<D>& 
   JointCovariance covariance;
   covariance.log_determinant = log_determinant(reduced);
   reduced.knots.invert(threads);
-  covariance.of_tag.resize(tags);
+  covariance.of_tag.assign(tags, Eigen::Matrix3d::Zero());
   parallel_for(tags, threads, [&](std::size_t j) {
     const TagPart<D>& part = linear.tags[j];
+    if (part.layout.place == 0) return;  // Its place is known.
     // T⁻¹ + W S⁻¹ Wᵀ with W = T⁻¹ Cᵀ, of the place's rows only.
     const Eigen::MatrixXd columns =
         reduced.of_tag[j].solve(Eigen::MatrixXd::Identity(part.layout.size, part.layout.place));
