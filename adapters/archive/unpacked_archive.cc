@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <utility>
@@ -135,6 +137,7 @@ class Unpacking {
 
   void write(const fs::path& target) {
     std::ofstream file(target, std::ios::binary);
+    if (!file) fail({path_, 0}, fmt::format("can't be unpacked: {}", std::strerror(errno)));
     std::array<char, std::size_t{1} << 16U> block{};
     while (true) {
       const la_ssize_t count = libarchive().read_data(archive_.get(), block.data(), block.size());

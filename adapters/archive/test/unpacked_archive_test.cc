@@ -173,6 +173,8 @@ TEST_F(Archives, ThatMakeNoSenseAreRefused) {
   EXPECT_EQ(complaint_of(packed("twice.tar",
                                 {{"a.csv", "x", AE_IFREG, ""}, {"./a.csv", "x", AE_IFREG, ""}})),
             "twice.tar: holds 'a.csv' twice: it is not unpacked");
+  EXPECT_EQ(complaint_of(packed("long.tar", {{std::string(300, 'a') + ".csv", "x", AE_IFREG, ""}})),
+            "long.tar: can't be unpacked: File name too long");
   std::ofstream(folder_ / "text.tar.zst") << "no archive at all";
   EXPECT_EQ(complaint_of((folder_ / "text.tar.zst").string()).rfind("text.tar.zst: can't be", 0),
             0U);
