@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -230,7 +229,6 @@ std::string scene_json(const ScenarioWithWorld& loaded) {
 }
 
 Surroundings read_surroundings(const std::string& folder) {
-  namespace fs = std::filesystem;
   Surroundings around;
   const std::string scene = folder + "/scene.json";
   if (is_there(scene)) {

@@ -10,6 +10,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/foreign_tables.h"
 #include "apps/tagfield/progress_bar.h"
+#include "apps/tagfield/stored_reads.h"
 #include "apps/tagfield/track_files.h"
 #include "tagfield/base/range_check.h"
 #include "tagfield/base/units.h"
@@ -183,7 +184,6 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
 
 }  // namespace
 
-/// What the command line says goes before what the scenario says.
 void apply(const TrackArguments& arguments, TrackingSpec& spec) {
   TrackingOptions& options = spec.options;
   if (arguments.method) options.method = track_method(*arguments.method);

@@ -23,9 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of a table, or of a run.
+fs::path folder_of_reads(const std::string& reads) {
+  return is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+}
+
 /// Beside reads of a run there is its truth, which judges the tracks and makes none.
 Truth truth_beside(const std::string& reads) {
-  const fs::path folder = is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
+  const fs::path folder = folder_of_reads(reads);
   if (!is_there(folder / "truth" / "tags.csv")) return {};
   return read_truth(folder.empty() ? "." : folder.string());
 }
@@ -100,8 +105,7 @@ TrackResult tracked_whole(const TrackArguments& arguments, Task task,
 
 /// Judges nothing where the truth itself doesn't fit in memory.
 Truth truth_that_fits(const std::string& reads, Diagnostics& diagnostics) {
-  const fs::path folder = is_folder(reads) ? fs::path(reads) : fs::path(reads).parent_path();
-  const fs::path tags = folder / "truth" / "tags.csv";
+  const fs::path tags = folder_of_reads(reads) / "truth" / "tags.csv";
   if (is_there(tags) && fs::file_size(tags) > kLargeTable) {
     diagnostics.warn({tags.string(), 0}, "does not fit in memory: the tracks are not judged by it");
     return {};

@@ -223,8 +223,9 @@ void StagedFolder::require_free(const fs::path& name) const {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(folder_ / name, error);
   if (!fs::exists(status)) return;
-  if (fs::is_directory(status))
+  if (fs::is_directory(status)) {
     fail({(folder_ / name).string(), 0}, "is a folder, expected a file");
+  }
   if (own_.count(name) > 0) return;
   fail(
       {(folder_ / name).string(), 0},

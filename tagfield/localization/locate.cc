@@ -19,7 +19,6 @@
 #include "tagfield/localization/interleaved_tags.h"
 #include "tagfield/localization/joint/joint.h"
 #include "tagfield/localization/joint/multipath.h"
-#include "tagfield/localization/judgement.h"
 #include "tagfield/localization/map_error.h"
 #include "tagfield/localization/phase_curves/hyperbola.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
@@ -123,24 +122,18 @@ bool learns_pose_error(const std::string& method) {
   return method == "joint" || method == "multipath";
 }
 
-bool any_antenna_moved(const LocalizationProblem& problem) {
-  return std::any_of(problem.samples.begin(), problem.samples.end(), [](const auto& of_tag) {
-    return std::any_of(of_tag.second.begin(), of_tag.second.end(),
-                       [](const auto& of) { return extent_of(of.second) >= kStillExtent; });
-  });
-}
-
 bool has_located(const LocalizationProblem& problem, const LocalizationResult& result) {
   return std::any_of(result.estimates.begin(), result.estimates.end(), [&](const TagEstimate& of) {
     return !of.candidates.empty() && problem.reference_tags.count(of.tag) == 0;
   });
 }
 
-/// Places by strengths are so much worse than poses that it does not matter there.
+/// Places by strengths are so much worse than poses that it does not matter there; by phase nothing
+/// is located where no antenna moved (why_hopeless()).
 void warn_of_unknown_pose_error(const LocalizationProblem& problem,
                                 const LocalizationResult& result, Diagnostics& diagnostics) {
   if (problem.pose_error || !is_by_phase(result.method) || learns_pose_error(result.method)) return;
-  if (!any_antenna_moved(problem) || !has_located(problem, result)) return;
+  if (!has_located(problem, result)) return;
   const bool is_told = std::any_of(problem.tracks.begin(), problem.tracks.end(),
                                    [](const auto& of) { return !of.second.covariance.empty(); });
   diagnostics.warn(fmt::format(

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "tagfield/base/error.h"
 #include "tagfield/base/file_kind.h"
 #include "tagfield/files/staged_folder.h"

@@ -2,7 +2,6 @@
 #include "tagfield/report/run_files.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 
 #include "tagfield/base/error.h"
@@ -17,8 +16,6 @@
 
 namespace tagfield {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kMovingExtent = 0.05;  ///< [m]
 

@@ -229,6 +229,46 @@ RC_GTEST_PROP(Hologram, BrightnessInSinglePrecisionIsThatInDouble, ()) {
             1e-3 * static_cast<double>(samples.size()));
 }
 
+/// Of cells so small that what the glance leaves out, |u v|/2r, is under 0.2 mm from 1 m on.
+RC_GTEST_PROP(Hologram, AGlanceAtABlockIsTheBrightnessOfItsCells, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const Path path = s_curve(6.0, 0.05);
+  const auto samples = read_along(path, {2.0, 2.0, 0.4}, Noise{}, rng);
+  const TagPhases phases = coherent_reads({}, {{"a", samples}});
+  const Eigen::Vector2d middle(3.0, 0.0);
+  const CellBlock block{static_cast<float>(uniform(rng, -5.0, 5.0)),
+                        static_cast<float>(uniform(rng, 3.0, 9.0)), 0.0025f};
+  const BlockLight light =
+      coherent_glance(search_reads(phases, kWholeAperture, 0.4, middle), block);
+  for (const int i : {0, 7, 15}) {
+    for (const int j : {0, 9, 15}) {
+      const double cell = static_cast<double>(block.cell_m);
+      const Eigen::Vector3d p(3.0 + static_cast<double>(block.x) + i * cell,
+                              static_cast<double>(block.y) + j * cell, 0.4);
+      RC_ASSERT(std::abs(static_cast<double>(light(i, j)) - brightness(samples, p)) <
+                1e-2 * static_cast<double>(samples.size()));
+    }
+  }
+}
+
+/// A brightness that has no glance at blocks is glanced at a tile after the other.
+TEST(Hologram, AGlanceInTilesLeadsToTheSamePlacesAsOneAtBlocks) {
+  Rng rng(5);
+  Hall hall = made::hall(aisles(0.02), 4, Noise{}, rng);
+  reflect(walls(0.5), hall);
+  SearchOptions options;
+  options.thorough = true;
+  for (const auto& [tag, samples] : hall.problem.samples) {
+    const TagPhases phases = coherent_reads(hall.problem, samples);
+    const double height = hall.truth.at(tag).z();
+    const auto by_blocks = search_plane(phases, height, options, coherent_light());
+    const auto in_tiles = search_plane(phases, height, options, {coherent_brightness});
+    ASSERT_FALSE(by_blocks.empty());
+    EXPECT_EQ(by_blocks.front(), in_tiles.front()) << tag;
+    EXPECT_LT((by_blocks.front() - hall.truth.at(tag).head<2>()).norm(), 0.15) << tag;
+  }
+}
+
 RC_GTEST_PROP(Hologram, WavesAreThoseOfTheAngle, ()) {
   const double turns = *rc::gen::inRange(-500'000, 500'000) * 1e-3;
   Tile cosine;

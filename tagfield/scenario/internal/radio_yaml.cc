@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "tagfield/base/file_kind.h"
 #include "tagfield/base/spelling.h"
