@@ -29,22 +29,6 @@ PlaceVector climb_gradually(const TagPhases& phases, const HeightModel& height, 
   return place;
 }
 
-/// With the waves of some reads in `waves(first, count)`.
-template <typename Light, typename Waves>
-Light added_up(const SearchReads& reads, const Waves& waves) {
-  Light light = Light::Zero();
-  for (const Aperture& aperture : reads.apertures) {
-    const auto sums = waves(&reads.reads[static_cast<std::size_t>(aperture.begin)],
-                            static_cast<std::size_t>(aperture.count));
-    if (aperture.offset_known) {
-      light += sums.in_phase;
-    } else {
-      light += (sums.in_phase.square() + sums.quadrature.square()).sqrt();
-    }
-  }
-  return light;
-}
-
 /// Of as many reads noise alone adds up to 15 % in one of ten places (a Rayleigh amplitude's
 /// quantile √(ln 10/100)), and a place where a third of the waves agree falls below that in less
 /// than 1 %. Reads of each offset that isn't known add up by themselves.
@@ -131,23 +115,17 @@ SearchReads search_reads(const TagPhases& phases, double length, double height,
 }
 
 Tile coherent_brightness(const SearchReads& reads, const Tile& x, const Tile& y) {
-  return added_up<Tile>(reads, [&](const SearchRead* first, std::size_t count) {
-    return wave_sums(first, count, x, y);
-  });
+  return wave_amplitudes(reads, x, y);
 }
 
 BlockLight coherent_glance(const SearchReads& reads, const CellBlock& block) {
-  return added_up<BlockLight>(reads, [&](const SearchRead* first, std::size_t count) {
-    return block_sums(first, count, block);
-  });
+  return block_amplitudes(reads, block);
 }
 
 Brightness coherent_light() { return {coherent_brightness, coherent_glance}; }
 
 Tile brightness_in_space(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z) {
-  return added_up<Tile>(reads, [&](const SearchRead* first, std::size_t count) {
-    return wave_sums(first, count, x, y, z);
-  });
+  return wave_amplitudes(reads, x, y, z);
 }
 
 std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height,

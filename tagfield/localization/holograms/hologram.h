@@ -20,12 +20,6 @@
 
 namespace tagfield {
 
-/// The reads that one level of the search looks at.
-struct SearchReads {
-  std::vector<SearchRead> reads;
-  std::vector<Aperture> apertures;  ///< Of `reads`.
-};
-
 /// Brightness by some reads, relative to the same middle [m].
 struct Brightness {
   /// Of the places (x, y) of a tile.

@@ -68,29 +68,56 @@ inline void add_products(const BlockWaves* waves, std::size_t count, int row, Pr
   }
 }
 
+/// `in_phase` and `quadrature` by rows.
+inline void sum_up(const SearchRead* reads, std::size_t count, const CellBlock& block,
+                   float* in_phase, float* quadrature) {
+  ProductSums all;
+  BlockWaves waves[kAtOnce];
+  for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+    const std::size_t some = std::min(kAtOnce, count - begin);
+    for (std::size_t i = 0; i < some; ++i) make_waves(reads[begin + i], block, waves[i]);
+    for (int row = 0; row < kBlock; row += kRows) add_products(waves, some, row, all);
+  }
+  for (int row = 0; row < kBlock; ++row) {
+    for (int k = 0; k < kBlock; ++k) {
+      const float cosines = all.cosines[row][k];
+      const float sines = all.sines[row][k];
+      in_phase[row * kBlock + k] = cosines - sines;
+      quadrature[row * kBlock + k] = all.both[row][k] - cosines - sines;
+    }
+  }
+}
+
 }  // namespace
 
 BlockSums block_sums(const SearchRead* reads, std::size_t count, const CellBlock& block,
                      InstructionSet set) {
   BlockSums sums;
+  in_lanes(set,
+           [&] { sum_up(reads, count, block, sums.in_phase.data(), sums.quadrature.data()); });
+  return sums;
+}
+
+BlockLight block_amplitudes(const SearchReads& reads, const CellBlock& block, InstructionSet set) {
+  constexpr int kCells = kBlock * kBlock;
+  BlockLight light = BlockLight::Zero();
   in_lanes(set, [&] {
-    ProductSums all;
-    BlockWaves waves[kAtOnce];
-    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
-      const std::size_t some = std::min(kAtOnce, count - begin);
-      for (std::size_t i = 0; i < some; ++i) make_waves(reads[begin + i], block, waves[i]);
-      for (int row = 0; row < kBlock; row += kRows) add_products(waves, some, row, all);
-    }
-    for (int row = 0; row < kBlock; ++row) {
-      for (int k = 0; k < kBlock; ++k) {
-        const float cosines = all.cosines[row][k];
-        const float sines = all.sines[row][k];
-        sums.in_phase(k, row) = cosines - sines;
-        sums.quadrature(k, row) = all.both[row][k] - cosines - sines;
+    float* const sum = light.data();
+    for (const Aperture& aperture : reads.apertures) {
+      float in_phase[kCells];
+      float quadrature[kCells];
+      sum_up(reads.reads.data() + aperture.begin, static_cast<std::size_t>(aperture.count), block,
+             in_phase, quadrature);
+      if (aperture.offset_known) {
+        for (int k = 0; k < kCells; ++k) sum[k] += in_phase[k];
+      } else {
+        for (int k = 0; k < kCells; ++k) {
+          sum[k] += std::sqrt(in_phase[k] * in_phase[k] + quadrature[k] * quadrature[k]);
+        }
       }
     }
   });
-  return sums;
+  return light;
 }
 
 }  // namespace tagfield

@@ -25,4 +25,8 @@ struct BlockSums {
 BlockSums block_sums(const SearchRead* reads, std::size_t count, const CellBlock& block,
                      InstructionSet set = instruction_sets().back());
 
+/// As wave_amplitudes(), by such sums.
+BlockLight block_amplitudes(const SearchReads& reads, const CellBlock& block,
+                            InstructionSet set = instruction_sets().back());
+
 }  // namespace tagfield

@@ -37,6 +37,26 @@ inline void add_waves(const SearchRead* reads, std::size_t count, const float* x
   }
 }
 
+/// Of kLanes places.
+inline void add_amplitudes(const SearchReads& reads, const float* x, const float* y, const float* z,
+                           float* sum) {
+  float amplitudes[kLanes] = {};
+  for (const Aperture& aperture : reads.apertures) {
+    float in_phase[kLanes];
+    float quadrature[kLanes];
+    add_waves(reads.reads.data() + aperture.begin, static_cast<std::size_t>(aperture.count), x, y,
+              z, in_phase, quadrature);
+    if (aperture.offset_known) {
+      for (int k = 0; k < kLanes; ++k) amplitudes[k] += in_phase[k];
+    } else {
+      for (int k = 0; k < kLanes; ++k) {
+        amplitudes[k] += std::sqrt(in_phase[k] * in_phase[k] + quadrature[k] * quadrature[k]);
+      }
+    }
+  }
+  for (int k = 0; k < kLanes; ++k) sum[k] = amplitudes[k];
+}
+
 }  // namespace
 
 WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
@@ -58,6 +78,27 @@ WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, co
     for (int k = 0; k < kTile; k += kLanes) {
       add_waves(reads, count, x.data() + k, y.data() + k, z.data() + k, sums.in_phase.data() + k,
                 sums.quadrature.data() + k);
+    }
+  });
+  return sums;
+}
+
+Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y, InstructionSet set) {
+  Tile sums;
+  in_lanes(set, [&] {
+    for (int k = 0; k < kTile; k += kLanes) {
+      add_amplitudes(reads, x.data() + k, y.data() + k, nullptr, sums.data() + k);
+    }
+  });
+  return sums;
+}
+
+Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z,
+                     InstructionSet set) {
+  Tile sums;
+  in_lanes(set, [&] {
+    for (int k = 0; k < kTile; k += kLanes) {
+      add_amplitudes(reads, x.data() + k, y.data() + k, z.data() + k, sums.data() + k);
     }
   });
   return sums;

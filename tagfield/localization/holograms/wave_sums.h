@@ -4,19 +4,27 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "tagfield/base/lanes.h"
+#include "tagfield/localization/holograms/coherent_reads.h"
 #include "tagfield/localization/holograms/grid_search.h"
 
 namespace tagfield {
 
-/// A read in single precision, relative to `SearchReads::middle`.
+/// A read in single precision, relative to the middle of what is searched.
 struct SearchRead {
   float x = 0.0f, y = 0.0f;      ///< Antenna [m].
   float z = 0.0f;                ///< Antenna above the plane that is searched [m].
   float height_squared = 0.0f;   ///< z² [m²].
   float turns = 0.0f;            ///< Phase, in turns, within [−½, ½].
   float turns_per_metre = 0.0f;  ///< 2/λ.
+};
+
+/// The reads that one level of a search looks at.
+struct SearchReads {
+  std::vector<SearchRead> reads;
+  std::vector<Aperture> apertures;  ///< Of `reads`.
 };
 
 /// Cosine and sine of 2π `turns`, |turns| < 2²², to 2·10⁻⁵: those of π times what is left of whole
@@ -47,5 +55,15 @@ WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, co
 /// The same, at places (x, y, z) with z relative to that plane.
 WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, const Tile& y,
                    const Tile& z, InstructionSet set = instruction_sets().back());
+
+/// What the sums of the apertures add up to: their amplitudes, or Σ cos where the offset is known.
+/// At the places (x, y) of the plane that is searched [m]. The same to the last bit for each set of
+/// instructions.
+Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y,
+                     InstructionSet set = instruction_sets().back());
+
+/// The same, at places (x, y, z) with z relative to that plane.
+Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y, const Tile& z,
+                     InstructionSet set = instruction_sets().back());
 
 }  // namespace tagfield
