@@ -113,6 +113,33 @@ inline double lane_log(double x) {
   return k * kLn2High + (f - (lane_internal::less_in_log(f) - k * kLn2Low));
 }
 
+/// ln x of a normal x > 0, within 2 units in the last place: with m·2^k as Scaled has it and
+/// f = m − 1, f − f²/2 + f³ P(f), where P meets (ln(1 + f) − f + f²/2)/f³ at Chebyshev's points.
+inline float lane_log(float x) {
+  constexpr std::uint32_t kOne = 0x3f800000U;
+  constexpr std::uint32_t kRootOfHalf = 0x3f3504f3U;
+  constexpr float kLn2High = 0x1.62e4p-1f;  // ln 2 to 15 bits, and the rest.
+  constexpr float kLn2Low = 0x1.7f7d1cp-20f;
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint32_t biased = (bits + (kOne - kRootOfHalf)) >> 23U;  // k + 127
+  const std::uint32_t bits_of_m = bits - (biased << 23U) + kOne;
+  float m = 0.0f;
+  std::memcpy(&m, &bits_of_m, sizeof m);
+  const float k = static_cast<float>(static_cast<std::int32_t>(biased) - 127);
+  const float f = m - 1.0f;
+  float p = -0.07902746f;
+  p = p * f + 0.12622321f;
+  p = p * f - 0.12998183f;
+  p = p * f + 0.14214496f;
+  p = p * f - 0.16641282f;
+  p = p * f + 0.20001045f;
+  p = p * f - 0.25000307f;
+  p = p * f + 0.33333331f;
+  const float z = f * f;
+  return k * kLn2High + (f + (k * kLn2Low + (z * f * p - 0.5f * z)));
+}
+
 /// log10 x of a normal x > 0, within 3 units in the last place.
 inline double lane_log10(double x) {
   constexpr double kLog2High = 0x1.34413508p-2;  // log10 2 to 32 bits, and the rest.

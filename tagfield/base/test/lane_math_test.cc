@@ -49,6 +49,24 @@ TEST(LaneLog, IsTheLogarithmWithinOneUnit) {
   EXPECT_EQ(lane_log10(1.0), 0.0);
 }
 
+TEST(LaneLog, IsTheLogarithmWithinTwoUnitsInSinglePrecision) {
+  RandomStream stream(2, Purpose::kReadNoise);
+  constexpr float kMost = std::numeric_limits<float>::infinity();
+  double worst = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double spread = std::ldexp(1.0 + uniform(stream), static_cast<int>(stream() % 253) - 126);
+    for (const double at : {spread, any_in(stream, 0.7, 1.5), 1e-30 + uniform_above_0(stream)}) {
+      const auto x = static_cast<float>(at);
+      const double exact = std::log(static_cast<double>(x));
+      const auto nearest = static_cast<float>(std::abs(exact));
+      const double unit = static_cast<double>(std::nextafter(nearest, kMost) - nearest);
+      worst = std::max(worst, std::abs(static_cast<double>(lane_log(x)) - exact) / unit);
+    }
+  }
+  EXPECT_LT(worst, 2.0);
+  EXPECT_EQ(lane_log(1.0f), 0.0f);
+}
+
 TEST(LaneExp, IsTheExponentialWithinTwoUnits) {
   RandomStream stream(4, Purpose::kReadNoise);
   double worst = 0.0;
@@ -154,16 +172,18 @@ TEST(LaneNormalPair, IsFiniteForTheWordsAtTheEnds) {
 /// All of them over the same numbers, one after the other.
 std::vector<double> all_in_lanes(InstructionSet set, const std::vector<std::uint64_t>& words,
                                  std::size_t count) {
-  std::vector<double> found(4 * count);
+  std::vector<double> found(5 * count);
   in_lanes(set, [&] {
     double* const out = found.data();
     const std::uint64_t* const in = words.data();
     for (std::size_t i = 0; i < count; ++i) {
       const NormalPair pair = lane_normal_pair(in[i], in[i + 1]);
-      out[4 * i] = pair.first;
-      out[4 * i + 1] = pair.second;
-      out[4 * i + 2] = lane_round(40.0 * lane_log10(std::abs(pair.first) + 1e-300));
-      out[4 * i + 3] = lane_wrap_to_two_pi(lane_remainder(1e5 * std::abs(pair.second), 0.173));
+      out[5 * i] = pair.first;
+      out[5 * i + 1] = pair.second;
+      out[5 * i + 2] = lane_round(40.0 * lane_log10(std::abs(pair.first) + 1e-300));
+      out[5 * i + 3] = lane_wrap_to_two_pi(lane_remainder(1e5 * std::abs(pair.second), 0.173));
+      const auto single = static_cast<float>(std::abs(pair.first) + 1e-30);
+      out[5 * i + 4] = static_cast<double>(lane_log(single));
     }
   });
   return found;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "tagfield/localization/holograms/reach.h"
@@ -32,53 +33,117 @@ struct BlockBegin {
 
 Eigen::Vector2d place_of(double size, double i, double j) { return size * Eigen::Vector2d(i, j); }
 
-/// Calls `take(begin, cells)` for each block that has cells in reach, with those that are; `cells`
-/// is used again.
-template <class Take>
-void for_each_block(const Grid& grid, const PlaneInReach& in_reach, const Take& take) {
-  const auto reach = static_cast<std::int32_t>(grid.reach_m / grid.cell_m) + 1;
-  constexpr double kToMiddle = 0.5 * (kBlock - 1);
-  const double radius = kToMiddle * std::sqrt(2.0) * grid.cell_m;
-  Cells cells;
-  for (BlockBegin at{-reach, 0}; at.i <= reach; at.i += kBlock) {
-    for (at.j = -reach; at.j <= reach; at.j += kBlock) {
-      const auto part = in_reach.part_around(
-          grid.middle + place_of(grid.cell_m, at.i + kToMiddle, at.j + kToMiddle), radius);
-      if (part == PlaneInReach::Part::kNone) continue;
-      cells.clear();
-      for (std::int32_t j = at.j; j <= std::min(at.j + kBlock - 1, reach); ++j) {
-        for (std::int32_t i = at.i; i <= std::min(at.i + kBlock - 1, reach); ++i) {
-          const bool is_in = part == PlaneInReach::Part::kAll ||
-                             in_reach.holds(grid.middle + place_of(grid.cell_m, i, j));
-          if (is_in) cells.push_back({i, j, 0.0f});
-        }
+/// The coarsest grid, which is looked at by blocks.
+class BlockGrid {
+ public:
+  BlockGrid(const Grid& grid, const PlaneInReach& in_reach)
+      : grid_(grid),
+        in_reach_(in_reach),
+        end_(static_cast<std::int32_t>(grid.reach_m / grid.cell_m) + 2) {}
+
+  using Around = PlaneInReach::Surrounding;
+
+  /// Calls `take(begin, around)` for each block of which a part is in reach.
+  template <class Take>
+  void for_each_block(const Take& take) const {
+    constexpr double kToMiddle = 0.5 * (kBlock - 1);
+    const double radius = kToMiddle * std::sqrt(2.0) * grid_.cell_m;
+    for (BlockBegin at{1 - end_, 0}; at.i < end_; at.i += kBlock) {
+      for (at.j = 1 - end_; at.j < end_; at.j += kBlock) {
+        const Around around = in_reach_.around(
+            grid_.middle + place_of(grid_.cell_m, at.i + kToMiddle, at.j + kToMiddle), radius);
+        if (around.part != PlaneInReach::Part::kNone) take(at, around);
       }
-      take(at, cells);
     }
   }
-}
 
-Cells all_cells(const Grid& grid, const PlaneInReach& in_reach) {
-  Cells all;
-  for_each_block(grid, in_reach, [&](const BlockBegin&, const Cells& cells) {
-    all.insert(all.end(), cells.begin(), cells.end());
-  });
-  return all;
-}
-
-/// With what a glance tells of their brightness.
-Cells glanced_at(const Grid& grid, const PlaneInReach& in_reach, const GridGlance& glance) {
-  Cells all;
-  for_each_block(grid, in_reach, [&](const BlockBegin& at, const Cells& cells) {
-    if (cells.empty()) return;
-    const Eigen::Vector2d first = place_of(grid.cell_m, at.i, at.j);
-    const BlockLight light = glance({static_cast<float>(first.x()), static_cast<float>(first.y()),
-                                     static_cast<float>(grid.cell_m)});
-    for (const SearchCell& cell : cells) {
-      all.push_back({cell.i, cell.j, light(cell.i - at.i, cell.j - at.j)});
+  /// Calls `take(i, j)` for each cell of a block, counted from its first, that is in reach.
+  template <class Take>
+  void for_each_cell(const BlockBegin& at, const Around& around, const Take& take) const {
+    for (std::int32_t j = 0; j < std::min(kBlock, end_ - at.j); ++j) {
+      for (std::int32_t i = 0; i < std::min(kBlock, end_ - at.i); ++i) {
+        const bool is_in =
+            around.part == PlaneInReach::Part::kAll ||
+            in_reach_.holds(around, grid_.middle + place_of(grid_.cell_m, at.i + i, at.j + j));
+        if (is_in) take(i, j);
+      }
     }
+  }
+
+ private:
+  const Grid& grid_;
+  const PlaneInReach& in_reach_;
+  std::int32_t end_;  ///< Beyond the last cell, along both axes.
+};
+
+Cells all_cells(const BlockGrid& grid) {
+  Cells all;
+  grid.for_each_block([&](const BlockBegin& at, const BlockGrid::Around& around) {
+    grid.for_each_cell(at, around, [&](std::int32_t i, std::int32_t j) {
+      all.push_back({at.i + i, at.j + j, 0.0f});
+    });
   });
   return all;
+}
+
+constexpr std::size_t kOneOf = 10;                                   ///< Is left by a glance.
+constexpr float kOutOfReach = std::numeric_limits<float>::lowest();  ///< A cell's brightness.
+
+struct GlancedBlock {
+  BlockBegin at;
+  BlockLight light;
+};
+
+std::vector<GlancedBlock> glanced_at(const BlockGrid& grid, double cell_m,
+                                     const GridGlances& glances) {
+  std::vector<GlancedBlock> blocks;
+  grid.for_each_block([&](const BlockBegin& at, const BlockGrid::Around& around) {
+    const Eigen::Vector2d first = place_of(cell_m, at.i, at.j);
+    const BlockLight light = glances.at_blocks(
+        {static_cast<float>(first.x()), static_cast<float>(first.y()), static_cast<float>(cell_m)});
+    blocks.push_back({at, BlockLight::Constant(kOutOfReach)});
+    BlockLight& in_reach = blocks.back().light;
+    grid.for_each_cell(at, around,
+                       [&](std::int32_t i, std::int32_t j) { in_reach(i, j) = light(i, j); });
+  });
+  return blocks;
+}
+
+/// What about a tenth of the cells exceed, from a histogram.
+float light_of_tenth(const std::vector<GlancedBlock>& blocks) {
+  constexpr std::size_t kBins = 4096;
+  float most = 0.0f;
+  for (const GlancedBlock& block : blocks) most = std::max(most, block.light.maxCoeff());
+  if (!(most > 0.0f)) return most;
+  const float bins_each = static_cast<float>(kBins - 1) / most;
+  std::vector<std::uint32_t> counts(kBins, 0);
+  std::size_t cells = 0;
+  for (const GlancedBlock& block : blocks) {
+    for (const float light : block.light.reshaped()) {
+      if (light == kOutOfReach) continue;
+      ++counts[static_cast<std::size_t>(bins_each * std::max(light, 0.0f))];
+      ++cells;
+    }
+  }
+  std::size_t bin = kBins;
+  for (std::size_t above = 0; bin > 0 && kOneOf * above < cells;) above += counts[--bin];
+  return static_cast<float>(bin) / bins_each;
+}
+
+/// About the brightest tenth of the cells at a glance.
+Cells bright_cells(const BlockGrid& grid, double cell_m, const GridGlances& glances) {
+  const std::vector<GlancedBlock> blocks = glanced_at(grid, cell_m, glances);
+  const float least = light_of_tenth(blocks);
+  Cells bright;
+  for (const GlancedBlock& block : blocks) {
+    for (std::int32_t j = 0; j < kBlock; ++j) {
+      for (std::int32_t i = 0; i < kBlock; ++i) {
+        const float light = block.light(i, j);
+        if (light >= least) bright.push_back({block.at.i + i, block.at.j + j, light});
+      }
+    }
+  }
+  return bright;
 }
 
 void illuminate(const GridLevel& brightness, double size, Cells& cells) {
@@ -105,13 +170,23 @@ bool is_brighter(const SearchCell& a, const SearchCell& b) {
   return a.i != b.i ? a.i < b.i : a.j < b.j;
 }
 
-/// The brightest tenth.
+/// The brightest tenth, of which no fewer are kept than are split.
 void keep_brightest(Cells& cells) {
-  constexpr std::size_t kOneOf = 10;
-  const auto end =
-      cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + kOneOf - 1) / kOneOf);
+  const std::size_t left = std::max((cells.size() + kOneOf - 1) / kOneOf, kMostKept);
+  if (left >= cells.size()) return;
+  const auto end = cells.begin() + static_cast<std::ptrdiff_t>(left);
   std::nth_element(cells.begin(), end, cells.end(), is_brighter);
   cells.erase(end, cells.end());
+}
+
+/// Those of the coarsest grid that its level looks at.
+Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridGlances& glances) {
+  const BlockGrid blocks(grid, in_reach);
+  if (!glances.at_blocks) return all_cells(blocks);
+  Cells cells = bright_cells(blocks, grid.cell_m, glances);
+  illuminate(glances.at_cells, grid.cell_m, cells);
+  keep_brightest(cells);
+  return cells;
 }
 
 /// The bright ones of the cells, each split.
@@ -175,9 +250,8 @@ std::vector<GridMaximum> apart(const Cells& maxima, double size, const Eigen::Ve
 
 std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,
-                                     const GridGlance& glance) {
-  Cells cells = glance ? glanced_at(grid, in_reach, glance) : all_cells(grid, in_reach);
-  if (glance) keep_brightest(cells);
+                                     const GridGlances& glances) {
+  Cells cells = first_cells(grid, in_reach, glances);
   double size = grid.cell_m;
   for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
     illuminate(levels[level], size, cells);

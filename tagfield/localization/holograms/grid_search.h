@@ -66,8 +66,12 @@ struct CellBlock {
 /// Of the cell (x + i · cell_m, y + j · cell_m) in (i, j).
 using BlockLight = Eigen::Array<float, kBlock, kBlock>;
 
-/// About how bright the cells of a block are.
-using GridGlance = std::function<BlockLight(const CellBlock& block)>;
+/// Looks at the coarsest grid that cost less than its level.
+struct GridGlances {
+  /// About how bright the cells of a block are; empty where there are no glances.
+  std::function<BlockLight(const CellBlock& block)> at_blocks;
+  GridLevel at_cells;  ///< By other reads, of the cells that are left.
+};
 
 struct GridMaximum {
   Eigen::Vector2d p;  ///< [m]
@@ -76,10 +80,10 @@ struct GridMaximum {
 
 /// The brightest local maxima on the finest grid, at least 5 cm apart, brightest first, at most
 /// `count`. The first level is of the cells that are in reach, each further one of cells a third as
-/// wide, where the one before was bright. None where there is no cell. At least one level. A
-/// `glance` that is not empty leaves the first level the brightest tenth of its cells.
+/// wide, where the one before was bright. None where there is no cell. At least one level. Of
+/// glances, each leaves about the brightest tenth of the cells, the second 250 of them at least.
 std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,
-                                     const GridGlance& glance = {});
+                                     const GridGlances& glances = {});
 
 }  // namespace tagfield

@@ -57,11 +57,22 @@ BlockLight glance_in_tiles(const Brightness& brightness, const SearchReads& read
   return light;
 }
 
-GridGlance glance_by(const Brightness& brightness, SearchReads reads) {
-  return [&brightness, reads = std::move(reads)](const CellBlock& block) {
-    return brightness.at_a_glance ? brightness.at_a_glance(reads, block)
-                                  : glance_in_tiles(brightness, reads, block);
+/// Two glances by reads that lie between each other's.
+GridGlances glances_by(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
+                       const Brightness& brightness) {
+  const std::size_t count = glance_reads(phases);
+  const auto reads = [&](bool between) {
+    return search_reads(thinned(phases, count, between), kWholeAperture, height, middle);
   };
+  GridGlances glances;
+  glances.at_blocks = [&brightness, some = reads(false)](const CellBlock& block) {
+    return brightness.at_a_glance ? brightness.at_a_glance(some, block)
+                                  : glance_in_tiles(brightness, some, block);
+  };
+  glances.at_cells = [&brightness, others = reads(true)](const Tile& x, const Tile& y) {
+    return brightness.at(others, x, y);
+  };
+  return glances;
 }
 
 }  // namespace
@@ -77,7 +88,7 @@ Eigen::Vector2d middle_of(const TagPhases& phases) {
           0.5 * (phases.y.minCoeff() + phases.y.maxCoeff())};
 }
 
-TagPhases thinned(const TagPhases& phases, std::size_t count) {
+TagPhases thinned(const TagPhases& phases, std::size_t count, bool between) {
   const auto all = static_cast<std::size_t>(phases.size());
   const auto stride = static_cast<Eigen::Index>((all + count - 1) / count);
   if (stride <= 1) return phases;
@@ -85,7 +96,10 @@ TagPhases thinned(const TagPhases& phases, std::size_t count) {
   std::vector<TagPhases::Span> spans = phases.spans;
   for (TagPhases::Span& span : spans) {
     const auto begin = static_cast<Eigen::Index>(kept.size());
-    for (Eigen::Index i = span.begin; i < span.begin + span.count; i += stride) kept.push_back(i);
+    const Eigen::Index end = span.begin + span.count;
+    for (Eigen::Index i = span.begin + (between ? stride / 2 : 0); i < end; i += stride) {
+      kept.push_back(i);
+    }
     span.begin = begin;
     span.count = static_cast<Eigen::Index>(kept.size()) - begin;
   }
@@ -144,18 +158,17 @@ std::vector<Eigen::Vector2d> search_plane(const TagPhases& phases, double height
     levels.push_back([&brightness, level = search_reads(reads, aperture, height, middle)](
                          const Tile& x, const Tile& y) { return brightness.at(level, x, y); });
   };
-  GridGlance glance;
+  GridGlances glances;
   if (options.thorough && 2 * glance_reads(phases) <= static_cast<std::size_t>(coarse.size())) {
-    glance = glance_by(brightness, search_reads(thinned(phases, glance_reads(phases)),
-                                                kWholeAperture, height, middle));
+    glances = glances_by(phases, height, middle, brightness);
   }
   double finest = size;
   for (; finest > kFinestCell * lambda; finest /= kGridSplit, length *= 3.0) add(coarse, length);
-  add(phases, kWholeAperture);
+  add(options.thorough ? phases : coarse, kWholeAperture);
   const PlaneInReach in_reach(phases, height, options.max_range_m);
   std::vector<Eigen::Vector2d> places;
   const Grid grid{middle, size, options.max_range_m};
-  for (const GridMaximum& maximum : search_grid(grid, in_reach, levels, options.maxima, glance)) {
+  for (const GridMaximum& maximum : search_grid(grid, in_reach, levels, options.maxima, glances)) {
     places.push_back(maximum.p);
   }
   return places;

@@ -67,7 +67,8 @@ struct SearchOptions {
   double max_range_m = 12.0;  ///< Half of the reads are from nearer; over 0.
   double cell_m = 0.25;       ///< Of the coarsest grid; over 0.
   std::size_t maxima = 12;    ///< So many are returned at most.
-  std::size_t reads = 800;    ///< Coarse levels take so many at most, evenly thinned.
+  /// Levels take so many at most, evenly thinned, but for the last of a thorough search.
+  std::size_t reads = 800;
   /// Whole apertures on all of the area at once: some twenty times the work. Reflections bend the
   /// phase over decimetres, so that short apertures are brightest elsewhere.
   bool thorough = false;
@@ -110,8 +111,8 @@ std::vector<PlaceVector> search_places(const TagPhases& phases, const HeightMode
 /// Middle of the box around the antennas, seen from above [m]; phases must not be empty.
 Eigen::Vector2d middle_of(const TagPhases& phases);
 
-/// Every n-th read, so that about `count` are left at most.
-TagPhases thinned(const TagPhases& phases, std::size_t count);
+/// Every n-th read, so that about `count` are left at most, or as many that lie between those.
+TagPhases thinned(const TagPhases& phases, std::size_t count, bool between = false);
 
 /// Reads in single precision about `middle`, for a tag at `height`, with the apertures of `length`
 /// [m].

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "tagfield/localization/tag_phases.h"
@@ -31,12 +32,19 @@ class PlaneInReach {
  public:
   PlaneInReach(const TagPhases& phases, double height, double max_range);
 
-  [[nodiscard]] bool holds(const Eigen::Vector2d& p) const;
-
-  /// How many of the places about another it holds. `kMixed` may be all or none, too.
+  /// How many places of a surrounding are in reach. `kMixed` may be all or none, too.
   enum class Part { kNone, kAll, kMixed };
-  /// Of those up to `radius` from `middle` [m].
-  [[nodiscard]] Part part_around(const Eigen::Vector2d& middle, double radius) const;
+  /// The places up to some radius from one.
+  struct Surrounding {
+    Part part = Part::kMixed;
+    std::size_t beyond = 0;  ///< Antennas whose range ends before all of the places.
+    std::vector<Eigen::Vector3d> undecided;  ///< Those whose range may end between them.
+  };
+  /// Of `middle`, up to `radius` [m].
+  [[nodiscard]] Surrounding around(const Eigen::Vector2d& middle, double radius) const;
+
+  /// Whether `p`, which is in the surrounding, is in reach.
+  [[nodiscard]] bool holds(const Surrounding& of, const Eigen::Vector2d& p) const;
 
  private:
   Reach reach_;

@@ -6,15 +6,12 @@
 #include <map>
 #include <numeric>
 
-#include "tagfield/base/units.h"
+#include "tagfield/localization/holograms/stretch_sums.h"
 
 namespace tagfield {
 namespace {
 
 using Index = Eigen::Index;
-
-/// Waves that add up better than this are told apart from such that do so by noise alone.
-constexpr float kLeastLeft = 1e-3f;
 
 /// How far an antenna has come at each of its reads [m], by read.
 Eigen::ArrayXd travel_of(const TagPhases& phases) {
@@ -139,24 +136,7 @@ std::vector<CoherentStretch> stretches_of(const std::vector<Piece>& pieces,
   return stretches;
 }
 
-/// −f ln(1 − the share of the power that adds up).
-Tile likelihood_of(const StretchedReads& all, const CoherentStretch& stretch,
-                   const std::vector<WaveSums>& of_pieces) {
-  Tile power = Tile::Zero();
-  for (const auto& channel : stretch.channels) {
-    WaveSums sum;
-    float reads = 0.0f;
-    for (const std::size_t piece : channel) {
-      sum.in_phase += of_pieces[piece].in_phase;
-      sum.quadrature += of_pieces[piece].quadrature;
-      reads += static_cast<float>(all.reads.apertures[piece].count);
-    }
-    power += (sum.in_phase.square() + sum.quadrature.square()) / reads;
-  }
-  return -stretch.freedom * (1.0f - power / stretch.reads).max(kLeastLeft).log();
-}
-
-/// Likewise, of the reads that count.
+/// −f ln(1 − the share of the power that adds up), of the reads that count.
 Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>& of_pieces) {
   Tile power = Tile::Zero();
   Tile reads = Tile::Zero();
@@ -189,36 +169,31 @@ Tile likelihood_with(const CoherentStretch& stretch, const std::vector<PieceSums
   return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kLeastLeft).log();
 }
 
+std::vector<const CoherentStretch*> chosen_stretches(const StretchedReads& reads,
+                                                     const StretchChoice& choice) {
+  std::vector<const CoherentStretch*> chosen;
+  for (int k = choice.first; k <= choice.last; ++k) {
+    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
+      if (choice.part == kWholeWay || stretch.part == choice.part) chosen.push_back(&stretch);
+    }
+  }
+  return chosen;
+}
+
+Tile mean_over_lengths(const StretchChoice& choice, const Tile& sum) {
+  return sum / static_cast<float>(choice.last - choice.first + 1);
+}
+
 template <class OfStretch>
 Tile mean_over_lengths(const StretchedReads& reads, const StretchChoice& choice,
                        const OfStretch& of_stretch) {
   Tile sum = Tile::Zero();
-  for (int k = choice.first; k <= choice.last; ++k) {
-    for (const CoherentStretch& stretch : reads.stretches[static_cast<std::size_t>(k)]) {
-      if (choice.part != kWholeWay && stretch.part != choice.part) continue;
-      sum += of_stretch(stretch);
-    }
-  }
-  return sum / static_cast<float>(choice.last - choice.first + 1);
+  for (const CoherentStretch* stretch : chosen_stretches(reads, choice))
+    sum += of_stretch(*stretch);
+  return mean_over_lengths(choice, sum);
 }
 
 }  // namespace
-
-double independent_samples(const std::vector<double>& along_m, double wavelength) {
-  const auto count = static_cast<Index>(along_m.size());
-  const Eigen::ArrayXd angles =
-      kPi / wavelength * Eigen::Map<const Eigen::ArrayXd>(along_m.data(), count);
-  // sin(a − b) by those of a and b.
-  const Eigen::ArrayXd sines = angles.sin();
-  const Eigen::ArrayXd cosines = angles.cos();
-  double pairs = 0.0;
-  for (Index i = 0; i < count; ++i) {
-    const Eigen::ArrayXd apart = angles[i] - angles;
-    const Eigen::ArrayXd sine = sines[i] * cosines - cosines[i] * sines;
-    pairs += (apart.abs() < 1e-6).select(1.0, (sine / apart).square()).sum();
-  }
-  return count > 0 ? static_cast<double>(count) * static_cast<double>(count) / pairs : 0.0;
-}
 
 StretchedReads stretched_reads(const TagPhases& phases, double wavelength, double height,
                                const Eigen::Vector2d& middle) {
@@ -240,15 +215,8 @@ StretchedReads stretched_reads(const TagPhases& phases, double wavelength, doubl
 
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
                         const Tile& y, const Tile& z) {
-  std::vector<WaveSums> of_pieces;
-  of_pieces.reserve(reads.reads.apertures.size());
-  for (const Aperture& piece : reads.reads.apertures) {
-    of_pieces.push_back(wave_sums(&reads.reads.reads[static_cast<std::size_t>(piece.begin)],
-                                  static_cast<std::size_t>(piece.count), x, y, z));
-  }
-  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
-    return likelihood_of(reads, stretch, of_pieces);
-  });
+  const Tile sum = stretch_sums(reads.reads, chosen_stretches(reads, choice), x, y, z);
+  return mean_over_lengths(choice, sum);
 }
 
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "tagfield/base/lanes.h"
 #include "tagfield/localization/height_model.h"
 #include "tagfield/localization/holograms/hologram.h"
 
@@ -53,8 +54,10 @@ StretchedReads stretched_reads(const TagPhases& phases, double wavelength, doubl
                                const Eigen::Vector2d& middle);
 
 /// Independent samples that a field has along the way, of which it is known at the places
-/// `along_m`, in rising order: n² / Σ sinc²((s_i − s_j)/λ) over all pairs.
-double independent_samples(const std::vector<double>& along_m, double wavelength);
+/// `along_m`, in rising order: n² / Σ sinc²((s_i − s_j)/λ) over all pairs. The same to the last bit
+/// for each set of instructions.
+double independent_samples(const std::vector<double>& along_m, double wavelength,
+                           InstructionSet set = instruction_sets().back());
 
 /// ln of the likelihood up to a constant, in the mean over the chosen lengths:
 /// −Σ f ln(1 − Σ_c |S_c|²/n_c / n) over the stretches with the freedom f, of places (x, y, z)

@@ -35,13 +35,14 @@ RC_GTEST_PROP(PlaneInReach, TellsOfPlacesAroundWhatEachTellsOfItself, ()) {
   for (int k = 0; k < 300; ++k) {
     const Eigen::Vector2d middle(made::uniform(rng, -11.0, 11.0), made::uniform(rng, -11.0, 11.0));
     const double radius = made::uniform(rng, 0.0, 1.5);
-    const PlaneInReach::Part part = plane.part_around(middle, radius);
+    const PlaneInReach::Surrounding around = plane.around(middle, radius);
+    const PlaneInReach::Part part = around.part;
     for (int at = 0; at < 9; ++at) {
       const double angle = 0.25 * kPi * at;
       const Eigen::Vector2d p =
           middle + (at < 8 ? radius : 0.0) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       const bool holds = reach.holds({p.x(), p.y(), 1.0});
-      RC_ASSERT(plane.holds(p) == holds);
+      RC_ASSERT(plane.holds(around, p) == holds);
       if (part == PlaneInReach::Part::kAll) RC_ASSERT(holds);
       if (part == PlaneInReach::Part::kNone) RC_ASSERT(!holds);
     }
@@ -54,9 +55,9 @@ TEST(PlaneInReach, LooksCloserOnlyWhereSomePlacesAreInReachAndSomeAreNot) {
   phases.value = phases.x = phases.y = phases.z = Eigen::ArrayXd::Zero(1);
   const PlaneInReach plane(phases, 3.0, 5.0);  // A circle of 4 m, seen from above.
   using Part = PlaneInReach::Part;
-  EXPECT_EQ(plane.part_around({2.0, 0.0}, 0.5), Part::kAll);
-  EXPECT_EQ(plane.part_around({4.1, 0.0}, 0.5), Part::kMixed);
-  EXPECT_EQ(plane.part_around({0.0, 5.0}, 0.5), Part::kNone);
+  EXPECT_EQ(plane.around({2.0, 0.0}, 0.5).part, Part::kAll);
+  EXPECT_EQ(plane.around({4.1, 0.0}, 0.5).part, Part::kMixed);
+  EXPECT_EQ(plane.around({0.0, 5.0}, 0.5).part, Part::kNone);
 }
 
 }  // namespace

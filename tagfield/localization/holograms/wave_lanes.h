@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Waves of reads at some lanes' places, for loops in lanes (base/lanes.h) alone.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "tagfield/localization/holograms/wave_sums.h"
+
+namespace tagfield {
+
+/// Places whose sums stay in registers.
+inline constexpr int kWaveLanes = 16;
+static_assert(kTile % kWaveLanes == 0);
+
+/// Σ cos and Σ sin of the residuals of `count` reads, as WaveSums has them. `z` is null for places
+/// of the plane.
+inline void add_waves(const SearchRead* reads, std::size_t count, const float* x, const float* y,
+                      const float* z, float* in_phase, float* quadrature) {
+  float cosines[kWaveLanes] = {};
+  float sines[kWaveLanes] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const SearchRead& read = reads[i];
+    for (int k = 0; k < kWaveLanes; ++k) {
+      const float dx = x[k] - read.x;
+      const float dy = y[k] - read.y;
+      const float dz = z != nullptr ? z[k] - read.z : 0.0f;
+      const float rest = z != nullptr ? dz * dz : read.height_squared;
+      const float turns = read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + rest);
+      float cosine = 0.0f;
+      float sine = 0.0f;
+      wave_of(turns, cosine, sine);
+      cosines[k] += cosine;
+      sines[k] += sine;
+    }
+  }
+  for (int k = 0; k < kWaveLanes; ++k) {
+    in_phase[k] = cosines[k];
+    quadrature[k] = sines[k];
+  }
+}
+
+}  // namespace tagfield
