@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tagfield/base/lanes.h"
 
@@ -45,26 +46,40 @@ inline void make_waves(const SearchRead& read, const CellBlock& block, BlockWave
   }
 }
 
+/// A block's row, which compilers keep in as few registers as it takes.
+using Row = float __attribute__((vector_size(kBlock * sizeof(float))));
+
+inline void load(const float* from, Row& row) { std::memcpy(&row, from, sizeof row); }
+
 /// Of kRows rows from `row` on, whose sums stay in registers.
 inline void add_products(const BlockWaves* waves, std::size_t count, int row, ProductSums& all) {
-  float cosines[kRows][kBlock] = {};
-  float sines[kRows][kBlock] = {};
-  float both[kRows][kBlock] = {};
+  Row cosines[kRows];
+  Row sines[kRows];
+  Row both[kRows];
+  for (int j = 0; j < kRows; ++j) {
+    load(all.cosines[row + j], cosines[j]);
+    load(all.sines[row + j], sines[j]);
+    load(all.both[row + j], both[j]);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     const BlockWaves& of = waves[i];
+    Row cosine;
+    Row sine;
+    Row sum;
+    load(of.cosine, cosine);
+    load(of.sine, sine);
+    load(of.both, sum);
 #pragma GCC unroll 8
     for (int j = 0; j < kRows; ++j) {
-      for (int k = 0; k < kBlock; ++k) cosines[j][k] += of.cosine[k] * of.row_cosine[row + j];
-      for (int k = 0; k < kBlock; ++k) sines[j][k] += of.sine[k] * of.row_sine[row + j];
-      for (int k = 0; k < kBlock; ++k) both[j][k] += of.both[k] * of.row_both[row + j];
+      cosines[j] += cosine * of.row_cosine[row + j];
+      sines[j] += sine * of.row_sine[row + j];
+      both[j] += sum * of.row_both[row + j];
     }
   }
   for (int j = 0; j < kRows; ++j) {
-    for (int k = 0; k < kBlock; ++k) {
-      all.cosines[row + j][k] += cosines[j][k];
-      all.sines[row + j][k] += sines[j][k];
-      all.both[row + j][k] += both[j][k];
-    }
+    std::memcpy(all.cosines[row + j], &cosines[j], sizeof(Row));
+    std::memcpy(all.sines[row + j], &sines[j], sizeof(Row));
+    std::memcpy(all.both[row + j], &both[j], sizeof(Row));
   }
 }
 
