@@ -12,79 +12,93 @@
 namespace tagfield {
 namespace {
 
-/// Sums of a piece's waves.
-struct PieceLanes {
+/// Σ cos and Σ sin of some waves.
+struct LaneSums {
   float in_phase[kWaveLanes];
   float quadrature[kWaveLanes];
 };
 
-std::vector<std::size_t> pieces_in(const std::vector<const CoherentStretch*>& stretches,
-                                   std::size_t count) {
-  std::vector<char> is_in(count, 0);
-  for (const CoherentStretch* stretch : stretches) {
-    for (const auto& channel : stretch->channels) {
-      for (const std::size_t piece : channel) is_in[piece] = 1;
-    }
-  }
+/// Which sums stretches take, and of how many reads all are.
+struct SumsInUse {
   std::vector<std::size_t> pieces;
-  for (std::size_t piece = 0; piece < count; ++piece) {
-    if (is_in[piece] != 0) pieces.push_back(piece);
+  std::vector<std::size_t> pairs;
+  std::vector<float> reads;
+};
+
+SumsInUse sums_in(const StretchedReads& reads,
+                  const std::vector<const CoherentStretch*>& stretches) {
+  const std::size_t pieces = reads.reads.apertures.size();
+  std::vector<char> is_used(pieces + reads.pairs.size(), 0);
+  for (const CoherentStretch* stretch : stretches) {
+    for (const std::size_t sum : stretch->channels) is_used[sum] = 1;
   }
-  return pieces;
+  for (std::size_t i = reads.pairs.size(); i-- > 0;) {
+    if (is_used[pieces + i] == 0) continue;
+    for (const std::size_t part : reads.pairs[i]) is_used[part] = 1;
+  }
+  SumsInUse in_use;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    in_use.reads.push_back(static_cast<float>(reads.reads.apertures[i].count));
+    if (is_used[i] != 0) in_use.pieces.push_back(i);
+  }
+  for (std::size_t i = 0; i < reads.pairs.size(); ++i) {
+    const auto& [one, other] = reads.pairs[i];
+    in_use.reads.push_back(in_use.reads[one] + in_use.reads[other]);
+    if (is_used[pieces + i] != 0) in_use.pairs.push_back(i);
+  }
+  return in_use;
 }
 
-/// |S_c|² of a channel over its reads and over all of the stretch.
-inline void add_share(const SearchReads& reads, const std::vector<std::size_t>& channel,
-                      float of_stretch, const PieceLanes* pieces, float* share) {
-  float in_phase[kWaveLanes] = {};
-  float quadrature[kWaveLanes] = {};
-  float count = 0.0f;
-  for (const std::size_t piece : channel) {
-    for (int k = 0; k < kWaveLanes; ++k) in_phase[k] += pieces[piece].in_phase[k];
-    for (int k = 0; k < kWaveLanes; ++k) quadrature[k] += pieces[piece].quadrature[k];
-    count += static_cast<float>(reads.apertures[piece].count);
-  }
-  const float each = 1.0f / (count * of_stretch);
+inline void add(const LaneSums& one, const LaneSums& other, LaneSums& both) {
+  for (int k = 0; k < kWaveLanes; ++k) both.in_phase[k] = one.in_phase[k] + other.in_phase[k];
   for (int k = 0; k < kWaveLanes; ++k) {
-    share[k] += each * (in_phase[k] * in_phase[k] + quadrature[k] * quadrature[k]);
+    both.quadrature[k] = one.quadrature[k] + other.quadrature[k];
   }
 }
 
-inline void add_stretch(const SearchReads& reads, const CoherentStretch& stretch,
-                        const PieceLanes* pieces, float* sum) {
+inline void add_stretch(const CoherentStretch& stretch, const float* reads, const LaneSums* sums,
+                        float* likelihood) {
   float share[kWaveLanes] = {};
-  for (const std::vector<std::size_t>& channel : stretch.channels) {
-    add_share(reads, channel, stretch.reads, pieces, share);
+  for (const std::size_t channel : stretch.channels) {
+    const LaneSums& sum = sums[channel];
+    const float each = 1.0f / (reads[channel] * stretch.reads);
+    for (int k = 0; k < kWaveLanes; ++k) {
+      share[k] +=
+          each * (sum.in_phase[k] * sum.in_phase[k] + sum.quadrature[k] * sum.quadrature[k]);
+    }
   }
   for (int k = 0; k < kWaveLanes; ++k) {
     const float left = std::max(1.0f - share[k], kLeastLeft);
-    sum[k] -= stretch.freedom * lane_log(left);
+    likelihood[k] -= stretch.freedom * lane_log(left);
   }
 }
 
 }  // namespace
 
-Tile stretch_sums(const SearchReads& reads, const std::vector<const CoherentStretch*>& stretches,
+Tile stretch_sums(const StretchedReads& reads, const std::vector<const CoherentStretch*>& stretches,
                   const Tile& x, const Tile& y, const Tile& z, InstructionSet set) {
-  const std::vector<std::size_t> used = pieces_in(stretches, reads.apertures.size());
-  std::vector<PieceLanes> pieces(reads.apertures.size());
-  Tile sums;
+  const SumsInUse in_use = sums_in(reads, stretches);
+  const std::vector<Aperture>& pieces = reads.reads.apertures;
+  std::vector<LaneSums> sums(pieces.size() + reads.pairs.size());
+  Tile likelihoods;
   in_lanes(set, [&] {
     for (int first = 0; first < kTile; first += kWaveLanes) {
-      for (const std::size_t i : used) {
-        const Aperture& piece = reads.apertures[i];
-        add_waves(reads.reads.data() + piece.begin, static_cast<std::size_t>(piece.count),
-                  x.data() + first, y.data() + first, z.data() + first, pieces[i].in_phase,
-                  pieces[i].quadrature);
+      for (const std::size_t i : in_use.pieces) {
+        add_waves(reads.reads.reads.data() + pieces[i].begin,
+                  static_cast<std::size_t>(pieces[i].count), x.data() + first, y.data() + first,
+                  z.data() + first, sums[i].in_phase, sums[i].quadrature);
       }
-      float sum[kWaveLanes] = {};
+      for (const std::size_t i : in_use.pairs) {
+        add(sums[reads.pairs[i][0]], sums[reads.pairs[i][1]], sums[pieces.size() + i]);
+      }
+      float likelihood[kWaveLanes] = {};
       for (const CoherentStretch* stretch : stretches) {
-        add_stretch(reads, *stretch, pieces.data(), sum);
+        add_stretch(*stretch, in_use.reads.data(), sums.data(), likelihood);
       }
-      for (int k = 0; k < kWaveLanes; ++k) sums.data()[first + k] = sum[k];
+      for (int k = 0; k < kWaveLanes; ++k) likelihoods.data()[first + k] = likelihood[k];
     }
   });
-  return sums;
+  return likelihoods;
 }
 
 double independent_samples(const std::vector<double>& along_m, double wavelength,

@@ -2,9 +2,11 @@
 #include "tagfield/localization/holograms/stretches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <string>
+#include <utility>
 
 #include "tagfield/localization/holograms/stretch_sums.h"
 
@@ -78,11 +80,53 @@ class Parts {
   std::vector<double> begins_;
 };
 
-/// Enough to tell how many samples are independent.
-void add_travel(const Aperture& piece, const Eigen::ArrayXd& travel, std::vector<double>& along) {
-  for (Index i = piece.begin; i < piece.begin + piece.count; ++i) along.push_back(travel[i]);
+/// A channel on a stretch of some length.
+struct StretchChannel {
+  std::string antenna;
+  std::size_t span = 0;
+  std::int64_t number = 0;  ///< Of the stretch.
+  std::size_t sum = 0;      ///< Of the waves.
+  std::vector<Aperture> pieces;
+};
+
+std::vector<StretchChannel> shortest_channels(const std::vector<Piece>& pieces) {
+  std::vector<StretchChannel> channels;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    channels.push_back({piece.antenna, piece.span, piece.number, i, {piece.reads}});
+  }
+  return channels;
 }
 
+/// On stretches twice as long; the sums that these take are added to `all`.
+std::vector<StretchChannel> twice_as_long(const std::vector<StretchChannel>& channels,
+                                          StretchedReads& all) {
+  std::vector<StretchChannel> longer;
+  for (const StretchChannel& one : channels) {
+    const std::int64_t number = one.number / 2;
+    if (longer.empty() || longer.back().span != one.span || longer.back().number != number) {
+      longer.push_back(one);
+      longer.back().number = number;
+      continue;
+    }
+    StretchChannel& other = longer.back();
+    all.pairs.push_back({other.sum, one.sum});
+    other.sum = all.reads.apertures.size() + all.pairs.size() - 1;
+    other.pieces.insert(other.pieces.end(), one.pieces.begin(), one.pieces.end());
+  }
+  return longer;
+}
+
+/// How far the antenna has come at each of the reads [m].
+std::vector<double> travels_in(const StretchChannel& channel, const Eigen::ArrayXd& travel) {
+  std::vector<double> along;
+  for (const Aperture& piece : channel.pieces) {
+    for (Index i = piece.begin; i < piece.begin + piece.count; ++i) along.push_back(travel[i]);
+  }
+  return along;
+}
+
+/// Enough to tell how many samples are independent.
 std::vector<double> thinned_out(std::vector<double> all) {
   constexpr std::size_t kEnough = 150;
   if (all.size() <= kEnough) return all;
@@ -93,60 +137,63 @@ std::vector<double> thinned_out(std::vector<double> all) {
   return some;
 }
 
-/// The stretch that the pieces make.
-CoherentStretch stretch_of(const std::vector<Piece>& pieces,
-                           const std::vector<std::size_t>& numbers, const Eigen::ArrayXd& travel,
-                           double wavelength) {
-  std::map<std::size_t, std::vector<std::size_t>> by_span;
-  for (const std::size_t i : numbers) by_span[pieces[i].span].push_back(i);
+CoherentStretch stretch_of(const std::vector<const StretchChannel*>& channels,
+                           const Eigen::ArrayXd& travel, double wavelength) {
   CoherentStretch stretch;
   std::vector<double> whole;
   double of_channels = 0.0;
-  for (const auto& [span, of_span] : by_span) {
-    std::vector<double> along;
-    for (const std::size_t i : of_span) add_travel(pieces[i].reads, travel, along);
+  for (const StretchChannel* channel : channels) {
+    std::vector<double> along = travels_in(*channel, travel);
     stretch.reads += static_cast<float>(along.size());
     whole.insert(whole.end(), along.begin(), along.end());
     of_channels += independent_samples(thinned_out(std::move(along)), wavelength);
-    stretch.channels.push_back(of_span);
+    stretch.channels.push_back(channel->sum);
   }
   // Channels that were read at the same places see the same reflections.
-  const double all = by_span.size() == 1
+  const double all = channels.size() == 1
                          ? of_channels
                          : independent_samples(thinned_out(std::move(whole)), wavelength);
-  const double offsets = static_cast<double>(by_span.size());
+  const double offsets = static_cast<double>(channels.size());
   stretch.freedom =
       static_cast<float>(std::max(0.0, of_channels - offsets) * std::min(1.0, all / of_channels));
   return stretch;
 }
 
-std::vector<CoherentStretch> stretches_of(const std::vector<Piece>& pieces,
+std::vector<CoherentStretch> stretches_of(const std::vector<StretchChannel>& channels,
                                           const Eigen::ArrayXd& travel, double wavelength,
-                                          std::int64_t pieces_each, const Parts& parts) {
-  std::map<std::pair<std::string, std::int64_t>, std::vector<std::size_t>> numbers;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    numbers[{pieces[i].antenna, pieces[i].number / pieces_each}].push_back(i);
-  }
+                                          const Parts& parts) {
+  std::map<std::pair<std::string, std::int64_t>, std::vector<const StretchChannel*>> numbers;
+  for (const StretchChannel& one : channels) numbers[{one.antenna, one.number}].push_back(&one);
   std::vector<CoherentStretch> stretches;
   for (const auto& [key, of_stretch] : numbers) {
-    CoherentStretch stretch = stretch_of(pieces, of_stretch, travel, wavelength);
-    stretch.part = parts.of(pieces[of_stretch.front()].reads.begin);
+    CoherentStretch stretch = stretch_of(of_stretch, travel, wavelength);
+    stretch.part = parts.of(of_stretch.front()->pieces.front().begin);
     if (stretch.freedom > 0.0f) stretches.push_back(std::move(stretch));
   }
   return stretches;
 }
 
+/// Those of the pieces, and on from two to two.
+std::vector<PieceSums> all_sums(const StretchedReads& reads,
+                                const std::vector<PieceSums>& of_pieces) {
+  std::vector<PieceSums> sums = of_pieces;
+  sums.reserve(of_pieces.size() + reads.pairs.size());
+  for (const auto& [one, other] : reads.pairs) {
+    PieceSums both = sums[one];
+    both.waves.in_phase += sums[other].waves.in_phase;
+    both.waves.quadrature += sums[other].waves.quadrature;
+    both.reads += sums[other].reads;
+    sums.push_back(both);
+  }
+  return sums;
+}
+
 /// −f ln(1 − the share of the power that adds up), of the reads that count.
-Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>& of_pieces) {
+Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>& sums) {
   Tile power = Tile::Zero();
   Tile reads = Tile::Zero();
-  for (const auto& channel : stretch.channels) {
-    PieceSums sum;
-    for (const std::size_t piece : channel) {
-      sum.waves.in_phase += of_pieces[piece].waves.in_phase;
-      sum.waves.quadrature += of_pieces[piece].waves.quadrature;
-      sum.reads += of_pieces[piece].reads;
-    }
+  for (const std::size_t channel : stretch.channels) {
+    const PieceSums& sum = sums[channel];
     power += (sum.waves.in_phase.square() + sum.waves.quadrature.square()) / sum.reads.max(1.0f);
     reads += sum.reads;
   }
@@ -155,15 +202,13 @@ Tile likelihood_of(const CoherentStretch& stretch, const std::vector<PieceSums>&
 }
 
 /// Likewise, as if only `left` of each read's power were noise.
-Tile likelihood_with(const CoherentStretch& stretch, const std::vector<PieceSums>& of_pieces,
+Tile likelihood_with(const CoherentStretch& stretch, const std::vector<PieceSums>& sums,
                      float left) {
   Tile offsets = Tile::Zero();
   Tile reads = Tile::Zero();
-  for (const auto& channel : stretch.channels) {
-    Tile of_channel = Tile::Zero();
-    for (const std::size_t piece : channel) of_channel += of_pieces[piece].reads;
-    offsets += of_channel.min(1.0f);
-    reads += of_channel;
+  for (const std::size_t channel : stretch.channels) {
+    offsets += sums[channel].reads.min(1.0f);
+    reads += sums[channel].reads;
   }
   const Tile freedom = stretch.freedom / stretch.reads * reads;
   return -freedom * (left * (1.0f - offsets / reads.max(1.0f))).max(kLeastLeft).log();
@@ -188,8 +233,9 @@ template <class OfStretch>
 Tile mean_over_lengths(const StretchedReads& reads, const StretchChoice& choice,
                        const OfStretch& of_stretch) {
   Tile sum = Tile::Zero();
-  for (const CoherentStretch* stretch : chosen_stretches(reads, choice))
+  for (const CoherentStretch* stretch : chosen_stretches(reads, choice)) {
     sum += of_stretch(*stretch);
+  }
   return mean_over_lengths(choice, sum);
 }
 
@@ -206,31 +252,33 @@ StretchedReads stretched_reads(const TagPhases& phases, double wavelength, doubl
   const Parts parts(phases);
   all.reads.apertures.reserve(pieces.size());
   for (const Piece& piece : pieces) all.reads.apertures.push_back(piece.reads);
-  for (int k = 0; k < kStretchLengths; ++k) {
-    all.stretches[static_cast<std::size_t>(k)] =
-        stretches_of(pieces, travel, wavelength, std::int64_t{1} << k, parts);
+  std::vector<StretchChannel> channels = shortest_channels(pieces);
+  for (std::size_t k = 0; k < kStretchLengths; ++k) {
+    if (k > 0) channels = twice_as_long(channels, all);
+    all.stretches[k] = stretches_of(channels, travel, wavelength, parts);
   }
   return all;
 }
 
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice, const Tile& x,
                         const Tile& y, const Tile& z) {
-  const Tile sum = stretch_sums(reads.reads, chosen_stretches(reads, choice), x, y, z);
+  const Tile sum = stretch_sums(reads, chosen_stretches(reads, choice), x, y, z);
   return mean_over_lengths(choice, sum);
 }
 
 Tile stretch_likelihood(const StretchedReads& reads, const StretchChoice& choice,
                         const std::vector<PieceSums>& of_pieces) {
-  return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
-    return likelihood_of(stretch, of_pieces);
-  });
+  const std::vector<PieceSums> sums = all_sums(reads, of_pieces);
+  return mean_over_lengths(
+      reads, choice, [&](const CoherentStretch& stretch) { return likelihood_of(stretch, sums); });
 }
 
 Tile likelihood_of_noise(const StretchedReads& reads, const StretchChoice& choice,
                          const std::vector<PieceSums>& of_pieces, double noise_rad) {
   const auto left = static_cast<float>(-std::expm1(-noise_rad * noise_rad));
+  const std::vector<PieceSums> sums = all_sums(reads, of_pieces);
   return mean_over_lengths(reads, choice, [&](const CoherentStretch& stretch) {
-    return likelihood_with(stretch, of_pieces, left);
+    return likelihood_with(stretch, sums, left);
   });
 }
 

@@ -34,17 +34,19 @@ inline constexpr StretchChoice kForPlaces{1, kStretchLengths - 1};
 
 /// One antenna on a piece of its way.
 struct CoherentStretch {
-  std::vector<std::vector<std::size_t>> channels;  ///< Pieces that share an offset.
+  std::vector<std::size_t> channels;  ///< Sums of waves that share an offset.
   float reads = 0.0f;
   /// Independent samples of the field, less one for each offset; at least 0.
   float freedom = 0.0f;
   int part = 0;  ///< Of kWayParts, by time.
 };
 
-/// A tag's reads laid out for stretch_likelihood().
+/// A tag's reads laid out for stretch_likelihood(). Waves are added up by pieces, one channel on
+/// one of the shortest stretches each, and those on from two to two, as stretches grow: the first
+/// sums are of the pieces, in their order, and each further one is of two before it.
 struct StretchedReads {
-  SearchReads
-      reads;  ///< Its apertures are the pieces: one channel on one of the shortest stretches.
+  SearchReads reads;  ///< Its apertures are the pieces.
+  std::vector<std::array<std::size_t, 2>> pairs;
   std::array<std::vector<CoherentStretch>, kStretchLengths> stretches;
 };
 
