@@ -114,7 +114,7 @@ float light_of_tenth(const std::vector<GlancedBlock>& blocks) {
   constexpr std::size_t kBins = 4096;
   float most = 0.0f;
   for (const GlancedBlock& block : blocks) most = std::max(most, block.light.maxCoeff());
-  if (!(most > 0.0f)) return most;
+  if (!(most > 0.0f)) return std::nextafter(kOutOfReach, 0.0f);  // All that are in reach.
   const float bins_each = static_cast<float>(kBins - 1) / most;
   std::vector<std::uint32_t> counts(kBins, 0);
   std::size_t cells = 0;

@@ -3,6 +3,9 @@
 /// Reads by which holograms search, made up, for the tests of sums of waves.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "made_reads.h"
@@ -20,6 +23,24 @@ inline std::vector<SearchRead> search_reads(Rng& rng, std::size_t most) {
     read.height_squared = read.z * read.z;
   }
   return reads;
+}
+
+/// The same reads as apertures of one to nine, of which some have a known offset.
+inline SearchReads with_apertures(Rng& rng, std::vector<SearchRead> reads) {
+  SearchReads all;
+  all.reads = std::move(reads);
+  const auto count = static_cast<Eigen::Index>(all.reads.size());
+  for (Eigen::Index begin = 0; begin < count; begin += all.apertures.back().count) {
+    const auto length = static_cast<Eigen::Index>(1 + rng() % 9);
+    all.apertures.push_back({begin, std::min(length, count - begin), rng() % 3 == 0});
+  }
+  return all;
+}
+
+/// What an aperture adds to a place's amplitude.
+inline float amplitude(const Aperture& aperture, float in_phase, float quadrature) {
+  if (aperture.offset_known) return in_phase;
+  return std::sqrt(in_phase * in_phase + quadrature * quadrature);
 }
 
 }  // namespace tagfield::made

@@ -2,12 +2,14 @@
 #include "tagfield/localization/holograms/stretches.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <complex>
 #include <map>
 
 #include "made_reads.h"
 #include "tagfield/localization/holograms/likelihood_spread.h"
+#include "tagfield/localization/holograms/stretch_sums.h"
 
 namespace tagfield {
 namespace {
@@ -28,6 +30,26 @@ TEST(IndependentSamples, AreAsManyAsWavelengthsOnALongWay) {
   std::vector<double> along;
   for (int i = 0; i < 1000; ++i) along.push_back(0.1 * 0.3 * i);
   EXPECT_NEAR(independent_samples(along, 0.3), 100.0, 1.0);
+}
+
+RC_GTEST_PROP(IndependentSamples, AreThoseOfAllPairsInEachSetOfInstructions, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  std::vector<double> along(1 + rng() % 40);
+  for (double& place : along) place = uniform(rng, 0.0, 3.0);
+  const double wavelength = uniform(rng, 0.1, 0.4);
+  double pairs = 0.0;
+  for (const double a : along) {
+    for (const double b : along) {
+      const double angle = kPi * (a - b) / wavelength;
+      pairs += std::abs(angle) < 1e-6 ? 1.0 : std::pow(std::sin(angle) / angle, 2);
+    }
+  }
+  const auto count = static_cast<double>(along.size());
+  const double samples = independent_samples(along, wavelength);
+  RC_ASSERT(std::abs(samples - count * count / pairs) < 1e-9 * samples);
+  for (const InstructionSet set : instruction_sets()) {
+    RC_ASSERT(independent_samples(along, wavelength, set) == samples);
+  }
 }
 
 /// Two channels in turns of a second, one antenna.
@@ -103,6 +125,25 @@ TEST(StretchLikelihood, IsThatOfTheDefinition) {
       const double expected = by_hand(phases, p, length, lambda);
       EXPECT_NEAR(static_cast<double>(told[0]), expected, 0.01 * expected + 0.05) << k;
     }
+  }
+}
+
+TEST(StretchLikelihood, IsTheSameBitsInEachSetOfInstructions) {
+  Rng rng(4);
+  const Eigen::Vector3d p_WT(3.1, 1.7, 0.9);
+  const TagPhases phases = two_channels(straight(6.0, 0.06), p_WT, rng);
+  const StretchedReads reads = stretched_reads(phases, 0.346, p_WT.z(), p_WT.head<2>());
+  std::vector<const CoherentStretch*> some;
+  for (const auto& of_length : reads.stretches) {
+    for (std::size_t i = 0; i < of_length.size(); i += 2) some.push_back(&of_length[i]);
+  }
+  ASSERT_FALSE(some.empty());
+  Tile x;
+  for (float& place : x) place = static_cast<float>(uniform(rng, -1.0, 1.0));
+  const Tile z = 0.2f * x;
+  const Tile all = stretch_sums(reads, some, x, x, z, InstructionSet::kBaseline);
+  for (const InstructionSet set : instruction_sets()) {
+    EXPECT_TRUE((stretch_sums(reads, some, x, x, z, set) == all).all());
   }
 }
 

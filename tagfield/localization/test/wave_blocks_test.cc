@@ -110,5 +110,21 @@ RC_GTEST_PROP(WaveBlocks, AreTheSameBitsInEachSetOfInstructions, ()) {
   RC_ASSERT((sums.quadrature == others.quadrature).all());
 }
 
+RC_GTEST_PROP(WaveBlocks, AmplitudesAreThoseOfEachAperture, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const SearchReads reads = made::with_apertures(rng, made::search_reads(rng, 80));
+  const CellBlock block = some_block(rng);
+  BlockLight expected = BlockLight::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    const BlockSums sums = block_sums(&reads.reads[static_cast<std::size_t>(aperture.begin)],
+                                      static_cast<std::size_t>(aperture.count), block);
+    for (Eigen::Index k = 0; k < expected.size(); ++k) {
+      expected(k) += made::amplitude(aperture, sums.in_phase(k), sums.quadrature(k));
+    }
+  }
+  const InstructionSet set = *rc::gen::elementOf(instruction_sets());
+  RC_ASSERT((block_amplitudes(reads, block, set) == expected).all());
+}
+
 }  // namespace
 }  // namespace tagfield

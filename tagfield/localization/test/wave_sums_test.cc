@@ -73,5 +73,29 @@ RC_GTEST_PROP(WaveSums, AreThoseOfTheAngles, ()) {
   }
 }
 
+RC_GTEST_PROP(WaveSums, AmplitudesAreThoseOfEachAperture, ()) {
+  made::Rng rng(*rc::gen::arbitrary<std::uint32_t>());
+  const SearchReads reads = made::with_apertures(rng, made::search_reads(rng, 40));
+  const Tile x = some_places(rng, 12.0);
+  const Tile y = some_places(rng, 12.0);
+  const Tile z = some_places(rng, 2.0);
+  const InstructionSet set = *rc::gen::elementOf(instruction_sets());
+  Tile on_plane = Tile::Zero();
+  Tile in_space = Tile::Zero();
+  for (const Aperture& aperture : reads.apertures) {
+    const SearchRead* const first = &reads.reads[static_cast<std::size_t>(aperture.begin)];
+    const auto count = static_cast<std::size_t>(aperture.count);
+    const auto added = [&](const WaveSums& sums, Tile& all) {
+      for (int k = 0; k < kTile; ++k) {
+        all[k] += made::amplitude(aperture, sums.in_phase[k], sums.quadrature[k]);
+      }
+    };
+    added(wave_sums(first, count, x, y), on_plane);
+    added(wave_sums(first, count, x, y, z), in_space);
+  }
+  RC_ASSERT((wave_amplitudes(reads, x, y, set) == on_plane).all());
+  RC_ASSERT((wave_amplitudes(reads, x, y, z, set) == in_space).all());
+}
+
 }  // namespace
 }  // namespace tagfield
