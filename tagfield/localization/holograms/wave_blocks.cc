@@ -108,8 +108,7 @@ inline void sum_up(const SearchRead* reads, std::size_t count, const CellBlock& 
 BlockSums block_sums(const SearchRead* reads, std::size_t count, const CellBlock& block,
                      InstructionSet set) {
   BlockSums sums;
-  in_lanes(set,
-           [&] { sum_up(reads, count, block, sums.in_phase.data(), sums.quadrature.data()); });
+  in_lanes(set, [&] { sum_up(reads, count, block, sums.in_phase.data(), sums.quadrature.data()); });
   return sums;
 }
 
