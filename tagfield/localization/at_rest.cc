@@ -193,21 +193,21 @@ bool is_possible(const Followed& of, const Unknowns& unknowns) {
 }
 
 /// ln of the likelihood of a place (stretches.h), with the antennas where a departure puts them.
-/// The way is cut as it was believed, so that likelihoods can be compared.
-double log_likelihood(const Followed& of, const Unknowns& unknowns) {
+/// The way is cut as it was believed, so that likelihoods can be compared: `layout` is that of the
+/// wrapped phases, about any place.
+double log_likelihood(const Followed& of, const Unknowns& unknowns, StretchedReads& layout) {
   const Eigen::Vector3d p_WT = to_place(of.height, unknowns.head<3>());
-  StretchedReads reads = stretched_reads(of.wrapped, of.wavelength, p_WT.z(), p_WT.head<2>());
   for (const TagPhases::Span& span : of.wrapped.spans) {
     for (Index i = span.begin; i < span.begin + span.count; ++i) {
       const Eigen::Vector3d p_TA = antenna_at(of, span, i, unknowns.tail<2>()) - p_WT;
-      SearchRead& read = reads.reads.reads[static_cast<std::size_t>(i)];
+      SearchRead& read = layout.reads.reads[static_cast<std::size_t>(i)];
       read.x = static_cast<float>(p_TA.x());
       read.y = static_cast<float>(p_TA.y());
       read.z = static_cast<float>(p_TA.z());
     }
   }
   const Tile here = Tile::Zero();
-  return static_cast<double>(stretch_likelihood(reads, kForPlaces, here, here, here)[0]);
+  return static_cast<double>(stretch_likelihood(layout, kForPlaces, here, here, here)[0]);
 }
 
 /// xᵀ C⁻¹ x.
@@ -305,14 +305,16 @@ double slow_variance(const TagPhases& phases, const Eigen::ArrayXd& errors) {
 
 /// By how much a departure is likelier than the likeliest place near `start` without one.
 double log_gain_of(const Followed& of, const PlaceVector& start, const Unknowns& departed) {
+  StretchedReads layout =
+      stretched_reads(of.wrapped, of.wavelength, of.height.z, Eigen::Vector2d::Zero());
   const auto at_rest = [&](const PlaceVector& place) {
     Unknowns unknowns = Unknowns::Zero();
     unknowns.head<3>() = place;
-    return log_likelihood(of, unknowns);
+    return log_likelihood(of, unknowns, layout);
   };
   const std::vector<Aperture> parts = apertures(of.wrapped, kClimbedOver * of.wavelength);
   const PlaceVector top = climb(of.wrapped, parts, of.height, start);
-  return log_likelihood(of, departed) - std::max(at_rest(start), at_rest(top));
+  return log_likelihood(of, departed, layout) - std::max(at_rest(start), at_rest(top));
 }
 
 /// None where much is left: other slow errors look like a departure, but none explains them whole.

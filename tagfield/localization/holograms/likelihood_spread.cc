@@ -40,9 +40,20 @@ std::vector<Vector3d> places_of(const Box& box) {
   return places;
 }
 
-LikelihoodSpread over(const LogLikelihood& likelihood, const Box& box) {
+/// Fine enough for lobes of a twentieth of a wavelength, of which the first box has many.
+Box first_about(const Vector3d& start, bool level) {
+  const Eigen::Array3i cells = level ? Eigen::Array3i(91, 91, 1) : Eigen::Array3i(31, 31, 15);
+  return {start, {kFirstHalf, kFirstHalf, level ? 0.0 : kFirstHalf}, cells};
+}
+
+std::vector<double> tempered(std::vector<double> logs, double doubt) {
+  for (double& log : logs) log /= doubt;
+  return logs;
+}
+
+/// By the logarithms at each of a box's cells.
+LikelihoodSpread over(const Box& box, const std::vector<double>& logs) {
   const std::vector<Vector3d> places = places_of(box);
-  const std::vector<double> logs = by_tiles(places, likelihood);
   LikelihoodSpread spread;
   spread.log_peak = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
@@ -69,20 +80,22 @@ LikelihoodSpread over(const LogLikelihood& likelihood, const Box& box) {
 
 }  // namespace
 
-LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const Vector3d& start,
-                                   bool level) {
-  // Fine enough for lobes of a twentieth of a wavelength, of which the first box has many.
-  const Eigen::Array3i first = level ? Eigen::Array3i(91, 91, 1) : Eigen::Array3i(31, 31, 15);
-  const Eigen::Array3i next = level ? Eigen::Array3i(31, 31, 1) : Eigen::Array3i(15, 15, 15);
-  Box box{start, {kFirstHalf, kFirstHalf, level ? 0.0 : kFirstHalf}, first};
-  LikelihoodSpread spread = over(likelihood, box);
+FirstBox first_box(const LogLikelihood& likelihood, const Vector3d& start, bool level) {
+  return {start, level, by_tiles(places_of(first_about(start, level)), likelihood)};
+}
+
+LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const FirstBox& first,
+                                   double doubt) {
+  const Eigen::Array3i next = first.level ? Eigen::Array3i(31, 31, 1) : Eigen::Array3i(15, 15, 15);
+  Box box = first_about(first.start, first.level);
+  LikelihoodSpread spread = over(box, tempered(first.logs, doubt));
   for (int i = 1; i < kMostBoxes; ++i) {
     const Vector3d deviation = spread.covariance.diagonal().cwiseSqrt();
     const Vector3d half = (kHalfSide * deviation).cwiseMax(kLeastHalf).cwiseMin(box.half);
     if ((half.head<2>().array() > 0.4 * box.half.head<2>().array()).all()) break;
     box = {spread.mean, half, next};
-    if (level) box.half.z() = 0.0;
-    spread = over(likelihood, box);
+    if (first.level) box.half.z() = 0.0;
+    spread = over(box, tempered(by_tiles(places_of(box), likelihood), doubt));
   }
   return spread;
 }
@@ -103,13 +116,6 @@ std::vector<double> greatest_about(const LikelihoodSpread& spread, double deviat
     greatest.push_back(*std::max_element(logs.begin(), logs.end()));
   }
   return greatest;
-}
-
-LogLikelihood tempered(const LogLikelihood& likelihood, double by) {
-  return [likelihood, factor = static_cast<float>(1.0 / by)](const Tile& x, const Tile& y,
-                                                             const Tile& z) -> Tile {
-    return factor * likelihood(x, y, z);
-  };
 }
 
 }  // namespace tagfield

@@ -22,17 +22,23 @@ struct LikelihoodSpread {
   double log_mass = 0.0;                                 ///< and of its integral.
 };
 
-/// The box is ±0.45 m about `start`, and then of four and a half standard deviations about the
-/// mean, again and again until these are at least as wide as a cell. `level`: z stays as it is.
-LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const Eigen::Vector3d& start,
-                                   bool level);
+/// A likelihood over the box ±0.45 m about a place, from which its spread is found.
+struct FirstBox {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m]
+  bool level = false;                               ///< z stays as it is.
+  std::vector<double> logs;                         ///< ln of the likelihood at each cell.
+};
+FirstBox first_box(const LogLikelihood& likelihood, const Eigen::Vector3d& start, bool level);
+
+/// Of the likelihood taken to the power of 1/`doubt`, `doubt` ≥ 1, over its first box, and then
+/// over boxes of four and a half standard deviations about the mean, again and again until these
+/// are at least as wide as a cell.
+LikelihoodSpread likelihood_spread(const LogLikelihood& likelihood, const FirstBox& first,
+                                   double doubt = 1.0);
 
 /// The greatest of each likelihood over the box of so many standard deviations of `spread` about
 /// its mean, at least 1 cm to each side.
 std::vector<double> greatest_about(const LikelihoodSpread& spread, double deviations,
                                    const std::vector<LogLikelihood>& likelihoods);
-
-/// The same with the likelihood taken to the power of 1/`by` ≥ 1.
-LogLikelihood tempered(const LogLikelihood& likelihood, double by);
 
 }  // namespace tagfield

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/likelihood_spread.h"
@@ -92,15 +93,26 @@ double disagreement(const RobustSearch& search, LikelihoodSpread spread) {
   return 2.0 * gained / (unknowns * (kWayParts - 1));
 }
 
-/// How the likelihood, taken to the power of 1/`doubt`, spreads about `p`.
-LikelihoodSpread spread_about(const RobustSearch& search, const Vector3d& p, double doubt) {
-  const bool level = search.height.kind == HeightModel::Kind::kKnown;
-  const Vector3d origin = origin_of(search);
-  LikelihoodSpread spread =
-      likelihood_spread(tempered(likelihood_of(search, kWholeWay), doubt), p - origin, level);
-  spread.mean += origin;
-  return spread;
-}
+/// The likelihood about each of some places, once it is asked for.
+class FirstBoxes {
+ public:
+  FirstBoxes(const RobustSearch& search, const std::vector<Vector3d>& places)
+      : search_(search), places_(places), boxes_(places.size()) {}
+  const FirstBox& about(std::size_t number) {
+    std::optional<FirstBox>& box = boxes_[number];
+    if (!box) {
+      const bool level = search_.height.kind == HeightModel::Kind::kKnown;
+      box =
+          first_box(likelihood_of(search_, kWholeWay), places_[number] - origin_of(search_), level);
+    }
+    return *box;
+  }
+
+ private:
+  const RobustSearch& search_;
+  const std::vector<Vector3d>& places_;
+  std::vector<std::optional<FirstBox>> boxes_;
+};
 
 bool is_new(const std::vector<LikelihoodSpread>& all, const Vector3d& p) {
   return std::all_of(all.begin(), all.end(), [&](const LikelihoodSpread& other) {
@@ -108,12 +120,16 @@ bool is_new(const std::vector<LikelihoodSpread>& all, const Vector3d& p) {
   });
 }
 
-/// One for all places that are near each other, the most probable first.
+/// How the likelihood, taken to the power of 1/`doubt`, spreads about the places, one for all that
+/// are near each other, the most probable first.
 std::vector<LikelihoodSpread> distinct(const RobustSearch& search,
-                                       const std::vector<Vector3d>& places, double doubt) {
+                                       const std::vector<Vector3d>& places, double doubt,
+                                       FirstBoxes& boxes) {
   std::vector<LikelihoodSpread> all;
-  for (const Vector3d& p : places) {
-    if (is_new(all, p)) all.push_back(spread_about(search, p, doubt));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!is_new(all, places[i])) continue;
+    all.push_back(likelihood_spread(likelihood_of(search, kWholeWay), boxes.about(i), doubt));
+    all.back().mean += origin_of(search);
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.log_mass > b.log_mass; });
@@ -127,10 +143,11 @@ std::vector<LikelihoodSpread> distinct(const RobustSearch& search,
 /// More widely where parts of the way disagree at the most probable place.
 std::vector<LikelihoodSpread> doubted(const RobustSearch& search,
                                       const std::vector<Vector3d>& places) {
-  std::vector<LikelihoodSpread> spreads = distinct(search, places, 1.0);
+  FirstBoxes boxes(search, places);
+  std::vector<LikelihoodSpread> spreads = distinct(search, places, 1.0, boxes);
   if (spreads.empty()) return spreads;
   const double doubt = disagreement(search, spreads.front());
-  return doubt > 1.0 ? distinct(search, places, doubt) : spreads;
+  return doubt > 1.0 ? distinct(search, places, doubt, boxes) : spreads;
 }
 
 /// What the likelihood does not know of: the shift, and a told pose error, which is slower than

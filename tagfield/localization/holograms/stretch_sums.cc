@@ -58,15 +58,17 @@ inline void add(const LaneSums& one, const LaneSums& other, LaneSums& both) {
 
 inline void add_stretch(const CoherentStretch& stretch, const float* reads, const LaneSums* sums,
                         float* likelihood) {
-  float share[kWaveLanes] = {};
+  LaneRow shares = {};
   for (const std::size_t channel : stretch.channels) {
-    const LaneSums& sum = sums[channel];
+    LaneRow in_phase;
+    LaneRow quadrature;
+    load(sums[channel].in_phase, in_phase);
+    load(sums[channel].quadrature, quadrature);
     const float each = 1.0f / (reads[channel] * stretch.reads);
-    for (int k = 0; k < kWaveLanes; ++k) {
-      share[k] +=
-          each * (sum.in_phase[k] * sum.in_phase[k] + sum.quadrature[k] * sum.quadrature[k]);
-    }
+    shares += each * (in_phase * in_phase + quadrature * quadrature);
   }
+  float share[kWaveLanes];
+  store(shares, share);
   for (int k = 0; k < kWaveLanes; ++k) {
     const float left = std::max(1.0f - share[k], kLeastLeft);
     likelihood[k] -= stretch.freedom * lane_log(left);
@@ -84,9 +86,9 @@ Tile stretch_sums(const StretchedReads& reads, const std::vector<const CoherentS
   in_lanes(set, [&] {
     for (int first = 0; first < kTile; first += kWaveLanes) {
       for (const std::size_t i : in_use.pieces) {
-        add_waves(reads.reads.reads.data() + pieces[i].begin,
-                  static_cast<std::size_t>(pieces[i].count), x.data() + first, y.data() + first,
-                  z.data() + first, sums[i].in_phase, sums[i].quadrature);
+        add_waves<true>(reads.reads.reads.data() + pieces[i].begin,
+                        static_cast<std::size_t>(pieces[i].count), x.data() + first,
+                        y.data() + first, z.data() + first, sums[i].in_phase, sums[i].quadrature);
       }
       for (const std::size_t i : in_use.pairs) {
         add(sums[reads.pairs[i][0]], sums[reads.pairs[i][1]], sums[pieces.size() + i]);

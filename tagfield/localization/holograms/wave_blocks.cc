@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "tagfield/base/lanes.h"
+#include "tagfield/localization/holograms/wave_lanes.h"
 
 namespace tagfield {
 namespace {
 
 constexpr int kRows = 4;
-static_assert(kBlock % kRows == 0);
+static_assert(kBlock % kRows == 0 && kBlock == kWaveLanes);
 constexpr std::size_t kAtOnce = 32;  ///< Reads whose waves are kept.
 
 /// A read's waves along the block's middle row, and what turns them on to the other rows. The third
@@ -46,16 +46,11 @@ inline void make_waves(const SearchRead& read, const CellBlock& block, BlockWave
   }
 }
 
-/// A block's row, which compilers keep in as few registers as it takes.
-using Row = float __attribute__((vector_size(kBlock * sizeof(float))));
-
-inline void load(const float* from, Row& row) { std::memcpy(&row, from, sizeof row); }
-
 /// Of kRows rows from `row` on, whose sums stay in registers.
 inline void add_products(const BlockWaves* waves, std::size_t count, int row, ProductSums& all) {
-  Row cosines[kRows];
-  Row sines[kRows];
-  Row both[kRows];
+  LaneRow cosines[kRows];
+  LaneRow sines[kRows];
+  LaneRow both[kRows];
   for (int j = 0; j < kRows; ++j) {
     load(all.cosines[row + j], cosines[j]);
     load(all.sines[row + j], sines[j]);
@@ -63,9 +58,9 @@ inline void add_products(const BlockWaves* waves, std::size_t count, int row, Pr
   }
   for (std::size_t i = 0; i < count; ++i) {
     const BlockWaves& of = waves[i];
-    Row cosine;
-    Row sine;
-    Row sum;
+    LaneRow cosine;
+    LaneRow sine;
+    LaneRow sum;
     load(of.cosine, cosine);
     load(of.sine, sine);
     load(of.both, sum);
@@ -77,9 +72,9 @@ inline void add_products(const BlockWaves* waves, std::size_t count, int row, Pr
     }
   }
   for (int j = 0; j < kRows; ++j) {
-    std::memcpy(all.cosines[row + j], &cosines[j], sizeof(Row));
-    std::memcpy(all.sines[row + j], &sines[j], sizeof(Row));
-    std::memcpy(all.both[row + j], &both[j], sizeof(Row));
+    store(cosines[j], all.cosines[row + j]);
+    store(sines[j], all.sines[row + j]);
+    store(both[j], all.both[row + j]);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "tagfield/localization/holograms/wave_sums.h"
 
@@ -14,8 +15,15 @@ namespace tagfield {
 inline constexpr int kWaveLanes = 16;
 static_assert(kTile % kWaveLanes == 0);
 
-/// Σ cos and Σ sin of the residuals of `count` reads, as WaveSums has them. `z` is null for places
-/// of the plane.
+/// A row of such places, which compilers keep in as few registers as it takes.
+using LaneRow = float __attribute__((vector_size(kWaveLanes * sizeof(float))));
+
+inline void load(const float* from, LaneRow& row) { std::memcpy(&row, from, sizeof row); }
+inline void store(const LaneRow& row, float* to) { std::memcpy(to, &row, sizeof row); }
+
+/// Σ cos and Σ sin of the residuals of `count` reads, as WaveSums has them. `z` is not looked at
+/// for places of the plane.
+template <bool in_space>
 inline void add_waves(const SearchRead* reads, std::size_t count, const float* x, const float* y,
                       const float* z, float* in_phase, float* quadrature) {
   float cosines[kWaveLanes] = {};
@@ -25,8 +33,8 @@ inline void add_waves(const SearchRead* reads, std::size_t count, const float* x
     for (int k = 0; k < kWaveLanes; ++k) {
       const float dx = x[k] - read.x;
       const float dy = y[k] - read.y;
-      const float dz = z != nullptr ? z[k] - read.z : 0.0f;
-      const float rest = z != nullptr ? dz * dz : read.height_squared;
+      float rest = read.height_squared;
+      if constexpr (in_space) rest = (z[k] - read.z) * (z[k] - read.z);
       const float turns = read.turns - read.turns_per_metre * std::sqrt(dx * dx + dy * dy + rest);
       float cosine = 0.0f;
       float sine = 0.0f;

@@ -10,14 +10,15 @@ namespace tagfield {
 namespace {
 
 /// Of kWaveLanes places.
+template <bool in_space>
 inline void add_amplitudes(const SearchReads& reads, const float* x, const float* y, const float* z,
                            float* sum) {
   float amplitudes[kWaveLanes] = {};
   for (const Aperture& aperture : reads.apertures) {
     float in_phase[kWaveLanes];
     float quadrature[kWaveLanes];
-    add_waves(reads.reads.data() + aperture.begin, static_cast<std::size_t>(aperture.count), x, y,
-              z, in_phase, quadrature);
+    add_waves<in_space>(reads.reads.data() + aperture.begin,
+                        static_cast<std::size_t>(aperture.count), x, y, z, in_phase, quadrature);
     if (aperture.offset_known) {
       for (int k = 0; k < kWaveLanes; ++k) amplitudes[k] += in_phase[k];
     } else {
@@ -36,8 +37,8 @@ WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, co
   WaveSums sums;
   in_lanes(set, [&] {
     for (int k = 0; k < kTile; k += kWaveLanes) {
-      add_waves(reads, count, x.data() + k, y.data() + k, nullptr, sums.in_phase.data() + k,
-                sums.quadrature.data() + k);
+      add_waves<false>(reads, count, x.data() + k, y.data() + k, nullptr, sums.in_phase.data() + k,
+                       sums.quadrature.data() + k);
     }
   });
   return sums;
@@ -48,8 +49,8 @@ WaveSums wave_sums(const SearchRead* reads, std::size_t count, const Tile& x, co
   WaveSums sums;
   in_lanes(set, [&] {
     for (int k = 0; k < kTile; k += kWaveLanes) {
-      add_waves(reads, count, x.data() + k, y.data() + k, z.data() + k, sums.in_phase.data() + k,
-                sums.quadrature.data() + k);
+      add_waves<true>(reads, count, x.data() + k, y.data() + k, z.data() + k,
+                      sums.in_phase.data() + k, sums.quadrature.data() + k);
     }
   });
   return sums;
@@ -59,7 +60,7 @@ Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y, Ins
   Tile sums;
   in_lanes(set, [&] {
     for (int k = 0; k < kTile; k += kWaveLanes) {
-      add_amplitudes(reads, x.data() + k, y.data() + k, nullptr, sums.data() + k);
+      add_amplitudes<false>(reads, x.data() + k, y.data() + k, nullptr, sums.data() + k);
     }
   });
   return sums;
@@ -70,7 +71,7 @@ Tile wave_amplitudes(const SearchReads& reads, const Tile& x, const Tile& y, con
   Tile sums;
   in_lanes(set, [&] {
     for (int k = 0; k < kTile; k += kWaveLanes) {
-      add_amplitudes(reads, x.data() + k, y.data() + k, z.data() + k, sums.data() + k);
+      add_amplitudes<true>(reads, x.data() + k, y.data() + k, z.data() + k, sums.data() + k);
     }
   });
   return sums;

@@ -196,10 +196,14 @@ LogLikelihood two_hills(double apart, double sigma) {
   };
 }
 
+LikelihoodSpread spread_about(const Eigen::Vector3d& start, bool level,
+                              const LogLikelihood& likelihood, double doubt = 1.0) {
+  return likelihood_spread(likelihood, first_box(likelihood, start, level), doubt);
+}
+
 TEST(LikelihoodSpread, IsThatOfANormalDensity) {
   for (const double sigma : {0.002, 0.01, 0.08}) {
-    const LikelihoodSpread spread =
-        likelihood_spread(two_hills(0.0, sigma), {0.03, -0.02, 0.0}, true);
+    const LikelihoodSpread spread = spread_about({0.03, -0.02, 0.0}, true, two_hills(0.0, sigma));
     EXPECT_LT(spread.mean.norm(), 0.05 * sigma) << sigma;
     EXPECT_NEAR(spread.covariance(0, 0), sigma * sigma, 0.06 * sigma * sigma) << sigma;
     EXPECT_NEAR(spread.covariance(1, 1), sigma * sigma, 0.06 * sigma * sigma) << sigma;
@@ -212,19 +216,18 @@ TEST(LikelihoodSpread, IsThatOfANormalDensity) {
 TEST(LikelihoodSpread, SpansTwoHillsAndTheThirdAxis) {
   const double apart = 0.09;
   const double sigma = 0.02;
-  const LikelihoodSpread spread =
-      likelihood_spread(two_hills(apart, sigma), {0.05, 0.0, 0.02}, false);
+  const LikelihoodSpread spread = spread_about({0.05, 0.0, 0.02}, false, two_hills(apart, sigma));
   EXPECT_LT(spread.mean.norm(), 0.005);
   EXPECT_NEAR(std::sqrt(spread.covariance(0, 0)), std::hypot(apart, sigma), 0.005);
   EXPECT_NEAR(std::sqrt(spread.covariance(2, 2)), sigma, 0.006);
 }
 
 TEST(LikelihoodSpread, WidensByTheRootOfWhatItIsTemperedBy) {
-  const LogLikelihood likelihood = tempered(two_hills(0.0, 0.02), 4.0);
-  const LikelihoodSpread spread = likelihood_spread(likelihood, {0.0, 0.0, 0.0}, true);
+  const LogLikelihood likelihood = two_hills(0.0, 0.02);
+  const LikelihoodSpread spread = spread_about({0.0, 0.0, 0.0}, true, likelihood, 4.0);
   EXPECT_NEAR(std::sqrt(spread.covariance(0, 0)), 0.04, 0.002);
   const double peak = greatest_about(spread, 3.0, {likelihood}).at(0);
-  EXPECT_NEAR(peak, spread.log_peak, 0.02);
+  EXPECT_NEAR(peak / 4.0, spread.log_peak, 0.02);
 }
 
 TEST(StretchLikelihood, OfSumsMadeElsewhereIsTheSameAndFallsWithTheReadsThatCount) {
