@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -38,7 +39,6 @@ constexpr double kLeastSpeed = 1e-3;   ///< Below, no latency shows [m/s].
 
 /// A located tag that is asked.
 struct Witness {
-  std::size_t estimate = 0;
   TagPhases phases;
   StretchedReads layout;  ///< About the place; its antennas are put where a latency has them.
   Vector3d p_WT = Vector3d::Zero();
@@ -100,36 +100,50 @@ struct Travel {
 };
 
 /// By eighths of a circle: a tag is read on its way there and back.
-std::vector<Travel> travels_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
-                               double late_s) {
-  constexpr int kDirections = 8;
-  std::vector<Travel> by_direction(kDirections);
+constexpr int kDirections = 8;
+using TravelByDirection = std::array<Travel, kDirections>;
+
+void add_travel(Vector3d travel, TravelByDirection& travels) {
+  travel.z() = 0.0;
+  const double turns = std::atan2(travel.y(), travel.x()) / kTwoPi + 1.0;
+  Travel& of_direction =
+      travels[static_cast<std::size_t>(std::lround(turns * kDirections) % kDirections)];
+  of_direction.sum += travel;
+  ++of_direction.reads;
+}
+
+TravelByDirection travels_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
+                             double late_s) {
+  TravelByDirection travels;
   for (const auto& [antenna, series] : samples) {
     const auto track = problem.tracks.find(antenna);
     if (track == problem.tracks.end() || track->second.X_WA.empty()) continue;
     for (const PhaseSample& sample : series) {
-      Vector3d travel = sample.p_WA - antenna_before(problem, antenna, sample.stamp, late_s);
-      travel.z() = 0.0;
-      const double turns = std::atan2(travel.y(), travel.x()) / kTwoPi + 1.0;
-      Travel& of_direction =
-          by_direction[static_cast<std::size_t>(std::lround(turns * kDirections) % kDirections)];
-      of_direction.sum += travel;
-      ++of_direction.reads;
+      add_travel(sample.p_WA - antenna_before(problem, antenna, sample.stamp, late_s), travels);
     }
   }
-  return by_direction;
+  return travels;
 }
 
-/// Where a latency may move a tag's place to: against the antennas' travel in each direction in
-/// which a tenth of its reads were taken [m].
-std::vector<Vector3d> moves_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
-                               double late_s) {
+/// Likewise of a witness's reads, whose antennas have been moved.
+TravelByDirection travels_of(const Witness& witness) {
+  TravelByDirection travels;
+  const TagPhases& phases = witness.phases;
+  for (Index i = 0; i < phases.size(); ++i) {
+    const SearchRead& moved = witness.layout.reads.reads[static_cast<std::size_t>(i)];
+    const Vector3d p_TA = Vector3d(phases.x[i], phases.y[i], phases.z[i]) - witness.p_WT;
+    add_travel(p_TA - Vector3d(moved.x, moved.y, moved.z), travels);
+  }
+  return travels;
+}
+
+/// Where a latency, to which the antennas have been moved, may move a tag's place to: against their
+/// travel in each direction in which a tenth of its reads were taken [m].
+std::vector<Vector3d> moves_of(const Witness& witness, double late_s) {
   if (late_s == 0.0) return {Vector3d::Zero()};
-  const std::vector<Travel> travels = travels_of(problem, samples, late_s);
-  std::size_t reads = 0;
-  for (const Travel& travel : travels) reads += travel.reads;
+  const auto reads = static_cast<std::size_t>(witness.phases.size());
   std::vector<Vector3d> moves;
-  for (const Travel& travel : travels) {
+  for (const Travel& travel : travels_of(witness)) {
     if (travel.reads > 0 && 10 * travel.reads >= reads) moves.emplace_back(-travel.mean());
   }
   return moves;
@@ -166,11 +180,10 @@ LikelyMove likeliest_about(const Witness& witness, const Vector3d& middle, int s
 }
 
 /// ln of the likelihood of the best place within 0.2 m of where the latency may move a witness's.
-double log_likelihood_of(const LocalizationProblem& problem, const SamplesOfTag& samples,
-                         double late_s, Witness& witness) {
+double log_likelihood_of(const LocalizationProblem& problem, double late_s, Witness& witness) {
   move_antennas(problem, late_s, witness);
   LikelyMove best{Vector3d::Zero(), -std::numeric_limits<double>::infinity()};
-  for (const Vector3d& move : moves_of(problem, samples, late_s)) {
+  for (const Vector3d& move : moves_of(witness, late_s)) {
     const LikelyMove there = likeliest_about(witness, move, 10, 0.02);
     if (there.log_likelihood > best.log_likelihood) best = there;
   }
@@ -185,7 +198,7 @@ std::optional<Witness> witness_of(const LocalizationProblem& problem,
   const SamplesOfTag& samples = problem.samples.at(estimate.tag);
   const Vector3d& p_WT = estimate.candidates.front().p_WT;
   if (!leaves_slow_errors(problem, estimate.tag, samples, p_WT)) return std::nullopt;
-  Witness witness{index, thinned(coherent_reads(problem, samples), reads), {}, p_WT};
+  Witness witness{thinned(coherent_reads(problem, samples), reads), {}, p_WT};
   if (!have_tracks(problem, witness.phases)) return std::nullopt;
   const double wavelength = 2.0 * problem.multiple() * longest_cycle(witness.phases);
   witness.layout = stretched_reads(witness.phases, wavelength, p_WT.z(), p_WT.head<2>());
@@ -259,10 +272,8 @@ std::optional<double> latency_by(const LocalizationProblem& problem, int threads
   const std::vector<double> latencies = latencies_for(problem, witnesses);
   std::vector<std::vector<double>> log_likelihoods(witnesses.size());
   parallel_for(witnesses.size(), threads, [&](std::size_t i) {
-    const std::string& tag = result.estimates[witnesses[i].estimate].tag;
     for (const double late_s : latencies) {
-      log_likelihoods[i].push_back(
-          log_likelihood_of(problem, problem.samples.at(tag), late_s, witnesses[i]));
+      log_likelihoods[i].push_back(log_likelihood_of(problem, late_s, witnesses[i]));
     }
   });
   const CommonLatency best = likeliest_of(latencies, log_likelihoods);

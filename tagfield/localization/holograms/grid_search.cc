@@ -184,6 +184,7 @@ Cells first_cells(const Grid& grid, const PlaneInReach& in_reach, const GridGlan
   const BlockGrid blocks(grid, in_reach);
   if (!glances.at_blocks) return all_cells(blocks);
   Cells cells = bright_cells(blocks, grid.cell_m, glances);
+  if (!glances.at_cells) return cells;
   illuminate(glances.at_cells, grid.cell_m, cells);
   keep_brightest(cells);
   return cells;
@@ -247,6 +248,23 @@ std::vector<GridMaximum> apart(const Cells& maxima, double size, const Eigen::Ve
 }
 
 }  // namespace
+
+BlockLight light_of_block(const GridLevel& brightness, const CellBlock& block) {
+  constexpr Eigen::Index kColumns = kTile / kBlock;
+  static_assert(kTile % kBlock == 0 && kBlock % kColumns == 0);
+  BlockLight light;
+  for (Eigen::Index j = 0; j < kBlock; j += kColumns) {
+    Tile x;
+    Tile y;
+    for (Eigen::Index k = 0; k < kTile; ++k) {
+      const Eigen::Index row = j + k / kBlock;
+      x[k] = block.x + static_cast<float>(k % kBlock) * block.cell_m;
+      y[k] = block.y + static_cast<float>(row) * block.cell_m;
+    }
+    light.middleCols<kColumns>(j).reshaped() = brightness(x, y);
+  }
+  return light;
+}
 
 std::vector<GridMaximum> search_grid(const Grid& grid, const PlaneInReach& in_reach,
                                      const std::vector<GridLevel>& levels, std::size_t count,

@@ -70,8 +70,11 @@ using BlockLight = Eigen::Array<float, kBlock, kBlock>;
 struct GridGlances {
   /// About how bright the cells of a block are; empty where there are no glances.
   std::function<BlockLight(const CellBlock& block)> at_blocks;
-  GridLevel at_cells;  ///< By other reads, of the cells that are left.
+  GridLevel at_cells{};  ///< By other reads, of the cells that are left; empty for no second look.
 };
+
+/// The cells of a block, a tile at a time.
+BlockLight light_of_block(const GridLevel& brightness, const CellBlock& block);
 
 struct GridMaximum {
   Eigen::Vector2d p;  ///< [m]

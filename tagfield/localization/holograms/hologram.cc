@@ -38,25 +38,6 @@ std::size_t glance_reads(const TagPhases& phases) {
   return std::max(kOfOne, kOfEach * apertures(phases, kWholeAperture).size());
 }
 
-/// A block's cells, a tile at a time.
-BlockLight glance_in_tiles(const Brightness& brightness, const SearchReads& reads,
-                           const CellBlock& block) {
-  constexpr Eigen::Index kColumns = kTile / kBlock;
-  static_assert(kTile % kBlock == 0 && kBlock % kColumns == 0);
-  BlockLight light;
-  for (Eigen::Index j = 0; j < kBlock; j += kColumns) {
-    Tile x;
-    Tile y;
-    for (Eigen::Index k = 0; k < kTile; ++k) {
-      const Eigen::Index row = j + k / kBlock;
-      x[k] = block.x + static_cast<float>(k % kBlock) * block.cell_m;
-      y[k] = block.y + static_cast<float>(row) * block.cell_m;
-    }
-    light.middleCols<kColumns>(j).reshaped() = brightness.at(reads, x, y);
-  }
-  return light;
-}
-
 /// Two glances by reads that lie between each other's.
 GridGlances glances_by(const TagPhases& phases, double height, const Eigen::Vector2d& middle,
                        const Brightness& brightness) {
@@ -65,9 +46,10 @@ GridGlances glances_by(const TagPhases& phases, double height, const Eigen::Vect
     return search_reads(thinned(phases, count, between), kWholeAperture, height, middle);
   };
   GridGlances glances;
-  glances.at_blocks = [&brightness, some = reads(false)](const CellBlock& block) {
-    return brightness.at_a_glance ? brightness.at_a_glance(some, block)
-                                  : glance_in_tiles(brightness, some, block);
+  glances.at_blocks = [&brightness, some = reads(false)](const CellBlock& block) -> BlockLight {
+    if (brightness.at_a_glance) return brightness.at_a_glance(some, block);
+    return light_of_block([&](const Tile& x, const Tile& y) { return brightness.at(some, x, y); },
+                          block);
   };
   glances.at_cells = [&brightness, others = reads(true)](const Tile& x, const Tile& y) {
     return brightness.at(others, x, y);

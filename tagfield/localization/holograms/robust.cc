@@ -40,20 +40,28 @@ double wavelength_of(const LocalizationProblem& problem, const TagPhases& phases
   return 2.0 * problem.multiple() * longest_cycle(phases);
 }
 
-/// The best places at a height, with the plane's height.
-std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases& coarse, double z) {
+/// The best places at a height, with the plane's height. All cells are looked at by half of the
+/// reads, the best tenth of them by all.
+std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases& coarse,
+                                    const TagPhases& coarsest, double z) {
   const StretchedReads few = stretched_reads(coarse, search.wavelength, z, search.middle);
-  const auto level = [&](int first, int last) {
-    return [&few, choice = StretchChoice{first, last}](const Tile& x, const Tile& y) {
-      return stretch_likelihood(few, choice, x, y, Tile::Zero());
+  const StretchedReads fewest = stretched_reads(coarsest, search.wavelength, z, search.middle);
+  const auto level = [](const StretchedReads& reads, int first, int last) {
+    return [&reads, choice = StretchChoice{first, last}](const Tile& x, const Tile& y) {
+      return stretch_likelihood(reads, choice, x, y, Tile::Zero());
     };
   };
   const Grid grid{search.middle, kFirstCell * longest_cycle(search.phases), search.max_range_m};
   const PlaneInReach in_reach(search.phases, z, search.max_range_m);
+  GridGlances glances;
+  glances.at_blocks = [first = level(fewest, 0, 0)](const CellBlock& block) {
+    return light_of_block(first, block);
+  };
   std::vector<Vector3d> places;
-  for (const GridMaximum& maximum :
-       search_grid(grid, in_reach,
-                   {level(0, 0), level(1, 2), level(kForPlaces.first, kForPlaces.last)}, kMaxima)) {
+  for (const GridMaximum& maximum : search_grid(
+           grid, in_reach,
+           {level(few, 0, 0), level(few, 1, 2), level(few, kForPlaces.first, kForPlaces.last)},
+           kMaxima, glances)) {
     places.emplace_back(maximum.p.x(), maximum.p.y(), z);
   }
   return places;
@@ -61,9 +69,10 @@ std::vector<Vector3d> best_on_plane(const RobustSearch& search, const TagPhases&
 
 std::vector<Vector3d> best_places(const RobustSearch& search, std::size_t reads) {
   const TagPhases coarse = thinned(search.phases, reads);
+  const TagPhases coarsest = thinned(search.phases, (reads + 1) / 2);
   std::vector<Vector3d> places;
   for (const double z : heights_to_search(search.height)) {
-    for (const Vector3d& p : best_on_plane(search, coarse, z)) places.push_back(p);
+    for (const Vector3d& p : best_on_plane(search, coarse, coarsest, z)) places.push_back(p);
   }
   return places;
 }
