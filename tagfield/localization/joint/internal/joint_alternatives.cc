@@ -134,11 +134,11 @@ void add_mirrored_where_straight(JointState& state) {
   }
 }
 
-}  // namespace
-
-void find_alternatives(JointState& state, int threads) {
+/// Of single tags by themselves; the best of each, wherever it is, goes into `best`.
+void add_other_places(JointState& state, BestFits& best, int threads) {
   for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
     if (fit.fits.empty()) return;
+    best[i] = fit.fits.front();
     const JointTag& tag = state.system.tags[i];
     for (const Candidate& candidate : make_candidates(fit.phases, fit.height, fit.fits)) {
       if (is_elsewhere(candidate, to_place(tag.height, tag.fit.unknowns))) {
@@ -146,6 +146,19 @@ void find_alternatives(JointState& state, int threads) {
       }
     }
   });
+}
+
+}  // namespace
+
+void find_alternatives(JointState& state, int threads) {
+  constexpr int kMostRounds = 3;
+  constexpr double kFarBetter = 0.25;  // Half of the residuals.
+  for (int round = 0;; ++round) {
+    BestFits best(state.system.tags.size());
+    add_other_places(state, best, threads);
+    if (round == kMostRounds || !go_on_from(state, best, kFarBetter, threads)) break;
+    for (std::vector<Candidate>& others : state.alternatives) others.clear();
+  }
   add_mirrored(state, threads);
   add_mirrored_where_straight(state);
 }

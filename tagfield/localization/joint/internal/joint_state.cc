@@ -288,28 +288,38 @@ void for_each_corrected_fit(const JointState& state, int threads,
   });
 }
 
+bool go_on_from(JointState& state, const BestFits& best, double better, int threads) {
+  constexpr double kMoved = 0.03;  // [m]
+  bool any = false;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    JointTag& tag = state.system.tags[i];
+    if (!best[i]) continue;
+    const bool elsewhere = (best[i]->unknowns - tag.fit.unknowns).head<2>().norm() > kMoved;
+    if (!elsewhere || best[i]->cost > better * tag.fit.cost) continue;
+    tag.fit.unknowns = best[i]->unknowns;
+    if (tag.phases.unwrapped) {
+      tag.fit.offsets = offsets_at(tag.phases, tag.height, best[i]->unknowns);
+    } else {
+      // Wrapped ones lead to a place from near it alone, with offsets of the corrected poses.
+      take_samples(state, i, *state.samples[i]);
+    }
+    any = true;
+  }
+  if (!any) return false;
+  weigh(state.system);
+  minimize(state.system, kMostRoundsOfJointFit, threads);
+  return true;
+}
+
 void find_better_places(JointState& state, int threads) {
   constexpr int kMostRounds = 3;
-  constexpr double kMoved = 0.03;   // [m]
-  constexpr double kBetter = 0.85;  // Of the cost.
+  constexpr double kBetter = 0.85;
   for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<std::optional<TagFit>> best(state.system.tags.size());
+    BestFits best(state.system.tags.size());
     for_each_corrected_fit(state, threads, [&](std::size_t i, const UnwrappedFit& fit) {
       if (!fit.fits.empty()) best[i] = fit.fits.front();
     });
-    bool any = false;
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      JointTag& tag = state.system.tags[i];
-      if (!best[i]) continue;
-      const bool elsewhere = (best[i]->unknowns - tag.fit.unknowns).head<2>().norm() > kMoved;
-      if (!elsewhere || best[i]->cost > kBetter * tag.fit.cost) continue;
-      tag.fit.unknowns = best[i]->unknowns;
-      tag.fit.offsets = offsets_at(tag.phases, tag.height, best[i]->unknowns);
-      any = true;
-    }
-    if (!any) return;
-    weigh(state.system);
-    minimize(state.system, kMostRoundsOfJointFit, threads);
+    if (!go_on_from(state, best, kBetter, threads)) return;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,13 @@ void learn_pose_error(JointState& state, int threads);
 void for_each_corrected_fit(const JointState& state, int threads,
                             const std::function<void(std::size_t, const UnwrappedFit&)>& use);
 
+/// The best fit of each tag by itself, where there is one.
+using BestFits = std::vector<std::optional<TagFit>>;
+
+/// Puts tags to fits elsewhere that cost less than `better` of what they do where they stand, and
+/// minimizes. Whether there was any.
+bool go_on_from(JointState& state, const BestFits& best, double better, int threads);
+
 /// Looks for each tag's place anew from the corrected poses, and goes on from better ones.
 void find_better_places(JointState& state, int threads);
 
@@ -66,6 +74,7 @@ void fit_wrapped_jointly(JointState& state, int threads);
 
 /// Other places that explain the reads nearly as well: of single tags with the corrected poses, and
 /// of all tags mirrored across a straight way, and of tags that were read from a straight stretch.
+/// Where one explains them far better than where a tag stands, the tag goes there first.
 void find_alternatives(JointState& state, int threads);
 
 /// Where a tag stands, with the covariance of its unknowns.
