@@ -25,12 +25,20 @@ template <class Loops>
 [[gnu::target("avx2,bmi2"), gnu::flatten]] void run_avx2(const Loops& loops) {
   loops();
 }
+#if defined(__clang__)
+template <class Loops>
+[[gnu::target("avx512f,avx512dq,avx512vl,avx512bw,bmi2"), gnu::flatten]] void run_avx512(
+    const Loops& loops) {
+  loops();
+}
+#else
 template <class Loops>
 [[gnu::target("avx512f,avx512dq,avx512vl,avx512bw,bmi2,prefer-vector-width=512"),
   gnu::flatten]] void
 run_avx512(const Loops& loops) {
   loops();
 }
+#endif
 #endif
 
 }  // namespace lane_internal
