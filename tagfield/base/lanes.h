@@ -25,7 +25,7 @@ template <class Loops>
 [[gnu::target("avx2,bmi2"), gnu::flatten]] void run_avx2(const Loops& loops) {
   loops();
 }
-#if defined(__clang__)
+#if defined(__clang__)  // It has no such preference, and warns of it.
 template <class Loops>
 [[gnu::target("avx512f,avx512dq,avx512vl,avx512bw,bmi2"), gnu::flatten]] void run_avx512(
     const Loops& loops) {
