@@ -301,7 +301,7 @@ bool go_on_from(JointState& state, const BestFits& best, double better, int thre
       tag.fit.offsets = offsets_at(tag.phases, tag.height, best[i]->unknowns);
     } else {
       // Wrapped ones lead to a place from near it alone, with offsets of the corrected poses.
-      take_samples(state, i, *state.samples[i]);
+      tag = wrapped_tag(state, i);
     }
     any = true;
   }
