@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/fit_candidates.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "tagfield/base/median.h"
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/residuals.h"
 
 namespace tagfield {
@@ -195,10 +195,10 @@ std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightMode
   constexpr int kMostSteps = 40;
   constexpr double kFarthest = 2.0;  // [m]
   std::vector<PlaceVector> starts{fit.unknowns};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-  const PlaceVector direction = axes.eigenvectors().col(2);
+  const SymmetricEigen<3> axes = symmetric_eigen(covariance);
+  const PlaceVector direction = axes.vectors.col(2);
   const double reach =
-      std::min(kDeviations * std::sqrt(std::max(axes.eigenvalues()[2], 0.0)), kFarthest);
+      std::min(kDeviations * std::sqrt(std::max(axes.values[2], 0.0)), kFarthest);
   const double eighth = longest_cycle(phases) / 4.0;  // A cycle is half a wavelength.
   const double step = eighth / std::max(range_rate_spread(phases, height, fit, direction), 1e-6);
   const int steps = std::min(kMostSteps, static_cast<int>(std::floor(reach / step)));

@@ -62,7 +62,7 @@ std::string caption_of(const std::vector<TagStrength>& strengths, const std::str
   std::string text = fmt::format(
       "A line from {} (the square) to each of the {} that it read, in the colour of the mean "
       "RSSI:"
-      " low blue, middle green, high red, the weaker the more transparent.",
+      " low dark blue, middle green, high yellow, the weaker the more transparent.",
       antenna, counted(strengths.size(), "tag"));
   const std::size_t lost = count_without_place(strengths);
   if (lost > 0) text += fmt::format(" {} of unknown place left out.", counted(lost, "tag"));

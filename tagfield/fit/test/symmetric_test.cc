@@ -81,5 +81,73 @@ TEST(Symmetric, WhatIsNotPositiveHasNoLogarithm) {
   EXPECT_TRUE(std::isnan(log_determinant(negative)));
 }
 
+Eigen::MatrixXd any_positive_of_size(int size) {
+  Eigen::MatrixXd root(size, size);
+  for (Eigen::Index i = 0; i < root.size(); ++i) root(i) = *rc::gen::inRange(-9, 10);
+  return root.transpose() * root + Eigen::MatrixXd::Identity(size, size);
+}
+
+RC_GTEST_PROP(Symmetric, OfAnySizeIsSolvedAndInverted, ()) {
+  const int size = *rc::gen::inRange(1, 24);
+  const Eigen::MatrixXd A = any_positive_of_size(size);
+  Eigen::MatrixXd X(size, 3);
+  for (Eigen::Index i = 0; i < X.size(); ++i) X(i) = *rc::gen::inRange(-9, 10);
+  RC_ASSERT((solve_symmetric(A, Eigen::MatrixXd(A * X)) - X).cwiseAbs().maxCoeff() < 1e-5);
+  RC_ASSERT((A * invert_symmetric(A) - Eigen::MatrixXd::Identity(size, size)).norm() < 1e-5);
+}
+
+template <int N>
+void expect_factors() {
+  const Eigen::Matrix<double, N, N> A = any_positive<N>(10);
+  const auto L = cholesky_factor(A);
+  RC_ASSERT(L.has_value());
+  RC_ASSERT((*L * L->transpose() - A).norm() < 1e-12 * A.norm());
+  for (Eigen::Index i = 0; i < N; ++i) {
+    for (Eigen::Index j = i + 1; j < N; ++j) RC_ASSERT((*L)(i, j) == 0.0);
+  }
+  const SymmetricEigen<N> eigen = symmetric_eigen(A);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const auto column = eigen.vectors.col(i);
+    RC_ASSERT((A * column - eigen.values(i) * column).norm() < 1e-10 * A.norm());
+    RC_ASSERT(std::abs(column.norm() - 1.0) < 1e-12);
+    RC_ASSERT(i == 0 || eigen.values(i) >= eigen.values(i - 1));
+  }
+}
+
+RC_GTEST_PROP(Symmetric, FactorsAndAxesMakeItAgain, ()) {
+  expect_factors<3>();
+  expect_factors<6>();
+}
+
+TEST(Symmetric, WhatIsNotPositiveDefiniteHasNoFactor) {
+  EXPECT_FALSE(cholesky_factor(Eigen::Matrix3d(Eigen::Vector3d(1, -1, 1).asDiagonal())));
+  EXPECT_FALSE(cholesky_factor(Eigen::Matrix3d(Eigen::Vector3d(1, NAN, 1).asDiagonal())));
+}
+
+RC_GTEST_PROP(Symmetric, RootsOfWhatIsNotDefiniteToo, ()) {
+  Eigen::MatrixXd thin(5, 2);
+  for (Eigen::Index i = 0; i < thin.size(); ++i) thin(i) = *rc::gen::inRange(-9, 10);
+  const Eigen::MatrixXd A = thin * thin.transpose();
+  const Eigen::MatrixXd root = root_of_symmetric(A);
+  RC_ASSERT((root * root.transpose() - A).norm() <= 1e-6 * (1.0 + A.norm()));
+}
+
+// Of independent values the product of their densities.
+TEST(Symmetric, NormalDensityIsThatOfItsAxes) {
+  Eigen::VectorXd x = Eigen::Vector3d(0.3, -1.2, 2.0);
+  const Eigen::Vector3d sigmas(0.5, 2.0, 1.0);
+  double log = 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    log += std::log(std::exp(-0.5 * x(i) * x(i) / (sigmas(i) * sigmas(i))) /
+                    (sigmas(i) * std::sqrt(2.0 * 3.14159265358979324)));
+  }
+  Eigen::Matrix3d turn;  // Of an angle with cosine 0.6, about z: the density turns with it.
+  turn << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
+  Eigen::MatrixXd covariance =
+      turn * Eigen::Matrix3d(sigmas.cwiseAbs2().asDiagonal()) * turn.transpose();
+  x = turn * x;
+  EXPECT_NEAR(log_normal_density(x, covariance), log, 1e-12);
+}
+
 }  // namespace
 }  // namespace tagfield

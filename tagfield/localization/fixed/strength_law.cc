@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/fixed/strength_law.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "tagfield/base/units.h"
+#include "tagfield/fit/products.h"
+#include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
 namespace {
@@ -51,15 +51,6 @@ Eigen::VectorXd less_gain(const TagOnGrid& tag, Eigen::Index cell) {
   return tag.rssi_dbm - tag.gain_db.row(cell).matrix().transpose();
 }
 
-/// Overwrites both.
-double log_normal_density(Eigen::VectorXd& misfit, Eigen::MatrixXd& covariance) {
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> root(covariance);
-  const double log_det = 2.0 * covariance.diagonal().array().log().sum();
-  root.matrixL().solveInPlace(misfit);
-  return -0.5 *
-         (misfit.squaredNorm() + log_det + static_cast<double>(misfit.size()) * std::log(kTwoPi));
-}
-
 double log_mean_exp(const Eigen::ArrayXd& logs) {
   const double most = logs.maxCoeff();
   return most + std::log((logs - most).exp().mean());
@@ -89,9 +80,8 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
   const Eigen::Index size = law.mean.size();
   const auto count = static_cast<Eigen::Index>(tag.antennas.size());
   const double tag_variance = prior.tag_sigma_db * prior.tag_sigma_db;
-  const Eigen::MatrixXd inverse = scatter(count, law.fading_db, prior.tag_sigma_db)
-                                      .llt()
-                                      .solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd inverse =
+      invert_symmetric(scatter(count, law.fading_db, prior.tag_sigma_db));
   // Of the tag's own deviation, given the others' mean misfit.
   const double gain =
       tag_variance / (law.fading_db * law.fading_db + static_cast<double>(count) * tag_variance);
@@ -101,15 +91,15 @@ Told told_by(const TagOnGrid& tag, const StrengthLaw& law, const Eigen::ArrayXd&
     if (weights[cell] < kNegligibleWeight) continue;
     const Eigen::MatrixXd rows = design(tag, cell, size);
     const Eigen::VectorXd strengths = less_gain(tag, cell);
-    const Eigen::MatrixXd weighted = weights[cell] * rows.transpose() * inverse;
-    told.normal += weighted * rows;
+    const Eigen::MatrixXd weighted = weights[cell] * product(rows.transpose(), inverse);
+    told.normal += product(weighted, rows);
     told.right += weighted * strengths;
     const Eigen::VectorXd misfit = strengths - rows * law.mean;
     const double own = gain * misfit.sum();
     told.squares +=
         weights[cell] * ((misfit.array() - own).square().sum() +
                          static_cast<double>(count) * gain * law.fading_db * law.fading_db +
-                         (rows * law.covariance * rows.transpose()).trace());
+                         transformed(rows, law.covariance).trace());
   }
   return told;
 }
@@ -127,8 +117,9 @@ Told sum_of(const std::vector<Told>& all, Eigen::Index size) {
 
 /// The prior's law with what was told, less what one tag told of it.
 StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* without) {
-  Eigen::MatrixXd normal = before.covariance.inverse() + told.normal;
-  Eigen::VectorXd right = before.covariance.inverse() * before.mean + told.right;
+  const Eigen::MatrixXd weights = invert_symmetric(before.covariance);
+  Eigen::MatrixXd normal = weights + told.normal;
+  Eigen::VectorXd right = weights * before.mean + told.right;
   double squares = kWorth * before.fading_db * before.fading_db + told.squares;
   double strengths = kWorth + told.strengths;
   if (without != nullptr) {
@@ -138,7 +129,7 @@ StrengthLaw law_by(const StrengthLaw& before, const Told& told, const Told* with
     strengths -= without->strengths;
   }
   StrengthLaw law;
-  law.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  law.covariance = invert_symmetric(normal);
   law.mean = law.covariance * right;
   law.fading_db = std::sqrt(std::max(squares / strengths, 0.25));
   return law;
@@ -153,8 +144,9 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
   for (const TagOnGrid& tag : tags) {
     const Eigen::MatrixXd rows = design(tag, 0, size);
     const Eigen::MatrixXd weighted =
-        rows.transpose() * scatter(rows.rows(), flat.fading_db, tag_sigma_db).inverse();
-    told.push_back({weighted * rows, weighted * tag.rssi_dbm, 0.0, 0.0});
+        product(rows.transpose(),
+                invert_symmetric(scatter(rows.rows(), flat.fading_db, tag_sigma_db)));
+    told.push_back({product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0});
   }
   const Told sum = sum_of(told, size);
   double log = 0.0;
@@ -162,7 +154,7 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
     const Eigen::MatrixXd rows = design(tags[i], 0, size);
     const StrengthLaw law = law_by(flat, sum, &told[i]);
     Eigen::VectorXd misfit = tags[i].rssi_dbm - rows * law.mean;
-    Eigen::MatrixXd covariance = rows * law.covariance * rows.transpose() +
+    Eigen::MatrixXd covariance = transformed(rows, law.covariance) +
                                  scatter(rows.rows(), flat.fading_db, tag_sigma_db);
     log += log_normal_density(misfit, covariance);
   }
@@ -220,7 +212,7 @@ Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
   const Eigen::MatrixXd levels = design(tag, 0, law.mean.size()).leftCols(slope);
   const Eigen::MatrixXd of_levels =
       scatter(count, law.fading_db, prior.tag_sigma_db) +
-      levels * law.covariance.topLeftCorner(slope, slope) * levels.transpose();
+      transformed(levels, law.covariance.topLeftCorner(slope, slope));
   const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
   const Eigen::VectorXd over_level = tag.rssi_dbm - levels * law.mean.head(slope);
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(tag.cells.size()));

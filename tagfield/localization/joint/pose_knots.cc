@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/localization/joint/pose_knots.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "tagfield/fit/symmetric.h"
 #include "tagfield/localization/joint/internal/periods.h"
 #include "tagfield/localization/judgement.h"
 
@@ -64,11 +65,9 @@ Eigen::Matrix3d model_scale(const PoseErrorModel& model) {
 Eigen::Matrix3d root(Eigen::Matrix3d covariance) {
   covariance = 0.5 * (covariance + covariance.transpose().eval());
   covariance.diagonal().array() += 1e-12;
-  const Eigen::LLT<Eigen::Matrix3d> factors(covariance);
-  if (factors.info() != Eigen::Success) {
-    return covariance.diagonal().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  }
-  return factors.matrixL();
+  const std::optional<Eigen::Matrix3d> factor = cholesky_factor(covariance);
+  if (!factor) return covariance.diagonal().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return *factor;
 }
 
 /// Root of the covariance told nearest to a time.

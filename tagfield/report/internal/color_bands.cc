@@ -67,8 +67,8 @@ ColorBands margin_bands() {
   ColorBands bands;
   bands.title = "margin [dB]";
   bands.edges = {-30, -20, -10, -3, 0, 3, 10, 20, 30};
-  bands.colors = {"#7f2f08", "#a8410c", "#cf6418", "#ee9a4d", "#f6c48f",
-                  "#a9d3ea", "#6fb3dc", "#3c8ec9", "#2468a8", "#1c4a86"};
+  bands.colors = {"#482475", "#443983", "#3b518b", "#31688e", "#2a788e",
+                  "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
   label_edges(bands);
   return bands;
 }

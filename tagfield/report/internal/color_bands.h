@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Values as bands of colour, for maps of cells: few enough to be told apart, on white and on
-/// near-black.
+/// Values as bands of colour, for maps of cells: few enough to be distinguished, on white and on
+/// near-black, and all on one scale (color_map.h).
 #pragma once
 
 #include <string>
@@ -27,10 +27,10 @@ std::string words_of_band(const ColorBands& bands, std::size_t band);
 /// How a band's cells look; pages say `words` where a pointer is over them.
 Look band_look(const std::string& color, const std::string& words);
 
-/// Blue to red in steps of 5 dB, or more where that would be over 12 bands, around `values`, which
+/// Dark blue to yellow in steps of 5 dB, or more where that would be over 12 bands, around `values`, which
 /// may be empty.
 ColorBands power_bands(const std::string& title, std::vector<double> values);
-/// Orange below 0 dB, blue above.
+/// Dark blue below 0 dB, green to yellow from there on.
 ColorBands margin_bands();
 /// Dark to light from 1 % on.
 ColorBands probability_bands();

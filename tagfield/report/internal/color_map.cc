@@ -11,11 +11,13 @@
 namespace tagfield {
 namespace {
 
-/// Blue, teal, green, amber, red, evenly apart: each readable on white and on near-black.
-constexpr std::array<Rgb, 5> kStops = {Rgb{0.20, 0.38, 0.90}, Rgb{0.05, 0.60, 0.70},
-                                       Rgb{0.13, 0.65, 0.28}, Rgb{0.90, 0.60, 0.05},
-                                       Rgb{0.86, 0.15, 0.15}};
-constexpr double kLeastOpacity = 0.4;
+/// viridis (S. van der Walt and N. Smith, 2015), a tenth apart, from its second tenth on: what is
+/// before is too dark on near-black.
+constexpr std::array<Rgb, 9> kStops = {
+    Rgb{0.255, 0.267, 0.529}, Rgb{0.208, 0.373, 0.553}, Rgb{0.165, 0.471, 0.557},
+    Rgb{0.129, 0.569, 0.549}, Rgb{0.133, 0.659, 0.518}, Rgb{0.267, 0.749, 0.439},
+    Rgb{0.478, 0.820, 0.318}, Rgb{0.741, 0.875, 0.149}, Rgb{0.992, 0.906, 0.145}};
+constexpr double kLeastOpacity = 0.7;
 
 double clamped(double strength) { return std::clamp(strength, 0.0, 1.0); }
 

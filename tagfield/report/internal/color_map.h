@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Strength as a colour, as in the paper's Figs. 13 and 14: low blue, middle green, high red, and
-/// the weaker the more transparent.
+/// Ordered quantities as colours: from dark blue over green to yellow, evenly lighter, so that also
+/// those who don't see red and green apart see the order. The paper's Figs. 13 and 14 end in red;
+/// as in those, the weaker a signal, the more transparent it is.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ using Rgb = std::array<double, 3>;
 /// Of a strength in [0, 1]; what is outside is taken as the nearest end.
 Rgb strength_color(double strength);
 
-/// In [0.4, 1], rising with the strength.
+/// In [0.7, 1], rising with the strength.
 double strength_opacity(double strength);
 
 /// "#rrggbb".

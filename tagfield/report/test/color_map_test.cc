@@ -4,19 +4,62 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "tagfield/report/internal/color_bands.h"
 
 namespace tagfield {
 namespace {
 
-std::size_t strongest_part(const Rgb& color) {
-  return static_cast<std::size_t>(std::max_element(color.begin(), color.end()) - color.begin());
+/// CIE 1976 lightness L* of an sRGB colour, in [0, 100] (CIE 15:2004; IEC 61966-2-1).
+double lightness(const Rgb& color) {
+  const std::array<double, 3> shares = {0.2126, 0.7152, 0.0722};
+  double luminance = 0.0;
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    const double part = color[i];
+    luminance +=
+        shares[i] * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return luminance <= 0.008856 ? 903.3 * luminance : 116.0 * std::cbrt(luminance) - 16.0;
 }
 
-TEST(StrengthColor, IsBlueGreenRedFromLowToHigh) {
-  EXPECT_EQ(strongest_part(strength_color(0.0)), 2U);
-  EXPECT_EQ(strongest_part(strength_color(0.5)), 1U);
-  EXPECT_EQ(strongest_part(strength_color(1.0)), 0U);
+TEST(StrengthColor, GetsLighterInEvenSteps) {
+  constexpr int kSteps = 16;
+  const double step = (lightness(strength_color(1.0)) - lightness(strength_color(0.0))) / kSteps;
+  EXPECT_GT(step * kSteps, 55.0);
+  for (int i = 0; i < kSteps; ++i) {
+    const double from = lightness(strength_color(i / double{kSteps}));
+    const double to = lightness(strength_color((i + 1) / double{kSteps}));
+    EXPECT_NEAR(to - from, step, 0.15 * step) << i;
+  }
+}
+
+Rgb parsed(const std::string& hex) {
+  Rgb color{};
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    color[i] = std::stoi(hex.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+  }
+  return color;
+}
+
+TEST(ColorBands, OfEachQuantityGetLighterBandByBand) {
+  const std::pair<const char*, ColorBands> all[] = {
+      {"power", power_bands("power [dBm]", {-63.0, -20.0, 12.0})},
+      {"margin", margin_bands()},
+      {"probability", probability_bands()},
+      {"agreement", agreement_bands(0.9)}};
+  for (const auto& [quantity, bands] : all) {
+    double last = 0.0;
+    for (const std::string& color : bands.colors) {
+      if (color.empty()) continue;  // Not drawn.
+      EXPECT_GT(lightness(parsed(color)), last + 3.0) << quantity << " " << color;
+      last = lightness(parsed(color));
+    }
+    EXPECT_GT(last, 80.0) << quantity;
+  }
 }
 
 TEST(StrengthColor, HoldsItsEnds) {

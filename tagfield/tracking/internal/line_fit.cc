@@ -55,7 +55,8 @@ Normal normal_at(const FitInput& input, const StraightMotion& motion) {
     const bool known = input.fix_known && input.pass.reads[aperture.front()].offset_known;
     add_angles(rows, !known, input.weight, normal);
   }
-  const Eigen::VectorXd residual = input.prior.values - input.prior.rows * as_vector(motion);
+  const Eigen::Matrix<double, 10, 1> residual =
+      input.prior.values - input.prior.rows * as_vector(motion);
   normal.matrix.noalias() += input.prior.rows.transpose() * input.prior.rows;
   normal.right += input.prior.rows.transpose() * residual;
   normal.cost += 0.5 * residual.squaredNorm();
@@ -72,9 +73,8 @@ std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s) {
 
 MotionPrior motion_prior(const Pass& pass, const TrackingOptions& options) {
   MotionPrior prior;
-  prior.rows.resize(8 + 2, 6);
   prior.rows.setZero();
-  prior.values = Eigen::VectorXd::Zero(10);
+  prior.values.setZero();
   const Eigen::Vector3d middle = middle_of_antennas(pass);
   for (Eigen::Index i = 0; i < 6; ++i) prior.rows(i, i) = 1.0 / kAnywhere;
   for (Eigen::Index i = 0; i < 3; ++i) prior.values(i) = middle(i) / kAnywhere;
@@ -112,8 +112,7 @@ LineFit fit_line(const Pass& pass, const std::vector<SubAperture>& apertures,
   fit.coherence = errors.cos().sum() / count;
   const double freedom = std::max(count - free, 1.0);
   fit.noise_rad = std::max(std::sqrt(errors.square().sum() / freedom), kLeastNoise);
-  const Eigen::VectorXd residual = prior.values - prior.rows * as_vector(fit.motion);
-  fit.prior_cost = 0.5 * residual.squaredNorm();
+  fit.prior_cost = 0.5 * (prior.values - prior.rows * as_vector(fit.motion)).squaredNorm();
   fit.covariance = invert_symmetric(normal.matrix);
   return fit;
 }

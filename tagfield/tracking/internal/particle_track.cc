@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/tracking/internal/particle_track.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +8,7 @@
 #include "tagfield/base/random.h"
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/products.h"
 #include "tagfield/fit/symmetric.h"
 
 namespace tagfield {
@@ -47,16 +47,9 @@ void fill_normal(RandomStream& stream, Eigen::Ref<Eigen::VectorXd> values) {
   }
 }
 
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(covariance);
-  const Eigen::VectorXd scale = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::MatrixXd lower = ldlt.matrixL();
-  return ldlt.transpositionsP().transpose() * (lower * scale.asDiagonal()).eval();
-}
-
 Eigen::MatrixXd covariance_of(const Cloud& cloud, const Eigen::VectorXd& mean) {
   const Eigen::MatrixXd centred = cloud.states.colwise() - mean;
-  return centred * cloud.weights.asDiagonal() * centred.transpose();
+  return weighted_scatter(centred, cloud.weights);
 }
 
 Gaussian gaussian_of(const Cloud& cloud) {
@@ -69,7 +62,7 @@ Cloud first_cloud(const Pass& pass, const TrackingOptions& options, const Gaussi
   const auto count = static_cast<Eigen::Index>(options.particles);
   Cloud cloud;
   cloud.states = Eigen::MatrixXd::Zero(6 + static_cast<Eigen::Index>(pass.antennas.size()), count);
-  const Eigen::MatrixXd root = root_of(start.covariance);
+  const Eigen::MatrixXd root = root_of_symmetric(start.covariance);
   Eigen::VectorXd draw(6);
   for (Eigen::Index i = 0; i < count; ++i) {
     fill_normal(stream, draw);
@@ -84,7 +77,7 @@ Cloud first_cloud(const Pass& pass, const TrackingOptions& options, const Gaussi
 
 void predict(const TrackingOptions& options, double time_s, RandomStream& stream, Cloud& cloud) {
   if (time_s == 0.0) return;
-  const Eigen::MatrixXd root = root_of(process_noise(options, std::abs(time_s)));
+  const Eigen::MatrixXd root = root_of_symmetric(process_noise(options, std::abs(time_s)));
   Eigen::VectorXd draw(6);
   for (Eigen::Index i = 0; i < cloud.states.cols(); ++i) {
     fill_normal(stream, draw);
@@ -140,7 +133,7 @@ void resample(RandomStream& stream, Cloud& cloud) {
   const auto count = static_cast<double>(cloud.weights.size());
   if (1.0 / cloud.weights.squaredNorm() > 0.5 * count) return;
   const Eigen::VectorXd mean = cloud.states * cloud.weights;
-  const Eigen::MatrixXd root = root_of(covariance_of(cloud, mean));
+  const Eigen::MatrixXd root = root_of_symmetric(covariance_of(cloud, mean));
   Eigen::MatrixXd chosen(cloud.states.rows(), cloud.states.cols());
   const double shift = uniform(stream);
   double sum = cloud.weights(0);
@@ -198,13 +191,11 @@ Gaussian joined(const Gaussian& forward, const Gaussian& backward, const Gaussia
   const Matrix6d b = inverse(backward.covariance);
   const Matrix6d c = inverse(prior.covariance);
   const Matrix6d information = a + b - c;
-  const Eigen::LLT<Matrix6d> llt(information);
   // Where chance makes a cloud wider than what it began with, the forward filter has to do.
-  if (llt.info() != Eigen::Success) return forward;
-  Gaussian both;
-  both.covariance = llt.solve(Matrix6d(Matrix6d::Identity()));
-  both.mean = llt.solve(Vector6d(a * forward.mean + b * backward.mean - c * prior.mean));
-  return both;
+  if (!cholesky_factor(information)) return forward;
+  return {solve_symmetric(information,
+                          Vector6d(a * forward.mean + b * backward.mean - c * prior.mean)),
+          invert_symmetric(information)};
 }
 
 /// Residuals of each antenna's reads about their own circular mean.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tagfield/tracking/internal/smoother.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/circular_mean.h"
+#include "tagfield/fit/products.h"
 #include "tagfield/fit/random_phases.h"
 #include "tagfield/fit/robust_noise.h"
 #include "tagfield/fit/symmetric.h"
@@ -37,12 +37,15 @@ struct Slots {
   Eigen::Index size = 6;
 };
 
+/// One read's. From the step before, places moved on with their velocities for `time_s`, and the
+/// offset in `begins` forgot what it was; it is −1 where none did.
 struct Step {
+  double time_s = 0.0;
+  Eigen::Index begins = -1;
   Eigen::VectorXd predicted;
   Eigen::MatrixXd predicted_covariance;
   Eigen::VectorXd filtered;
   Eigen::MatrixXd filtered_covariance;
-  Eigen::MatrixXd transition;
 };
 
 struct Smoothed {
@@ -93,9 +96,9 @@ Linear by_taylor(const PassRead& read, const Eigen::Vector3d& place) {
 /// Regression over 2n + 1 sigma points of the place, κ = 0 (Julier and Uhlmann 2004, for n = 3).
 Linear by_sigma_points(const PassRead& read, const Eigen::Vector3d& place,
                        const Eigen::Matrix3d& covariance) {
-  const Eigen::LLT<Eigen::Matrix3d> root(covariance);
-  if (root.info() != Eigen::Success) return by_taylor(read, place);
-  const Eigen::Matrix3d L = root.matrixL();
+  const std::optional<Eigen::Matrix3d> root = cholesky_factor(covariance);
+  if (!root) return by_taylor(read, place);
+  const Eigen::Matrix3d& L = *root;
   const double spread = std::sqrt(3.0);
   Eigen::Vector3d differences;
   double values[6];
@@ -121,20 +124,23 @@ Linear linear_at(const Input& input, const PassRead& read, const Eigen::VectorXd
   return by_sigma_points(read, place, covariance.topLeftCorner<3, 3>());
 }
 
-void predict(const Input& input, double time_s, Step& step, Eigen::VectorXd& mean,
-             Eigen::MatrixXd& covariance) {
-  const Eigen::Index size = mean.size();
-  step.transition = Eigen::MatrixXd::Identity(size, size);
-  step.transition.block<3, 3>(0, 3) = time_s * Eigen::Matrix3d::Identity();
-  mean = step.transition * mean;
-  covariance = step.transition * covariance * step.transition.transpose();
-  covariance.topLeftCorner<6, 6>() += process_noise(input.options, time_s);
+/// F A for the transition F of `step`.
+void move_rows(const Step& step, Eigen::MatrixXd& A) {
+  A.topRows<3>() += step.time_s * A.middleRows<3>(3);
+  if (step.begins >= 0) A.row(step.begins).setZero();
+}
+
+void predict(const Input& input, Step& step, Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
+  mean.head<3>() += step.time_s * mean.segment<3>(3);
+  move_rows(step, covariance);
+  covariance.leftCols<3>() += step.time_s * covariance.middleCols<3>(3);
+  covariance.topLeftCorner<6, 6>() += process_noise(input.options, step.time_s);
 }
 
 /// The offset in `slot` is as unknown as before the first read.
 void begin_anew(const PassRead& read, Eigen::Index slot, double guess, Step& step,
                 Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
-  step.transition.row(slot).setZero();
+  step.begins = slot;
   covariance.row(slot).setZero();
   covariance.col(slot).setZero();
   covariance(slot, slot) = read.offset_known ? kKnownOffset : kAnyOffset;
@@ -144,8 +150,8 @@ void begin_anew(const PassRead& read, Eigen::Index slot, double guess, Step& ste
 struct Innovation {
   double value = 0.0;
   double variance = 1.0;
-  Eigen::RowVectorXd slope;
-  double residual = 0.0;  ///< At the point that it was made linear at.
+  Eigen::VectorXd with_state;  ///< Its covariance with the state.
+  double residual = 0.0;       ///< At the point that it was made linear at.
 };
 
 /// About the prediction, or about an earlier iteration's smoothed state.
@@ -155,18 +161,18 @@ Innovation innovation_of(const Input& input, const PassRead& read, Eigen::Index 
                          double noise_rad) {
   const Linear linear = linear_at(input, read, about, spread);
   Innovation innovation;
-  innovation.slope = Eigen::RowVectorXd::Zero(mean.size());
-  innovation.slope.head<3>() = linear.slope;
-  innovation.slope(slot) = 1.0;
+  const Eigen::Vector3d slope = linear.slope.transpose();  // In the place; in the offset it is 1.
   innovation.residual = wrap_to_pi(read.phase_rad - linear.value - about(slot));
-  innovation.value = innovation.residual + innovation.slope.dot(about - mean);
-  innovation.variance = innovation.slope * covariance * innovation.slope.transpose() +
+  innovation.value = innovation.residual + slope.dot((about - mean).head<3>()) + about(slot) -
+                     mean(slot);
+  innovation.with_state = covariance.leftCols<3>() * slope + covariance.col(slot);
+  innovation.variance = slope.dot(innovation.with_state.head<3>()) + innovation.with_state(slot) +
                         noise_rad * noise_rad + linear.variance;
   return innovation;
 }
 
 void update(const Innovation& innovation, Eigen::VectorXd& mean, Eigen::MatrixXd& covariance) {
-  const Eigen::VectorXd gain = covariance * innovation.slope.transpose() / innovation.variance;
+  const Eigen::VectorXd gain = innovation.with_state / innovation.variance;
   mean += gain * innovation.value;
   covariance -= innovation.variance * gain * gain.transpose();
   covariance = 0.5 * (covariance + covariance.transpose()).eval();
@@ -193,7 +199,8 @@ Forward filter(const Input& input, const Slots& slots, double noise_rad, const S
     const PassRead& read = reads[i];
     const Eigen::Index slot = slots.of_read[i];
     Step step;
-    predict(input, read.t_s - time, step, mean, covariance);
+    step.time_s = read.t_s - time;
+    predict(input, step, mean, covariance);
     time = read.t_s;
     const bool first = about.mean.empty();
     if (slots.fresh[i] != 0) {
@@ -231,13 +238,13 @@ Smoothed smooth_backward(const std::vector<Step>& steps) {
   for (std::size_t i = count - 1; i-- > 0;) {
     const Step& now = steps[i];
     const Step& next = steps[i + 1];
-    const Eigen::MatrixXd gain = next.predicted_covariance.ldlt()
-                                     .solve(next.transition * now.filtered_covariance)
-                                     .transpose();
+    Eigen::MatrixXd moved = now.filtered_covariance;
+    move_rows(next, moved);
+    const Eigen::MatrixXd gain = solve_symmetric(next.predicted_covariance, moved).transpose();
     smoothed.mean[i] = now.filtered + gain * (smoothed.mean[i + 1] - next.predicted);
     smoothed.covariance[i] =
         now.filtered_covariance +
-        gain * (smoothed.covariance[i + 1] - next.predicted_covariance) * gain.transpose();
+        transformed(gain, smoothed.covariance[i + 1] - next.predicted_covariance);
     smoothed.covariance[i] =
         0.5 * (smoothed.covariance[i] + smoothed.covariance[i].transpose()).eval();
   }
@@ -299,16 +306,15 @@ std::size_t count_fresh(const Slots& slots) {
 /// directions even over what the options allow.
 double log_prior(const Pass& pass, const TrackingOptions& options, const Vector6d& motion) {
   const MotionPrior prior = motion_prior(pass, options);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> known(
-      Matrix6d(prior.rows.transpose() * prior.rows));
+  const SymmetricEigen<6> known = symmetric_eigen(Matrix6d(prior.rows.transpose() * prior.rows));
   double log_density = -0.5 * (prior.rows * motion - prior.values).squaredNorm();
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const double weight = known.eigenvalues()(i);
-    if (weight > kUnknown * known.eigenvalues()(5)) {
+    const double weight = known.values(i);
+    if (weight > kUnknown * known.values(5)) {
       log_density += 0.5 * std::log(weight / kTwoPi);
       continue;
     }
-    const double of_place = known.eigenvectors().col(i).head<3>().squaredNorm();
+    const double of_place = known.vectors.col(i).head<3>().squaredNorm();
     log_density -= of_place * std::log(2.0 * options.reach_m) +
                    (1.0 - of_place) * std::log(2.0 * options.max_speed_m_s);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of what is drawn: materials, RSSI as in the seed paper's Figs. 13 and 14, margins,
-// antennas.
+// Colours of what is drawn: materials, antennas, and for RSSI and margins one scale of even steps in
+// lightness, so that also those who don't see red and green apart see their order.
 
 const MATERIALS = {
   metal: "#7d8b99",
@@ -20,8 +20,12 @@ const MATERIALS = {
 };
 const ANTENNAS =
   ["#2f7ed8", "#d9662b", "#1c9c6b", "#a855c9", "#c2a413", "#d64583", "#16a3b8", "#8a6d4b"];
-const RSSI_STOPS = [[43, 95, 227], [22, 165, 201], [34, 166, 82], [224, 172, 20], [222, 47, 38]];
-const LEAST_OPACITY = 0.35;
+// viridis (S. van der Walt and N. Smith, 2015), a tenth apart, from its second tenth on.
+const VIRIDIS = [
+  [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140], [34, 168, 132], [68, 191, 112],
+  [122, 209, 81], [189, 223, 38], [253, 231, 37]
+];
+const LEAST_OPACITY = 0.7;
 
 function hue(name) {
   let hash = 2166136261;
@@ -38,14 +42,14 @@ export const isTransparent = (solid) => solid.material === "glass";
 
 export const antennaColor = (index) => ANTENNAS[index % ANTENNAS.length];
 
-// RSSI's colour map: low blue, medium green, high red; the weaker, the more transparent.
+// RSSI's colour map: low dark blue, medium green, high yellow; the weaker, the more transparent.
 // u from 0 (weak) to 1 (strong); writes [r, g, b, opacity], each 0 … 1.
 export function rssiColor(u, out, at) {
   const v = Math.min(Math.max(u, 0), 1);
-  const stop = Math.min(Math.floor(v * (RSSI_STOPS.length - 1)), RSSI_STOPS.length - 2);
-  const share = v * (RSSI_STOPS.length - 1) - stop;
-  const from = RSSI_STOPS[stop];
-  const to = RSSI_STOPS[stop + 1];
+  const stop = Math.min(Math.floor(v * (VIRIDIS.length - 1)), VIRIDIS.length - 2);
+  const share = v * (VIRIDIS.length - 1) - stop;
+  const from = VIRIDIS[stop];
+  const to = VIRIDIS[stop + 1];
   for (let k = 0; k < 3; ++k) out[at + k] = (from[k] + (to[k] - from[k]) * share) / 255;
   out[at + 3] = LEAST_OPACITY + (1 - LEAST_OPACITY) * v;
 }
@@ -59,10 +63,10 @@ export function rssiCss(u) {
 
 // Steps of the coverage's legend: margin [dB] from which on, its colour as [r, g, b, a] in bytes.
 export const MARGINS = [
-  [-Infinity, [120, 60, 120, 150], "not read"],
-  [-3, [196, 84, 96, 190], "−3 to 0 dB: just not read"],
-  [0, [244, 190, 60, 205], "0 to 3 dB: at the edge"], [3, [150, 200, 80, 205], "3 to 10 dB"],
-  [10, [40, 160, 120, 205], "over 10 dB"]
+  [-Infinity, [72, 36, 117, 150], "not read"],
+  [-3, [59, 81, 139, 190], "−3 to 0 dB: just not read"],
+  [0, [34, 168, 132, 205], "0 to 3 dB: at the edge"], [3, [122, 209, 81, 205], "3 to 10 dB"],
+  [10, [253, 231, 37, 205], "over 10 dB"]
 ];
 
 export function marginColor(margin) {

@@ -19,7 +19,7 @@ export class Legend {
     const ramp = h("div", {
       class: "ramp",
       role: "img",
-      "aria-label": `RSSI from ${low} dBm, blue, to ${high} dBm, red`
+      "aria-label": `RSSI from ${low} dBm, dark blue, to ${high} dBm, yellow`
     });
     ramp.style.background = `linear-gradient(to right, ${
       Array.from({length: STEPS + 1}, (_, i) => rssiCss(i / STEPS)).join(", ")})`;
