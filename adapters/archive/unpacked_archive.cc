@@ -127,7 +127,7 @@ class Unpacking {
     }
     if (libarchive().entry_filetype(entry) == AE_IFDIR || place.extension() != ".csv") return;
     if (libarchive().entry_filetype(entry) != AE_IFREG) {
-      refuse(fmt::format("'{}', which is no file", place.string()));
+      refuse(fmt::format("'{}', which is not a file", place.string()));
     }
     const fs::path target = folder_ / place;
     fs::create_directories(target.parent_path());

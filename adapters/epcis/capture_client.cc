@@ -265,7 +265,7 @@ class CaptureClient::Impl {
             std::unique_lock<std::mutex>& lock) {
     if (is_success(answer)) {
       counts_.captured += events.size();
-      if (std::exchange(was_away_, false)) warn("it takes events again");
+      if (std::exchange(was_away_, false)) warn("it accepts events again");
       delay_ = kLeastDelay;
       said_something();
     } else if (answer.status == 413 && events.size() > 1) {
@@ -293,7 +293,7 @@ class CaptureClient::Impl {
   /// The first loss is told at once, the sum at the end.
   void lose_oldest() {
     if (counts_.lost == 0) {
-      warn(fmt::format("there is room for {} events: the oldest are lost from now on",
+      warn(fmt::format("the queue of {} events is full: the oldest are lost from now on",
                        options_.most_events));
     }
     waiting_.pop_front();

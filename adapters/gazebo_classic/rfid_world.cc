@@ -85,7 +85,7 @@ void RfidWorld::remove_antenna(Handle handle) {
 
 void RfidWorld::set_materials(RadioWorldOptions materials) {
   const std::lock_guard lock(mutex_);
-  if (materials_) throw Error("the world's materials are stated already by another plugin");
+  if (materials_) throw Error("another plugin already states the world's materials");
   materials_ = std::move(materials);
   solids_.forget();
 }

@@ -89,7 +89,7 @@ void require_notice(const LiveWorld& world) {
     return model != nullptr && model->effects.bodies;
   });
   if (!any) {
-    throw Error("no antenna here notices it: those of the paper's model read through anything");
+    throw Error("no antenna here is affected: antennas of the paper's model read through anything");
   }
 }
 
@@ -257,7 +257,8 @@ class Api::Impl {
   ApiAnswer antennas(Call& call) { return ApiResponse{200, json_text(antennas_json(call.world))}; }
   ApiAnswer tags(Call& call) { return ApiResponse{200, json_text(tags_json(call.world))}; }
   ApiAnswer located(Call& /*call*/) {
-    if (!estimates) throw Error("tags are not located here; 'tagfield serve --locate' does");
+    if (!estimates)
+      throw Error("tags are not located here; 'tagfield serve --locate' locates them");
     return ApiResponse{200, json_text(estimates_json(*estimates))};
   }
   ApiAnswer planned(Call& /*call*/) {
@@ -323,7 +324,7 @@ class Api::Impl {
     if (std::none_of(antennas.begin(), antennas.end(), [](const LiveAntenna& antenna) {
           return physical(antenna.spec.parameters) != nullptr;
         })) {
-      throw Error("no antenna here notices it: the paper's model knows no tags' losses");
+      throw Error("no antenna here is affected: the paper's model has no losses of tags");
     }
     call.world.detune_tag(name_in(call), db);
     return done(call.world);
@@ -443,8 +444,9 @@ ApiAnswer Api::answer(LiveWorld& world, const ApiRequest& request, const std::at
       Impl::Call call{world, *target, body, stop};
       return ((*impl_).*(route.handler))(call);
     }
-    return is_path ? api_error(405, fmt::format("{} is not for this address", request.method))
-                   : api_error(404, "there is no such address; see /api/openapi.json");
+    return is_path
+               ? api_error(405, fmt::format("{} is not allowed at this address", request.method))
+               : api_error(404, "there is no such address; see /api/openapi.json");
   } catch (const Error& error) {
     return api_error(400, error.what());
   }

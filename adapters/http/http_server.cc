@@ -23,7 +23,7 @@ tcp::endpoint endpoint_of(const HttpOptions& options) {
   boost::system::error_code error;
   const auto address = asio::ip::make_address(options.address, error);
   if (error) {
-    throw Error(fmt::format("'{}' is no IP address to listen on", options.address));
+    throw Error(fmt::format("'{}' is not an IP address to listen on", options.address));
   }
   return {address, options.port};
 }

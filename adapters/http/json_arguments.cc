@@ -30,7 +30,7 @@ double finite_within(const nlohmann::json& value, double least, double most,
 JsonArguments::JsonArguments(const std::string& body) : values_(nlohmann::json::object()) {
   if (body.empty()) return;
   values_ = nlohmann::json::parse(body, nullptr, false);
-  if (values_.is_discarded()) throw Error("the body is no JSON");
+  if (values_.is_discarded()) throw Error("the body is not JSON");
   if (!values_.is_object()) throw Error("the body must be a JSON object");
 }
 

@@ -151,7 +151,7 @@ Json estimates_of(const RunFiles& run) {
 Json known_scene(const std::string& text) {
   if (text.empty()) return Json::object();
   Json known = Json::parse(text, nullptr, false);
-  if (!known.is_object()) throw Error("the scene is no JSON object");
+  if (!known.is_object()) throw Error("the scene is not a JSON object");
   return known;
 }
 
@@ -234,7 +234,7 @@ Surroundings read_surroundings(const std::string& folder) {
   if (is_there(scene)) {
     around.scene = read_text_file(scene);
     if (!Json::parse(around.scene, nullptr, false).is_object()) {
-      throw Error(fmt::format("{}: is no JSON object", scene));
+      throw Error(fmt::format("{}: is not a JSON object", scene));
     }
   }
   const std::string map = folder + "/map.yaml";

@@ -142,7 +142,7 @@ bool LlrpReader::on_message(LiveWorld& world, const Message& message) {
     const auto handler = handlers().find(message.type);
     if (handler == handlers().end()) {
       throw Fault(Status::kUnsupportedMessage,
-                  fmt::format("message {} is not known here", message.type));
+                  fmt::format("message {} is not supported", message.type));
     }
     after_answer_.emplace();
     (this->*handler->second)(world, message, out);
@@ -182,7 +182,7 @@ void LlrpReader::capabilities(LiveWorld& /*world*/, const Message& message, Byte
 void LlrpReader::on_custom(LiveWorld& /*world*/, const Message& message) {
   ByteReader reader(message.body);
   if (reader.u32() != kImpinj || reader.u8() != 21) {
-    throw Fault(Status::kUnsupportedMessage, "this vendor's message is not known here");
+    throw Fault(Status::kUnsupportedMessage, "this vendor's message is not supported");
   }
   ByteWriter out;
   out.u32(kImpinj);
@@ -352,7 +352,7 @@ void LlrpReader::begin_ai_spec(LiveWorld& world) {
     tell_warnings(world.set_duty(name_, duty_of(configuration_, ports_, spec)));
   } catch (const std::exception& error) {
     // Antennas may have been taken out of the world since it was added.
-    tell_warnings({fmt::format("ROSpec {} can't go on: {}", running.id, error.what())});
+    tell_warnings({fmt::format("ROSpec {} can't continue: {}", running.id, error.what())});
     be_silent(world);
   }
 }
@@ -454,7 +454,7 @@ void LlrpReader::tell_line_state() {
   has_warned_of_buffer_ = level > kFullLevel;
   dropped_ += line_->take_dropped();
   if (dropped_ == 0) return;
-  tell_warnings({fmt::format("a client falls behind and loses reports")});
+  tell_warnings({fmt::format("a client is too slow and loses reports")});
   dropped_ = 0;
   tell_event(kBufferEvents, [](ByteWriter& out) { out.parameter(251, [] {}); });
 }

@@ -311,7 +311,7 @@ class LlrpServer::Impl {
   void listen(Endpoint& endpoint, std::uint16_t port) const {
     boost::system::error_code error;
     const auto address = asio::ip::make_address(options_.address, error);
-    if (error) throw Error(fmt::format("'{}' is no IP address to listen on", options_.address));
+    if (error) throw Error(fmt::format("'{}' is not an IP address to listen on", options_.address));
     const tcp::endpoint local(address, port);
     endpoint.acceptor.open(local.protocol(), error);
     if (!error) endpoint.acceptor.set_option(tcp::acceptor::reuse_address(true), error);

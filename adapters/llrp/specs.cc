@@ -113,7 +113,7 @@ AiSpec ai_spec_of(ByteReader content) {
   bool has_inventory = false;
   for (const Parameter& parameter : inner) {
     if (parameter.type != 186) continue;
-    require_field(!has_inventory, "an AISpec has one InventoryParameterSpec here");
+    require_field(!has_inventory, "an AISpec can have only one InventoryParameterSpec");
     has_inventory = true;
     ByteReader value = parameter.content;
     spec.inventory_spec = value.u16();
@@ -211,7 +211,7 @@ OpSpec op_of(const Parameter& parameter) {
   if (writes) {
     op.kind = parameter.type == 342 ? OpKind::kWrite : OpKind::kBlockWrite;
     op.words = content.u16_list();
-    require_field(!op.words.empty(), "a write needs words");
+    require_field(!op.words.empty(), "a write needs at least one word");
   } else {
     op.kind = parameter.type == 341 ? OpKind::kRead : OpKind::kBlockErase;
     op.count = content.u16();

@@ -122,7 +122,7 @@ std::optional<Parameter> find(const std::vector<Parameter>& all, std::uint16_t t
   for (const Parameter& parameter : all) {
     if (parameter.type != type) continue;
     if (found) {
-      throw Fault(Status::kDuplicateParameter, fmt::format("parameter {} stands twice", type));
+      throw Fault(Status::kDuplicateParameter, fmt::format("parameter {} is there twice", type));
     }
     found = parameter;
   }
@@ -192,11 +192,11 @@ std::size_t length_in(const std::uint8_t* header) {
   const unsigned version = header[0] >> 2U & 0x07U;
   const std::size_t length = number_at(header + 2, 4);
   if (length < kHeaderSize || length > kMostMessage) {
-    throw Fault(Status::kInvalid, fmt::format("no message is {} bytes long", length));
+    throw Fault(Status::kInvalid, fmt::format("a message can't be {} bytes long", length));
   }
   if (version != kVersion) {
     throw Fault(Status::kUnsupportedVersion,
-                fmt::format("version {} is not spoken here, but 1 (LLRP 1.0.1)", version));
+                fmt::format("version {} is not supported, only 1 (LLRP 1.0.1)", version));
   }
   return length;
 }

@@ -228,7 +228,7 @@ McapWriter::~McapWriter() = default;
 McapChannelId McapWriter::add_channel(const McapChannel& channel) {
   State& state = *state_;
   if (state.channels.size() == kMostIds || state.schemas.size() == kMostIds) {
-    throw Error("an MCAP file takes 65535 channels and as many schemas at most");
+    throw Error("an MCAP file can have 65535 channels and as many schemas at most");
   }
   const std::uint16_t schema = state.schema_id(channel.schema);
   const auto id = static_cast<McapChannelId>(state.channels.size() + 1);
@@ -238,7 +238,7 @@ McapChannelId McapWriter::add_channel(const McapChannel& channel) {
   if (state.schema_records.size() + state.channel_records.size() + of_schema.size() +
           of_channel.size() >
       kMostMcapDefinitionBytes) {
-    throw Error(fmt::format("the schemas and channels of an MCAP file take {} bytes at most",
+    throw Error(fmt::format("the schemas and channels of an MCAP file can take {} bytes at most",
                             kMostMcapDefinitionBytes));
   }
   if (is_new) state.schemas[channel.schema->name] = {schema, channel.schema};

@@ -129,8 +129,7 @@ class MqttClient::Impl {
   void connect(const MqttUrl& url) {
     const int code =
         libmosquitto().connect_async(client_, url.host.c_str(), url.port, kKeepalive_s);
-    if (code == MOSQ_ERR_EAI)
-      throw Error(fmt::format("MQTT: the host '{}' is not known", url.host));
+    if (code == MOSQ_ERR_EAI) throw Error(fmt::format("MQTT: the host '{}' is unknown", url.host));
     if (code == MOSQ_ERR_INVAL) require(code);
     // Whatever else: it will be tried again.
     thread_ = std::thread([this] { serve(); });
@@ -152,7 +151,7 @@ class MqttClient::Impl {
   /// Tries again after a while; false where there is to be an end.
   bool wait_to_reconnect() {
     std::unique_lock lock(mutex_);
-    if (!std::exchange(was_away_, true)) warn("the broker is not there; trying again");
+    if (!std::exchange(was_away_, true)) warn("the broker can't be reached; trying again");
     const bool ends = changed_.wait_for(lock, delay_, [this] { return is_ending_; });
     delay_ = std::min(2 * delay_, kMostDelay);
     lock.unlock();
@@ -170,7 +169,8 @@ class MqttClient::Impl {
     const std::lock_guard lock(mutex_);
     is_connected_ = code == 0;
     if (code != 0) {
-      warn(fmt::format("the broker refuses: {}", libmosquitto().connack_string(code)));
+      warn(fmt::format("the broker refuses the connection: {}",
+                       libmosquitto().connack_string(code)));
       return;
     }
     if (std::exchange(was_away_, false)) warn("connected");
@@ -182,7 +182,7 @@ class MqttClient::Impl {
     const std::lock_guard lock(mutex_);
     if (std::exchange(is_connected_, false) && code != 0) {
       was_away_ = true;
-      warn("the connection is gone; trying again");
+      warn("the connection is lost; trying again");
     }
   }
 
@@ -214,7 +214,7 @@ class MqttClient::Impl {
   /// The first loss is told at once, the sum at the end.
   void lose(std::size_t count) {
     if (counts_.lost == 0) {
-      warn(fmt::format("there is room for {} messages: the oldest are lost from now on",
+      warn(fmt::format("the queue of {} messages is full: the oldest are lost from now on",
                        options_.most_messages));
     }
     counts_.lost += count;

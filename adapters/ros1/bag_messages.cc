@@ -52,7 +52,7 @@ const std::string& checked_name(const std::string& name, const Name& what,
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
   if (name.size() > kLongestName || std::any_of(name.begin(), name.end(), is_control)) {
     fail_at(place,
-            fmt::format("{} is no name: {} bytes{}", to_text(what), name.size(),
+            fmt::format("{} is not a valid name: {} bytes{}", to_text(what), name.size(),
                         name.size() > kLongestName ? "" : ", control characters among them"));
   }
   return name;

@@ -61,9 +61,10 @@ std::vector<TagRead> tidy_reads(std::vector<TagRead> reads, const std::string& p
   sort_by_stamp(reads);
   const std::size_t repeats = keep_first(reads, antenna_and_tag<TagRead>);
   if (repeats > 0) {
-    diagnostics.warn({path, 0}, fmt::format("{} reads repeat the stamp, antenna and tag of "
-                                            "another, of which the first counts",
-                                            repeats));
+    diagnostics.warn(
+        {path, 0},
+        fmt::format("{} reads repeat the stamp, antenna and tag of another; only the first counts",
+                    repeats));
   }
   return reads;
 }

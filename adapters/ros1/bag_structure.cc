@@ -206,10 +206,10 @@ class Walk {
       take(header, data, position);
     }
     if (index_position_ != file.position() && starts_.count(index_position_) == 0) {
-      throw Damage{"the index is not where it is said to be"};
+      throw Damage{"the index is not at its stated position"};
     }
     if (connections_ != said_connections_ || infos_ != said_chunks_) {
-      throw Damage{"the index has not as many records as it is said to have"};
+      throw Damage{"the index does not have its stated number of records"};
     }
     return true;
   }
@@ -219,10 +219,10 @@ class Walk {
     require_version_1(header);
     for (const char* name : {"start_time", "end_time"}) (void)header.number<std::uint64_t>(name);
     if (data.size() != std::uint64_t{header.number<std::uint32_t>("count")} * kInfoEntry) {
-      throw Damage{"what is said of a chunk has a wrong size"};
+      throw Damage{"the info record of a chunk has a wrong size"};
     }
     if (chunks_.count(header.number<std::uint64_t>("chunk_pos")) == 0) {
-      throw Damage{"a chunk is not where it is said to be"};
+      throw Damage{"a chunk is not at its stated position"};
     }
   }
   void take(const Header& header, std::string_view data, std::uint64_t position) {
@@ -277,7 +277,7 @@ void require_bag(const std::string& path) {
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   if (file.gcount() == 0) fail({path, 0}, "is empty, expected a rosbag");
   if (begin != kFirstLine) {
-    fail({path, 0}, "is no rosbag of ROS 1: it does not begin with '#ROSBAG V2.0'");
+    fail({path, 0}, "is not a rosbag of ROS 1: it does not begin with '#ROSBAG V2.0'");
   }
 }
 
@@ -289,11 +289,12 @@ void require_whole_bag(const std::string& path) {
   try {
     finished = look_through(path);
   } catch (const Damage& damage) {
-    fail({path, 0}, fmt::format("is torn or damaged ({}); 'rosbag reindex' may save what is whole",
-                                damage.what));
+    fail({path, 0},
+         fmt::format("is cut off or damaged ({}); 'rosbag reindex' may recover the intact part",
+                     damage.what));
   }
   if (!finished) {
-    fail({path, 0}, "has no index, as a recording that was cut off: 'rosbag reindex' makes one");
+    fail({path, 0}, "has no index, like a recording that was cut off: 'rosbag reindex' makes one");
   }
 }
 

@@ -29,13 +29,14 @@ BagContent with_bag_errors(const std::string& path, const Work& work) {
   } catch (const Error&) {
     throw;
   } catch (const rosbag::BagUnindexedException&) {
-    fail({path, 0}, fmt::format("has no index, as a recording that was cut off: 'rosbag reindex "
-                                "{}' makes one",
-                                path));
+    fail({path, 0},
+         fmt::format(
+             "has no index, like a recording that was cut off: 'rosbag reindex {}' makes one",
+             path));
   } catch (const rosbag::BagException& error) {
-    fail({path, 0}, fmt::format("is torn or damaged ({}); 'rosbag reindex' may "
-                                "save what is whole",
-                                error.what()));
+    fail({path, 0},
+         fmt::format("is cut off or damaged ({}); 'rosbag reindex' may recover the intact part",
+                     error.what()));
   } catch (const std::exception& error) {
     fail({path, 0}, fmt::format("can't be read as a rosbag: {}", error.what()));
   }

@@ -43,7 +43,7 @@ class TransformClock {
   /// From the first stamp to the last, and some more.
   [[nodiscard]] ros::Duration span() const {
     // A ros::Duration holds 68 years.
-    if (span_s_ > 2'000'000'000) throw Error("stamps of transforms lie over 60 years apart");
+    if (span_s_ > 2'000'000'000) throw Error("stamps of transforms are over 60 years apart");
     return {static_cast<std::int32_t>(span_s_) + 10, 0};
   }
 

@@ -91,7 +91,8 @@ M decode(std::vector<std::uint8_t>& bytes, const MessagePlace& place) {
   } catch (const Error& error) {
     fail_at(place, error.what());
   } catch (const ros::serialization::StreamOverrunException&) {
-    fail_at(place, fmt::format("ends too early: its {} bytes are no whole message", bytes.size()));
+    fail_at(place,
+            fmt::format("ends too early: its {} bytes are not a whole message", bytes.size()));
   }
   if (stream.getLength() != 0) {
     fail_at(place, fmt::format("is {} bytes longer than its type", stream.getLength()));

@@ -36,7 +36,7 @@ void tell_again(const std::string& path, const GoThrough& go_through, std::size_
   go_through(sink, to.on_progress, told_before);
   if (told == count) return;
   fail({path, 0}, fmt::format("had {} reads at first and {} when they were read again: expected a "
-                              "recording that stays as it is",
+                              "recording that does not change",
                               count, told));
 }
 

@@ -28,7 +28,7 @@ Take decoded_for(void (*take)(const Message&, const MessagePlace&, BagContent&, 
   return [take, message](std::string_view bytes, const MessagePlace& place, BagContent& content,
                          Diagnostics& diagnostics) {
     if (!ros2::from_cdr(bytes, *message)) {
-      fail_at(place, fmt::format("is no {}: its {} bytes end too early",
+      fail_at(place, fmt::format("is not a {}: its {} bytes end too early",
                                  ros2::type_of(*message).name, bytes.size()));
     }
     take(*message, place, content, diagnostics);

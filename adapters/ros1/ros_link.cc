@@ -48,7 +48,7 @@ std::string fault_of_master_address() {
 ros::Time to_ros(Time time) {
   const std::int64_t count = time.time_since_epoch().count();
   if (count < 0 || count / kNanoseconds > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(fmt::format("time {} s can't be said in ROS", format_stamp(time)));
+    throw Error(fmt::format("time {} s can't be represented in ROS", format_stamp(time)));
   }
   return {static_cast<std::uint32_t>(count / kNanoseconds),
           static_cast<std::uint32_t>(count % kNanoseconds)};

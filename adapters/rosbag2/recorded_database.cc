@@ -19,7 +19,7 @@ class RecordedDatabase : public RecordedFile {
     for (const char* table : {"topics", "messages"}) {
       if (!database_.has_table(table)) {
         fail({path_, 0},
-             fmt::format("is no database of rosbag2, or a broken one: no table '{}'", table));
+             fmt::format("is not a database of rosbag2, or a broken one: no table '{}'", table));
       }
     }
     read_topics(diagnostics);
@@ -55,7 +55,7 @@ bool RecordedDatabase::is_too_much(std::uint64_t rows, std::uint64_t bytes,
                                    Diagnostics& diagnostics) const {
   if (rows <= database_.size() && bytes <= database_.size()) return false;
   diagnostics.warn({path_, 0},
-                   "is broken: it has more messages than it has room for; the rest is left out");
+                   "is broken: it has more messages than fit into it; the rest is left out");
   return true;
 }
 

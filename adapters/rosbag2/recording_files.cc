@@ -57,7 +57,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
     const std::string end = entry->path().extension().string();
     if (end == ".db3" || end == ".mcap") files.push_back(entry->path().string());
   }
-  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
+  if (error) fail({folder.string(), 0}, "can't be listed: " + error.message());
   std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
     return std::pair(numbered(a), a) < std::pair(numbered(b), b);
   });

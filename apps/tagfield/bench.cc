@@ -74,10 +74,9 @@ std::vector<Method> methods_for(const Suite& suite, const BenchArguments& argume
   for (const SuiteMethod& method : suite.methods) {
     if (method.command.empty()) continue;
     if (!method.location.file.empty() && !arguments.allow_commands) {
-      fail(method.location,
-           fmt::format("method '{}' is a command, which may do anything that you may: it is run "
-                       "with --allow-commands only: {}",
-                       method.name, method.command));
+      fail(method.location, fmt::format("method '{}' is a command, which runs with your "
+                                        "permissions: it is run only with --allow-commands: {}",
+                                        method.name, method.command));
     }
     for (const Method& other : methods) {
       if (other.name == method.name) {
@@ -96,7 +95,7 @@ Suite suite_of(const BenchArguments& arguments) {
   add_commands(arguments, suite);
   suite = only(suite, arguments.methods, arguments.conditions);
   if (suite.sweep) {
-    fail(suite.sweep->location, "has a 'sweep': run it by tagfield sweep " + arguments.suite);
+    fail(suite.sweep->location, "has a 'sweep': run it with tagfield sweep " + arguments.suite);
   }
   if (!arguments.seeds) return suite;
   suite.count = *arguments.seeds;
@@ -169,7 +168,8 @@ int bench(const BenchArguments& arguments) {
     return result.complete ? kExitOk : kExitInterrupted;
   }
   fmt::print("{}", bench_to_text(result, timing));
-  if (!result.complete) fmt::print("INCOMPLETE: the bench was interrupted; --resume goes on\n");
+  if (!result.complete)
+    fmt::print("INCOMPLETE: the bench was interrupted; --resume continues it\n");
   fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
              arguments.no_page ? out : out + "/bench.html");
   return result.complete ? kExitOk : kExitInterrupted;
@@ -177,7 +177,7 @@ int bench(const BenchArguments& arguments) {
 
 void add_options(CLI::App& command, BenchArguments& arguments) {
   command.add_option("SUITE", arguments.suite, "Suite file (YAML)");
-  command.add_option("--seeds", arguments.seeds, "So many seeds in each condition")
+  command.add_option("--seeds", arguments.seeds, "Number of seeds in each condition")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}));
   command.add_option("--methods", arguments.methods, "Only these methods of the suite: A,B")
       ->delimiter(',')
@@ -190,7 +190,7 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
       ->allow_extra_args(false);
   command
       .add_option("--command", arguments.commands,
-                  "NAME=COMMAND: one more method, a program of yours. It gets a folder as its last "
+                  "NAME=COMMAND: one more method, your own program. It gets a folder as its last "
                   "argument, reads reads.csv and antenna_poses.csv there and writes estimates.csv. "
                   "Can be given several times")
       ->take_all()
@@ -206,8 +206,8 @@ void add_options(CLI::App& command, BenchArguments& arguments) {
   command.add_flag("--no-timing", arguments.no_timing,
                    "Leave times out, so that the same suite gives the same bytes");
   command.add_flag("--resume", arguments.resume,
-                   "Go on where a bench into the same folder was cut off");
-  command.add_flag("--list-methods", arguments.list_methods, "Say which methods there are")
+                   "Resume a bench that was cut off, in the same folder");
+  command.add_flag("--list-methods", arguments.list_methods, "List the methods")
       ->excludes("--json");
 }
 
@@ -235,8 +235,8 @@ void add_bench_command(CLI::App& app, Action& chosen) {
       "The folder then holds bench.html, bench.json, bench.csv with a row for each condition and\n"
       "method, and tags.csv with a row for each tag of each run. For example\n"
       "  tagfield bench scenarios/bench/paper_warehouse.yaml --seeds 5\n"
-      "Ctrl-C ends it early and keeps the runs that are done; --resume goes on, also where it was\n"
-      "killed. docs/bench.md lists all keys and\n"
+      "Ctrl-C ends it early and keeps the runs that are done; --resume continues it, also after a\n"
+      "kill. docs/bench.md lists all keys and\n"
       "columns, and says how errors are judged.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return bench(*arguments); }; });
 }

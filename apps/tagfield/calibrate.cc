@@ -45,7 +45,7 @@ std::string table_of(const Calibration& calibration) {
         fmt::format("{}: {} reads, phase {} with distance, noise {:.3f} rad\n", name, antenna.reads,
                     antenna.phase_sign > 0 ? "grows" : "falls", antenna.noise_rad);
     for (int i = 0; i < 3; ++i) {
-      const char* const names[] = {"place x", "place y", "place z"};
+      const char* const names[] = {"position x", "position y", "position z"};
       text += figure(names[i], antenna.place_m[i], 1e3, "mm");
     }
     text += figure("late by", antenna.time_offset_s, 1e3, "ms");
@@ -114,9 +114,10 @@ Calibration calibration_of(const CalibrateArguments& arguments, std::size_t numb
       calibrate(reads, poses, tags, arguments.options, arguments.threads, diagnostics);
   if (calibration.antennas.empty()) {
     print_warnings(diagnostics);
-    fail({file, 0}, "nothing to calibrate by: expected at least 30 reads of tags of " + tags_file +
-                        " by an antenna of " + (poses_file.empty() ? file : poses_file) +
-                        ", whose phases go by their distances");
+    fail({file, 0}, "nothing to calibrate by: expected at least 30 reads of the tags in " +
+                        tags_file + " by an antenna in " +
+                        (poses_file.empty() ? file : poses_file) +
+                        " whose phases follow their distances");
   }
   return calibration;
 }
@@ -133,7 +134,7 @@ Calibration calibration_of_all(const CalibrateArguments& arguments, Diagnostics&
   print_warnings(diagnostics);
   throw Error(fmt::format(
       "calibrate: nothing that these {} experiments yield carries over from one to another: a "
-      "calibration by them would not improve the next, and no profile is written",
+      "calibration by them would not improve the next, so no profile is written",
       experiments.size()));
 }
 
@@ -165,25 +166,23 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command = app.add_subcommand(
       "calibrate",
-      "Find antennas' phase centres, latency, phase offsets, noise from tags at known "
-      "places");
+      "Find antennas' phase centres, latency, phase offsets, noise from tags at known positions");
   command
-      ->add_option(
-          "READS", arguments->reads,
-          "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm. Of several "
-          "experiments (three or more) what carries over from each to the others is reported")
+      ->add_option("READS", arguments->reads,
+                   "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm. With several "
+                   "experiments (three or more) it keeps what carries over from each to the others")
       ->required();
   command
-      ->add_option(
-          "--poses", arguments->poses,
-          "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw); of several "
-          "experiments once for each, or one for all")
+      ->add_option("--poses", arguments->poses,
+                   "The antennas' believed poses (CSV: stamp_s,antenna,x_m,y_m,z_m,qx,qy,qz,qw); "
+                   "for several experiments once for each, or one for all")
       ->take_all()
       ->allow_extra_args(false);
   add_format_option(*command, arguments->format);
   command
-      ->add_option("--tags", arguments->tags,
-                   "Tags at known places (CSV: tag,x_m,y_m,z_m); of several experiments likewise")
+      ->add_option(
+          "--tags", arguments->tags,
+          "Tags at known positions (CSV: tag,x_m,y_m,z_m); for several experiments likewise")
       ->required()
       ->take_all()
       ->allow_extra_args(false);
@@ -191,8 +190,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   command
       ->add_option(
           "--place-sigma", arguments->options.place_sigma_m,
-          "How far off each component of an antenna's place may be, one sigma [m] (default "
-          "0.1)")
+          "How far off each component of an antenna's position may be, one sigma [m] (default 0.1)")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--time-sigma", arguments->options.time_offset_sigma_s,
@@ -202,8 +200,7 @@ void add_calibrate_command(CLI::App& app, Action& chosen) {
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command->footer(
-      "Drive past five tags or more whose places are measured, along curves and at an uneven "
-      "pace:\n"
+      "Drive past five or more tags at measured positions, along curves and at a varying speed:\n"
       "what such a drive does not determine is left as it was, with a warning. Then\n"
       "  tagfield localize reads.csv --poses poses.csv --calibration PROFILE.yaml");
   command->callback(

@@ -145,7 +145,7 @@ Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
   if (kind == "scenario") return describe_scenario(arguments, diagnostics);
   if (kind == "plan") return describe_plan(arguments, diagnostics);
   if (!arguments.settings.empty()) {
-    throw Error("check: --set changes a scenario, and this is none: " + arguments.file);
+    throw Error("check: --set changes a scenario, which this file is not: " + arguments.file);
   }
   if (kind == "world") return describe_world(arguments, diagnostics);
   return describe_checked_file(arguments.file, kind, diagnostics);
@@ -211,7 +211,7 @@ void print_text(const std::string& file, const Json& json) {
     for (const auto& [model, count] : json["models_of_antennas"].items()) {
       fmt::print("model: {}, of {} mounts\n", model, count.get<std::size_t>());
     }
-    fmt::print("plan: {} places of tags in {} groups, {} mounts, at most {} antennas\n",
+    fmt::print("plan: {} tag positions in {} groups, {} mounts, at most {} antennas\n",
                json["places_of_tags"].get<std::size_t>(), json["groups_of_tags"].get<std::size_t>(),
                json["mounts"].get<std::size_t>(), json["most_antennas"].get<std::size_t>());
   }
@@ -263,7 +263,7 @@ int check_file(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
-      "check", "Say what is in a file of any kind, or what is wrong and in which line");
+      "check", "Show what is in a file of any kind, or what is wrong and in which line");
   command
       ->add_option(
           "FILE", arguments->file,

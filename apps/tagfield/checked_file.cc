@@ -132,10 +132,10 @@ Json describe_table(const std::string& path) {
     json = {{"kind", "table of the truth"}, {"rows", rows}, {"columns", head.header}};
   } else {
     fail({path, 1},
-         fmt::format("is a table with the columns {}, which are those of no table of Tagfield's "
-                     "(docs/files.md); other people's tables are read with --format "
-                     "(docs/datasets.md)",
-                     fmt::join(head.header, ", ")));
+         fmt::format(
+             "is a table with the columns {}, which no table of Tagfield has (docs/files.md); "
+             "tables in other formats are read with --format (docs/datasets.md)",
+             fmt::join(head.header, ", ")));
   }
   return json;
 }
@@ -149,7 +149,7 @@ std::vector<Method> methods_of(const Suite& suite, Diagnostics& diagnostics) {
   for (const SuiteMethod& method : suite.methods) {
     if (method.command.empty()) continue;
     diagnostics.warn(method.location,
-                     fmt::format("method '{}' runs a command, with --allow-commands only: {}",
+                     fmt::format("method '{}' runs a command, only with --allow-commands: {}",
                                  method.name, method.command));
     methods.push_back(command_method(method.name, method.command));
   }
@@ -252,7 +252,7 @@ std::string kind_of_file(const std::string& path) {
   if (is_bag(path)) return "recording";
   if (fs::is_directory(path, error)) {
     if (fs::exists(fs::path(path) / "summary.json", error)) return "run";
-    fail({path, 0}, std::string("is a folder, and not of a run; ") + kExpected);
+    fail({path, 0}, std::string("is a folder, but not of a run; ") + kExpected);
   }
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".yaml" || ending == ".yml") return kind_of_yaml(path);

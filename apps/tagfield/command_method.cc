@@ -202,7 +202,7 @@ Method command_method(const std::string& name, const std::string& command) {
   };
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain)) {
     throw Error(fmt::format(
-        "method '{}': a command's name must be of letters, digits, '_', '-' and '.'", name));
+        "method '{}': a command's name must consist of letters, digits, '_', '-' and '.'", name));
   }
   Method method;
   method.name = name;

@@ -131,10 +131,9 @@ int compare(const CompareArguments& arguments) {
 void add_compare_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare",
-      "Set two runs beside each other: errors tag by tag, reads, and what may be chance");
+      "compare", "Compare two runs: errors tag by tag, reads, and what may be chance");
   command->add_option("RUN", arguments->first, "Folder of a run, or of 'localize'")->required();
-  command->add_option("OTHER", arguments->second, "Another one of the same tags")->required();
+  command->add_option("OTHER", arguments->second, "Another one, of the same tags")->required();
   command->add_option("--out", arguments->out, "Folder for the page (default runs/RUN_and_OTHER)");
   command->add_flag("--json", arguments->as_json, "Print JSON instead, and write nothing");
   command->footer(

@@ -291,13 +291,13 @@ void add_completion_command(CLI::App& app, Action& chosen) {
   const auto shell = std::make_shared<std::string>();
   const auto file = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
-      "completion", "Print what makes a shell complete commands, options and files");
+      "completion", "Print a script that completes commands, options and files in a shell");
   command->add_option("SHELL", *shell, "Shell to print it for")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   command->add_option("--out", *file, "File to write it to instead");
   command->footer(
-      "Installed packages bring it along. Else, for this shell alone or in its start-up file:\n"
+      "Installed packages include it. Otherwise, for this shell alone or in its start-up file:\n"
       "  bash:  source <(tagfield completion bash)\n"
       "  zsh:   source <(tagfield completion zsh)\n"
       "  fish:  tagfield completion fish | source");

@@ -158,8 +158,8 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--orientation", arguments.orientation,
-                     "How it lies: ROLL,PITCH,YAW [rad], or 'any' for the mean and 'worst' for the "
-                     "worst of twelve (default 0,0,0)");
+                     "Its orientation: ROLL,PITCH,YAW [rad], or 'any' for the mean and 'worst' for "
+                     "the worst of twelve (default 0,0,0)");
   command
       .add_option("--height", arguments.heights_m,
                   "Height of a map [m]; can be given several times (default: the tags')")
@@ -168,13 +168,13 @@ void add_options(CLI::App& command, CoverageArguments& arguments) {
       ->check(CLI::Range(-1000.0, 1000.0));
   command
       .add_option("--step", arguments.step_m,
-                  "Size of a cell [m] (default 0.1, or what takes some ten seconds)")
+                  "Size of a cell [m] (default 0.1, or larger so that it takes about ten seconds)")
       ->check(CLI::Range(0.001, 1000.0));
   command.add_option("--region", arguments.region,
                      "X_LOW,Y_LOW,X_HIGH,Y_HIGH [m] (default: the whole world)");
   command
       .add_option("--time", arguments.time_s,
-                  "Look at this moment of the run [s] instead of the whole of it")
+                  "Evaluate this moment of the run [s] instead of all of it")
       ->check(CLI::Range(0.0, 1e9));
   command.add_option("--out", arguments.out, "Folder for the results (default runs/NAME_coverage)");
   command.add_flag("--force", arguments.force, "Replace results of another scenario in the folder");
@@ -191,7 +191,7 @@ void add_coverage_command(CLI::App& app, Action& chosen) {
       "coverage", "Draw where in the hall a tag would be read, and list tags that never are");
   add_options(*command, *arguments);
   command->footer(
-      "Antennas that move are looked at every 0.25 m of their path, and the best place counts.\n"
+      "Moving antennas are evaluated every 0.25 m of their path, and the best position counts.\n"
       "The folder then holds coverage.html with a map of read probability, margin, power and best\n"
       "antenna for each height, the same as figures/*.svg and coverage_HEIGHTm.csv, "
       "coverage.json,\n"

@@ -36,8 +36,8 @@ std::vector<double> numbers_in(const std::string& option, const std::string& tex
   for (std::string word; stream >> word;) {
     const std::optional<double> number = parse_number(word);
     if (!number || std::abs(*number) > 1e6) {
-      throw Error(fmt::format("coverage: {} '{}': '{}' is no number up to 1e6, expected {}", option,
-                              text, word, expected));
+      throw Error(fmt::format("coverage: {} '{}': '{}' is not a number up to 1e6, expected {}",
+                              option, text, word, expected));
     }
     numbers.push_back(*number);
   }
@@ -78,7 +78,7 @@ RawParameter setting_of(const std::string& argument) {
   }();
   if (!is_tag_setting(key)) {
     fail({"--tag-set " + argument, 0},
-         fmt::format("no setting of a tag{}", suggestion(key, known_settings())));
+         fmt::format("not a setting of a tag{}", suggestion(key, known_settings())));
   }
   return {key, value, {"--tag " + argument, 0}};
 }
@@ -88,8 +88,8 @@ void warn_of_kinds(const Scenario& scenario, Diagnostics& diagnostics) {
   for (const TagSpec& tag : scenario.tags) kinds.insert(tag.model.get());
   if (kinds.size() < 2) return;
   diagnostics.warn(
-      fmt::format("the tags are of {} kinds: the maps are of the first one's, '{}' "
-                  "(--tag NAME and --tag-profile choose)",
+      fmt::format("the tags are of {} kinds: the maps are for that of the first, '{}' (--tag NAME "
+                  "or --tag-profile choose another)",
                   kinds.size(), scenario.tags.front().id));
 }
 
@@ -103,14 +103,15 @@ const TagSpec* tag_of(const CoverageArguments& arguments, const Scenario& scenar
                                       [&](const TagSpec& one) { return one.id == word; });
     if (!is_known && word.find('=') != std::string::npos) {
       settings.push_back(word);
-      diagnostics.warn(fmt::format("--tag {0} is --tag-set {0} now", word));
+      diagnostics.warn(fmt::format("--tag {0} is now --tag-set {0}", word));
       continue;
     }
-    if (tag != nullptr) throw Error("coverage: --tag: the maps are of one tag, expected one name");
+    if (tag != nullptr) throw Error("coverage: --tag: the maps are for one tag, expected one name");
     tag = &tag_named("coverage", scenario, word);
   }
   if (tag != nullptr && !arguments.tag_profile.empty()) {
-    throw Error("coverage: --tag and --tag-profile both say of which kind the tag is");
+    throw Error(
+        "coverage: --tag and --tag-profile both state the kind of tag, expected one of them");
   }
   return tag;
 }

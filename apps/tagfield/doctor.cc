@@ -220,7 +220,7 @@ Finding browser() {
   std::error_code error;
   fs::remove_all(folder, error);
   if (version.empty()) {
-    return {"browser", false, program + " is there and draws no WebGL 2",
+    return {"browser", false, program + " is installed, but does not draw WebGL 2",
             "open pages in another browser, or on another machine"};
   }
   return {"browser", true, fmt::format("{} draws {}", program, version), ""};
@@ -284,7 +284,7 @@ void print_findings(const BuildInfo& build, const std::vector<Finding>& all) {
   bool first = true;
   for (const Finding& finding : all) {
     if (finding.works) continue;
-    if (first) fmt::print("\nNot here, and how to get it where it is wanted:\n");
+    if (first) fmt::print("\nNot here, and how to get it if it is wanted:\n");
     first = false;
     fmt::print("  {:<9} {}\n            {}\n", finding.key, finding.what, finding.how_to_get);
   }
@@ -307,11 +307,11 @@ void print_findings_json(const BuildInfo& build, const std::vector<Finding>& all
 void add_doctor_command(CLI::App& app, Action& chosen) {
   const auto as_json = std::make_shared<bool>(false);
   CLI::App* command =
-      app.add_subcommand("doctor", "Say what works on this machine, and how to get the rest");
+      app.add_subcommand("doctor", "Show what works on this machine, and how to get the rest");
   command->add_flag("--json", *as_json, "JSON for machines instead of text");
   command->footer(
       "Nothing is guessed: programs are asked for their versions, a node joins the ROS 2 domain\n"
-      "for a moment, and Chromium, where it is there, draws in WebGL. Nothing is changed.");
+      "for a moment, and Chromium, if installed, draws in WebGL. Nothing is changed.");
   command->callback([as_json, &chosen] {
     chosen = [as_json] {
       const BuildInfo build = build_info();

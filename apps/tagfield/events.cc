@@ -85,7 +85,7 @@ class EventTable final : public EventListener {
     std::string all;
     if (observed_ > 0) {
       all = fmt::format("{:<16} {:<28} {:>12} {:>12} {:>7} {:>9}\n{}", "logical reader", "tag",
-                        "first read", "last read", "reads", "most RSSI", visits_);
+                        "first read", "last read", "reads", "max. RSSI", visits_);
     }
     all += cycles_;
     return all + fmt::format("{} times observed, {} times gone, {} cycles reported\n", observed_,
@@ -200,7 +200,7 @@ int events(const EventsArguments& arguments) {
   stage.finish(last);
   table->add_present(stage.present());
   for (const std::string& name : stage.unheard()) {
-    diagnostics.warn(Location{arguments.spec, 0}, "nothing was read of " + name);
+    diagnostics.warn(Location{arguments.spec, 0}, "nothing was read by " + name);
   }
   print_warnings(diagnostics);
   if (epcis) epcis->write(start + last.time_since_epoch());
@@ -217,7 +217,8 @@ int events(const EventsArguments& arguments) {
 void add_events_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<EventsArguments>();
   CLI::App* command = app.add_subcommand(
-      "events", "Turn reads into events as middleware does: who came and went, reports, EPCIS");
+      "events",
+      "Turn reads into events as middleware does: tags that came and went, reports, EPCIS");
   command
       ->add_option("READS", arguments->recording,
                    "CSV: stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm; the folder of "
@@ -228,12 +229,13 @@ void add_events_command(CLI::App& app, Action& chosen) {
                       "EPCIS (docs/events.md)");
   command->add_option("--epcis", arguments->epcis,
                       "Write ObjectEvents of EPCIS 2.0 (JSON-LD) into this file: one document, or "
-                      "an event on each line where it is called ….jsonl");
+                      "an event on each line if its name ends in .jsonl");
   add_capture_options(*command, arguments->capture);
   add_start_option(*command, arguments->start);
   command->add_flag("--json", arguments->json, "Print each event as a line of JSON");
   command->footer(
-      "Without --spec each reader is one place, a tag is there from its first read on, and gone\n"
+      "Without --spec each reader is one location, a tag is there from its first read on, and "
+      "gone\n"
       "after 2 s without any. For example, what a dock door reports every 5 s:\n"
       "  events:\n"
       "    logical_readers: [{name: door, antennas: [left, right], biz_step: receiving}]\n"

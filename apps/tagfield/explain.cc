@@ -62,7 +62,7 @@ void add_explain_command(CLI::App& app, Action& chosen) {
       "Explain why an antenna reads a tag or not: the link budget line by line, the paths");
   add_scenario_options(*command, arguments->of_scenario);
   command->add_option("--antenna", arguments->antenna,
-                      "Name of the antenna (default: the one whose link is the best)");
+                      "Name of the antenna (default: the one with the best link)");
   command->add_option("--tag", arguments->tag, "ID of the tag (default: the only one)");
   command
       ->add_option("--time", arguments->time_s,
@@ -74,8 +74,8 @@ void add_explain_command(CLI::App& app, Action& chosen) {
       "The first line is the verdict:\n"
       "  read: +6.2 dB at the tag, +21.0 dB at the reader\n"
       "  not read: −3.1 dB at the tag, behind rack_4 (metal)\n"
-      "Margins are what there is beyond what chip and receiver need. docs/explain.md says what\n"
-      "each line means. With the paper's model it is distance against range; for all else:\n"
+      "Margins are the power beyond what chip and receiver need. docs/explain.md says what\n"
+      "each line means. With the paper's model it compares distance with range; for all else:\n"
       "  tagfield explain scenarios/paper_warehouse.yaml --set model=multipath --tag tag3 --time "
       "20\n"
       "Robots that navigate by laser are taken to drive straight over their waypoints.");

@@ -71,7 +71,7 @@ std::string receiver(const PhysicalLink& link) {
 std::string interference_text(const PhysicalLink& link) {
   if (!link.interference) return "";
   const LinkInterference& all = *link.interference;
-  if (all.by.empty()) return "\nother readers\n  none sends at this moment\n";
+  if (all.by.empty()) return "\nother readers\n  none transmits at this moment\n";
   std::string text = "\nother readers\n";
   for (const InterferingReader& one : all.by) {
     text += fmt::format("  {} ({}), carrier {:+.3f} MHz off", one.reader, one.antenna,
@@ -92,7 +92,7 @@ std::string interference_text(const PhysicalLink& link) {
 
 std::string near_tags_text(const PhysicalLink& link) {
   if (link.near_tags.empty()) return "";
-  std::string text = "\ntags nearby, and what each would do alone\n";
+  std::string text = "\ntags nearby, and the effect of each alone\n";
   for (const NearTag& near : link.near_tags) {
     text += row(fmt::format("{}, {:.3f} m", near.id, near.distance_m), without_unit(near.alone_db),
                 "dB");
@@ -119,7 +119,7 @@ std::string met(const PathExplanation& path) {
   }
   constexpr double kNoticed_db = 0.05;
   if (path.bodies_db && std::abs(*path.bodies_db) > kNoticed_db) {
-    add(fmt::format("past what moves ({})", signed_db(*path.bodies_db)));
+    add(fmt::format("past moving bodies ({})", signed_db(*path.bodies_db)));
   }
   if (text.empty()) text = "free";
   return (path.order == 0 ? "direct: " : "") + text;
@@ -149,7 +149,7 @@ std::string paths_text(const std::vector<PathExplanation>& paths) {
                         path.excess_m, right(strength, 9), met(path));
   }
   if (left > 0) text += fmt::format("  … and {} weaker ones (--json has all)\n", left);
-  return text + "  (strength: against the direct path with nothing in between)\n";
+  return text + "  (strength: relative to the unobstructed direct path)\n";
 }
 
 std::string materials_text(const PhysicalLink& link) {
@@ -184,9 +184,8 @@ std::string to_text(const LinkExplanation& link) {
                       place(link.X_WA.translation), link.tag, place(link.X_WT.translation),
                       link.distance_m, to_seconds(link.time));
   if (link.antennas_compared > 1) {
-    text +=
-        fmt::format("(of {} antennas the one whose link is the best; --antenna names another)\n",
-                    link.antennas_compared);
+    text += fmt::format("(of {} antennas the one with the best link; --antenna names another)\n",
+                        link.antennas_compared);
   }
   if (link.paper) return text + paper_text(*link.paper);
   const PhysicalLink& physical = *link.physical;

@@ -23,10 +23,10 @@ std::string first_steps() {
       "  tagfield new hall\n"
       "      a folder with a scenario, a world and a script to make your own\n"
       "  tagfield localize reads.csv --poses poses.csv\n"
-      "      locates tags from reads of a real reader; rosbags and MCAP files will do, too\n"
+      "      locates tags from reads of a real reader; also from rosbags and MCAP files\n"
       "  tagfield doctor\n"
       "      what works on this machine, and how to get the rest\n\n"
-      "'tagfield --help' lists all commands, 'tagfield run --help' tells about one.\n",
+      "'tagfield --help' lists all commands, 'tagfield run --help' describes one.\n",
       scenario.string());
 }
 

@@ -42,13 +42,13 @@ std::vector<AntennaPose> poses_of(const std::string& command, const std::string&
                                   std::vector<AntennaPose> own) {
   if (poses.empty() && own.empty()) {
     throw Error(
-        fmt::format("{}: tables in the format {} have no antenna places: they need --poses FILE",
+        fmt::format("{}: tables in the format {} have no antenna positions: they need --poses FILE",
                     command, format));
   }
   if (poses.empty()) return own;
   if (!own.empty()) {
     throw Error(fmt::format(
-        "{}: tables in the format {} have the antennas' places, so --poses is one too many",
+        "{}: tables in the format {} have the antennas' positions already: leave out --poses",
         command, format));
   }
   return form.poses ? read_dataset_poses_csv(poses, *form.poses) : read_poses_csv(poses);
@@ -88,8 +88,8 @@ bool is_run(const std::string& path) { return is_there(fs::path(path) / "reads.c
 
 void add_format_option(CLI::App& command, std::string& format) {
   command.add_option("--format", format,
-                     "Form of other people's CSV: a name of profiles/datasets, as adarf or "
-                     "llrp_log, or a file (YAML); docs/datasets.md");
+                     "Format of CSV from other sources: a name of profiles/datasets, such as adarf "
+                     "or llrp_log, or a file (YAML); docs/datasets.md");
 }
 
 ReadsAndPoses read_tables(const std::string& command, const std::string& reads,

@@ -269,7 +269,7 @@ LoadedRecording recording_of(const LocalizeArguments& arguments, const std::stri
   // A calibration changes them.
   const bool keep = !arguments.calibration.empty();
   if (is_bag(arguments.recording)) {
-    if (!arguments.format.empty()) throw Error("localize: --format goes with CSV only");
+    if (!arguments.format.empty()) throw Error("localize: --format can only be used with CSV");
     return bag_recording(
         {"localize", arguments.recording, arguments.poses, arguments.ros, arguments.part_reads},
         out, references, keep, diagnostics);
@@ -339,8 +339,8 @@ int localize(const LocalizeArguments& arguments) {
   }
   if (!arguments.circular.empty() && !tell_orientation(recording.poses.poses)) {
     diagnostics.warn(
-        "--circular does nothing: the poses don't say how the antennas lie (they are "
-        "all unturned)");
+        "--circular has no effect: the poses don't state the antennas' orientation (all are "
+        "unrotated)");
   }
   if (recording.overview.count == 0) {
     diagnostics.warn({arguments.recording, 0}, "no reads: cannot localize anything");
@@ -412,14 +412,14 @@ void add_localize_command(CLI::App& app, Action& chosen) {
     command->get_option(name)->needs("--scenario");
   }
   command->add_option("--method", arguments->method,
-                      "How, by one of the names below (default: the scenario's, or else auto)");
+                      "Method, one of those below (default: the scenario's, or else auto)");
   add_known_options(*command, *arguments);
   command->add_option("--calibration", arguments->calibration,
                       "Profile by 'tagfield calibrate': corrects antenna places, stamps, phases");
   command
-      ->add_option("--set", arguments->settings,
-                   "A setting of the method: KEY=VALUE, by the keys below. Can be given several "
-                   "times")
+      ->add_option(
+          "--set", arguments->settings,
+          "A setting of the method: KEY=VALUE, with a key from below. Can be given several times")
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--out", arguments->out,
@@ -429,7 +429,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   add_json_option(*command, arguments->as_json, "summary.json");
   command->footer(
       "Methods, and the keys of --set that they take:\n" + told_of_methods() +
-      "\nPhase must grow with distance (eq. 3 of the paper); turn the sign of readers that do the\n"
+      "\nPhase must grow with distance (eq. 3 of the paper); negate the phase of readers that do "
+      "the\n"
       "opposite. The antenna must have moved along a curve: from a straight path both mirror\n"
       "images are given. A bag's truth judges the estimates and is not used to make them.");
   command->callback(

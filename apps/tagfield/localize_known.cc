@@ -84,15 +84,14 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
   CLI::Option* of_all =
       command
           .add_option("--tag-height", arguments.tag_height_m,
-                      "Height of the tags [m, world]; without it, that of the antenna in the mean")
+                      "Height of the tags [m, world] (default: the mean height of the antenna)")
           ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; takes precedence over --tag-height");
   CLI::Option* vertical =
       command
           .add_option("--vertical-side", arguments.height_side,
-                      "above or below: heights that are not known are estimated, on that side of "
-                      "the antennas")
+                      "above or below: unknown heights are estimated, on that side of the antennas")
           ->check(CLI::IsMember({"above", "below"}))
           ->excludes(of_all);
   // What it was called first; elsewhere --height is a number.
@@ -102,10 +101,10 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->excludes(vertical)
       ->group("");
   command
-      .add_option(
-          "--circular", arguments.circular,
-          "right or left: the antennas are polarized so, and what that does to the phase by "
-          "how a tag's wire lies is allowed for; wants their orientation in the poses")
+      .add_option("--circular", arguments.circular,
+                  "right or left: hand of the antennas' circular polarization, to allow for the "
+                  "phase shift by the orientation of a tag's wire; requires the antennas' "
+                  "orientation in the poses")
       ->check(CLI::IsMember({"right", "left"}));
   command
       .add_option(
@@ -119,7 +118,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->expected(4)
       ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--reference", arguments.references_file,
-                     "Tags at known places (CSV: tag,x_m,y_m,z_m)");
+                     "Tags at known positions (CSV: tag,x_m,y_m,z_m)");
   command
       .add_option("--offset", arguments.offsets,
                   "Known phase offset [rad]: RAD of all antennas or ANTENNA=RAD. Can be given "
@@ -128,35 +127,33 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       ->allow_extra_args(false);
   CLI::Option* sigma =
       command
-          .add_option(
-              "--pose-sigma", arguments.pose_sigma_m,
-              "Error of the poses, standard deviation in x and y [m]; 0 for exact. Without, "
-              "the covariances in the table of poses, or unknown")
+          .add_option("--pose-sigma", arguments.pose_sigma_m,
+                      "Error of the poses, standard deviation in x and y [m]; 0 for exact "
+                      "(default: the covariances in the table of poses, or unknown)")
           ->check(CLI::Range(0.0, kMostLength_m));
   command.add_option("--pose-yaw-sigma", arguments.pose_yaw_sigma_deg, "Likewise in yaw [deg]")
       ->check(CLI::NonNegativeNumber)
       ->needs(sigma);
   command
       .add_option("--pose-time-constant", arguments.pose_time_constant_s,
-                  "How long the poses' error takes to change [s] (default 5)")
+                  "Time constant of the poses' error [s] (default 5)")
       ->check(CLI::PositiveNumber)
       ->needs(sigma);
-  CLI::Option* map_sigma =
-      command
-          .add_option("--map-sigma", arguments.map_sigma_m,
-                      "Error of the map that the poses are on, as a whole: standard deviation of "
-                      "its shift in x and y [m]")
-          ->check(CLI::Range(0.0, kMostLength_m));
+  CLI::Option* map_sigma = command
+                               .add_option("--map-sigma", arguments.map_sigma_m,
+                                           "Error of the map that the poses refer to, as a whole: "
+                                           "standard deviation of its shift in x and y [m]")
+                               ->check(CLI::Range(0.0, kMostLength_m));
   command
       .add_option("--map-yaw-sigma", arguments.map_yaw_sigma_deg,
-                  "Likewise of its turn about the first pose [deg]")
+                  "Likewise of its rotation about the first pose [deg]")
       ->check(CLI::NonNegativeNumber)
       ->needs(map_sigma);
   command
       .add_option("--world-sigma", arguments.world_sigma_m,
-                  "For 'multipath': how far surfaces of the scenario's world may be from where it "
-                  "says, standard deviation in x and y [m] (default 0 in the folder of a run, else "
-                  "0.01)")
+                  "For 'multipath': how far surfaces of the scenario's world may be from their "
+                  "stated positions, standard deviation in x and y [m] (default 0 in the folder of "
+                  "a run, else 0.01)")
       ->check(CLI::Range(0.0, kMostLength_m))
       ->needs("--scenario");
 }
@@ -190,8 +187,8 @@ double world_sigma_of(const LocalizeArguments& arguments, const std::string& met
                       const KnownBeforehand& known) {
   if (arguments.world_sigma_m && (!known.trace || (method != "multipath" && method != "auto"))) {
     throw Error(
-        "localize: --world-sigma has no effect: it wants method multipath or auto, and a scenario "
-        "with model: multipath");
+        "localize: --world-sigma has no effect: it requires method multipath or auto, and a "
+        "scenario with model: multipath");
   }
   return arguments.world_sigma_m.value_or(is_run(arguments.recording) ? 0.0
                                                                       : kMeasuredWorldSigma_m);

@@ -37,12 +37,14 @@ void warn_of_long_run(const Scenario& scenario, bool is_kept, Diagnostics& diagn
     throw Error(asked + ": more than a computer gets done in a year");
   }
   if (steps > kLongSteps || links > kLongLinks) {
-    diagnostics.warn(asked + ": this takes hours; Ctrl-C ends it early and keeps what there is");
+    diagnostics.warn(asked +
+                     ": this takes hours; Ctrl-C ends it early and keeps the results so far");
   }
   if (is_kept && updates * kBytesOfUpdate > kMuchMemory) {
-    diagnostics.warn(fmt::format(
-        "{}: at least {:.0f} GB of memory for the tables; with 'run --record-only' it doesn't grow",
-        asked, std::ceil(1e-9 * updates * kBytesOfUpdate)));
+    diagnostics.warn(
+        fmt::format("{}: at least {:.0f} GB of memory for the tables; with 'run --record-only' "
+                    "memory doesn't grow",
+                    asked, std::ceil(1e-9 * updates * kBytesOfUpdate)));
   }
 }
 

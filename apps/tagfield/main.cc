@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   } catch (const std::system_error& error) {
     // No more threads or open files, a folder that vanished: what Tagfield does itself says it
     // better.
-    fmt::print(stderr, "tagfield: the system refuses: {}\n", tagfield::as_one_line(error.what()));
+    fmt::print(stderr, "tagfield: system error: {}\n", tagfield::as_one_line(error.what()));
     return tagfield::kExitBadInput;
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return with_output_checked(tagfield::kExitBadInput);

@@ -53,13 +53,13 @@ int print_or_write(const CLI::App& app, const ManArguments& arguments) {
 void add_man_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ManArguments>();
   CLI::App* command =
-      app.add_subcommand("man", "Print a page of the manual, of all or of a command");
+      app.add_subcommand("man", "Print a page of the manual, of tagfield or of a command");
   CLI::Option* name =
-      command->add_option("COMMAND", arguments->command, "Command that it is about");
+      command->add_option("COMMAND", arguments->command, "Command that it describes");
   command->add_option("--out", arguments->folder, "Write all pages into this folder instead")
       ->excludes(name);
   command->footer(
-      "Installed packages bring the pages along: man tagfield-run. Else:\n"
+      "Installed packages include the pages: man tagfield-run. Otherwise:\n"
       "  tagfield man run | man -l -");
   command->callback([arguments, &app, &chosen] {
     chosen = [arguments, &app] { return print_or_write(app, *arguments); };

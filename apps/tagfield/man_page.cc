@@ -178,11 +178,11 @@ std::string commands_section(const CLI::App& app) {
 constexpr const char* kExitStatus =
     ".SH EXIT STATUS\n"
     ".TP\n0\nAll went well.\n"
-    ".TP\n1\nA fault of the program.\n"
+    ".TP\n1\nAn internal error of the program.\n"
     ".TP\n2\nAn input is wrong: a file, a value or an option; standard error has one line that "
     "says which.\n"
     ".TP\n3\nSome runs failed, or are not done yet.\n"
-    ".TP\n130\nInterrupted; what there was is kept, and marked as incomplete.\n";
+    ".TP\n130\nInterrupted; the results so far are kept and marked as incomplete.\n";
 
 std::string see_also(const CLI::App& command) {
   std::string page = ".SH SEE ALSO\n";

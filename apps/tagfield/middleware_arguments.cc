@@ -34,9 +34,9 @@ void add_capture_options(CLI::App& command, CaptureArguments& arguments) {
       "Post ObjectEvents of EPCIS 2.0 to this repository: the address of its capture interface, "
       "http[s]://[user:password@]host[:port]/path (docs/events.md)");
   command
-      .add_option("--capture-header", arguments.headers,
-                  "Further line of those requests' header, 'Name: value', as a key that the "
-                  "repository asks for; can be repeated")
+      .add_option(
+          "--capture-header", arguments.headers,
+          "Additional header of those requests, 'Name: value', such as an API key; can be repeated")
       ->needs(capture);
 }
 
@@ -52,17 +52,17 @@ std::shared_ptr<CaptureClient> capture_client(const CaptureArguments& arguments)
 void add_middleware_options(CLI::App& command, MiddlewareArguments& arguments) {
   CLI::Option* mqtt = command.add_option(
       "--mqtt", arguments.broker,
-      "Publish each read to this broker, too: mqtt://[user:password@]host[:port][/prefix], to "
+      "Also publish each read to this broker: mqtt://[user:password@]host[:port][/prefix], to "
       "PREFIX/reads/READER (docs/events.md)");
   command
       .add_option("--mqtt-buffer", arguments.buffer,
-                  "Messages that are kept while the broker is away (default 100000)")
+                  "Messages that are kept while the broker can't be reached (default 100000)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->needs(mqtt);
   add_capture_options(command, arguments.capture);
   command.add_option("--spec", arguments.spec,
-                     "Which events there are, see 'tagfield events': with --mqtt they go to "
-                     "PREFIX/events, too; with --capture they are those that are posted");
+                     "File (YAML) that defines events, as for 'tagfield events': with --mqtt they "
+                     "are also published to PREFIX/events, with --capture they are posted");
 }
 
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start,
@@ -70,7 +70,7 @@ MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start
   MiddlewareRun run;
   const bool has_spec = !arguments.spec.empty();
   if (has_spec && arguments.broker.empty() && arguments.capture.url.empty()) {
-    throw Error("--spec: events go to --mqtt or --capture, and neither is given");
+    throw Error("--spec requires --mqtt or --capture, where events go to");
   }
   const EventsSpec spec = has_spec ? read_events_spec(arguments.spec) : EventsSpec{};
   std::vector<std::shared_ptr<EventListener>> listeners;

@@ -30,9 +30,10 @@ std::string filled_in(std::string text, const std::string& name) {
 /// What a folder, a scenario and a world can be called alike.
 void check_name(const std::string& name) {
   if (name.empty() || folder_name(name) != name || name[0] == '-' || name[0] == '.') {
-    throw Error(fmt::format(
-        "new: '{}' can't be a name: expected letters, digits, '-', '_' and '.', as in 'my_hall'",
-        name));
+    throw Error(
+        fmt::format("new: '{}' is not a valid name: expected letters, digits, '-', '_' and '.', as "
+                    "in 'my_hall'",
+                    name));
   }
 }
 
@@ -43,7 +44,7 @@ int make_new(const std::string& path) {
   check_name(name);
   std::error_code error;
   if (fs::exists(folder, error)) {
-    throw Error(fmt::format("new: {} is there already, and stays as it is", folder.string()));
+    throw Error(fmt::format("new: {} exists already and is not changed", folder.string()));
   }
   const fs::path from = shared_folder("templates") / "new";
   std::vector<std::pair<std::string, std::string>> files;
@@ -60,8 +61,8 @@ int make_new(const std::string& path) {
   const std::string scenario = (folder / (name + ".yaml")).string();
   fmt::print(
       "{}: a cart drives past two racks and finds four tags\n\n"
-      "  {}.yaml   the scenario: who drives, what reads, which tags there are\n"
-      "  {}.sdf    the hall, a world as Gazebo has it\n"
+      "  {}.yaml   the scenario: robots, antennas and tags\n"
+      "  {}.sdf    the hall, a world in Gazebo's format\n"
       "  analyse.py{}   many seeds in Python, with figures\n\n"
       "Next:\n  tagfield check {}\n  tagfield run {}\n  python3 {}\n",
       folder.string(), name, name, std::string(name.size() > 5 ? name.size() - 5 : 0, ' '),
@@ -74,7 +75,7 @@ int make_new(const std::string& path) {
 void add_new_command(CLI::App& app, Action& chosen) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
-      "new", "Begin a scenario of your own: a folder with scenario, world and script");
+      "new", "Begin your own scenario: a folder with scenario, world and script");
   command->add_option("NAME", *name, "Folder to make; its last part names scenario and world")
       ->required();
   command->footer(

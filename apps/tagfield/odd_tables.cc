@@ -17,10 +17,11 @@ constexpr double kMostRatio = 1.2;
 void warn_of_order(const std::string& file, std::size_t backwards, std::size_t rows,
                    Diagnostics& diagnostics) {
   if (backwards == 0) return;
-  diagnostics.warn({file, 0},
-                   fmt::format("{} of {} rows have an earlier stamp_s than the row before them: "
-                               "they are put in order of time",
-                               backwards, rows));
+  diagnostics.warn(
+      {file, 0},
+      fmt::format(
+          "{} of {} rows have an earlier stamp_s than the row before them: they are sorted by time",
+          backwards, rows));
 }
 
 }  // namespace

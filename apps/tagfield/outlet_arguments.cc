@@ -61,10 +61,10 @@ RemoteDriving driving_of(const OutletArguments& arguments, const ScenarioWithWor
 }  // namespace
 
 void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
-  CLI::Option* ros2 = command.add_flag(
-      "--ros2", arguments.ros2,
-      "Play the run into ROS 2, in real time: /rfid/reads, /tf, /clock and more (docs/ros2.md). Of "
-      "many seeds, the first");
+  CLI::Option* ros2 =
+      command.add_flag("--ros2", arguments.ros2,
+                       "Publish the run to ROS 2, in real time: /rfid/reads, /tf, /clock and more "
+                       "(docs/ros2.md). Of several seeds, the first");
   command
       .add_option("--domain", arguments.domain,
                   "Domain of ROS 2 (default: ROS_DOMAIN_ID, or else 0)")
@@ -72,12 +72,12 @@ void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
       ->needs(ros2);
   command.add_option("--mcap", arguments.mcap,
                      "Record the same messages into this MCAP file, for rosbag2 and Foxglove "
-                     "(docs/mcap.md). Of many seeds, the first");
+                     "(docs/mcap.md). Of several seeds, the first");
   command
       .add_option("--drive", arguments.drive,
                   "This robot is driven from outside, by Nav2 for example: /cmd_vel in, /odom, "
-                  "/scan and frames out, until the scenario's duration is over or Ctrl-C. There is "
-                  "one such run: not with --seeds or --breakdown")
+                  "/scan and frames out, until the scenario's duration is over or Ctrl-C. It is a "
+                  "single run: not with --seeds or --breakdown")
       ->needs(ros2)
       ->excludes("--seeds")
       ->excludes("--breakdown");

@@ -117,16 +117,16 @@ void add_plan_command(CLI::App& app, Action& chosen) {
   command
       ->add_option(
           "--check", arguments->question.check_seeds,
-          "Run the chosen layout in full with so many other samples and seeds, and compare")
+          "Run the chosen layout in full with this many other samples and seeds, and compare")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}));
   command
       ->add_option(
           "--exact", arguments->question.exact_s,
-          "Look for the best layout of the chosen number of antennas by an integer program "
-          "for up to so many seconds (needs CBC), and say how far the layout can be from it")
+          "Look for the best layout of the chosen number of antennas by an integer program for up "
+          "to this many seconds (needs CBC), and report how far the layout can be from it")
       ->check(CLI::Range(0.1, 86'400.0));
   command->add_flag("--no-links", arguments->no_links,
-                    "Keep no links on disk: nothing to go on from where it is interrupted");
+                    "Keep no links on disk: an interrupted plan can't be resumed");
   command->add_flag("--force", arguments->force,
                     "Replace results of another scenario in the folder");
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME_plan)");
@@ -142,7 +142,7 @@ void add_plan_command(CLI::App& app, Action& chosen) {
       "The folder then holds plan.html with a slider over the number of antennas, layout.yaml "
       "(the\n"
       "chosen layout as a scenario: tagfield run takes it as it is), plan.json, three tables, and\n"
-      "links/, from which the same command goes on or plans again with other limits at once.");
+      "links/, from which the same command resumes, or plans again with other limits at once.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return plan(*arguments); }; });
 }
 

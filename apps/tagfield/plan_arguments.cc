@@ -29,7 +29,7 @@ LinkMatrix links_of(const ScenarioToPlan& to_plan, const PlanQuestion& question,
   LinkMatrixCounts counts;
   LinkMatrix matrix = evaluate_links(to_plan, request, counts);
   if (counts.damaged > 0) {
-    diagnostics.warn(fmt::format("{}: {} files of links were not whole; they are computed again",
+    diagnostics.warn(fmt::format("{}: {} files of links were incomplete; they are computed again",
                                  request.folder, counts.damaged));
   }
   return matrix;
@@ -76,7 +76,7 @@ void warn_of_shortfall(const AntennaPlan& plan, Diagnostics& diagnostics) {
       "plan.aim.share {:g} is not reached: the best layout found has {:.4f}{}", *plan.aim.share,
       plan.layouts[plan.chosen].share,
       plan.stopped_by.empty() ? std::string()
-                              : fmt::format("; plan.{} keeps more out", plan.stopped_by)));
+                              : fmt::format("; plan.{} allows no more", plan.stopped_by)));
 }
 
 std::string layouts_text(const AntennaPlan& plan) {
@@ -145,7 +145,7 @@ AntennaPlan plan_antennas(const ScenarioToPlan& to_plan, const PlanQuestion& que
 }
 
 std::string plan_to_text(const AntennaPlan& plan) {
-  std::string text = fmt::format("{}: {} tags in {} places, {} ways to mount an antenna\n",
+  std::string text = fmt::format("{}: {} tags at {} positions, {} ways to mount an antenna\n",
                                  plan.scenario, plan.tags, plan.places.size(), plan.options);
   text += layouts_text(plan) + chosen_text(plan);
   for (const PlanVariant& variant : plan.sensitivity) {

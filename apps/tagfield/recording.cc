@@ -147,8 +147,8 @@ void take_untold(const BagArguments& arguments, const std::string& out,
   if (!recording.stored) return;
   recording.other = {};
   diagnostics.warn({arguments.bag, 0},
-                   fmt::format("its reads are worked on in parts: with the poses '{}' alone, and "
-                               "not beside others",
+                   fmt::format("its reads are processed in parts: with the poses '{}' alone, "
+                               "without a comparison with others",
                                recording.poses.name));
 }
 
@@ -168,8 +168,8 @@ LoadedRecording csv_recording(const LocalizeArguments& arguments, const std::str
   const bool can_be_stored = arguments.format.empty() && !is_archive(arguments.recording);
   if (arguments.part_reads && !can_be_stored) {
     throw Error(
-        "localize: --part-reads goes with CSV in Tagfield's own form, not packed, and with "
-        "recordings of ROS only");
+        "localize: --part-reads can only be used with CSV in Tagfield's own form, not packed, and "
+        "with recordings of ROS");
   }
   std::optional<std::size_t> part;
   TableFiles files;

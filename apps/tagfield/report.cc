@@ -15,7 +15,7 @@ namespace {
 
 int report(const LocalizeArguments& arguments) {
   if (is_bag(arguments.recording)) return localize(arguments);
-  if (!arguments.out.empty()) throw Error("report: --out goes with a bag only");
+  if (!arguments.out.empty()) throw Error("report: --out can only be used with a bag");
   write_report(arguments.recording, http::view_of(arguments.recording));
   fmt::print("page: {}/report.html\n", arguments.recording);
   return kExitOk;

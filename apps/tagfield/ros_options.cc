@@ -18,10 +18,10 @@ void add_ros_options(CLI::App& command, RosOptions& options) {
 
 void refuse_ros_options(const std::string& command, const RosOptions& options) {
   if (!options.frame.empty()) {
-    throw Error(command + ": --frame goes with a recording of ROS only");
+    throw Error(command + ": --frame can only be used with a recording of ROS");
   }
   if (options.frequency_hz) {
-    throw Error(command + ": --frequency goes with a recording of ROS only");
+    throw Error(command + ": --frequency can only be used with a recording of ROS");
   }
 }
 

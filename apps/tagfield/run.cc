@@ -159,8 +159,8 @@ void add_leave_one_out(const RunArguments& arguments, const Scenario& scenario,
   if (!arguments.leave_one_out || interrupted()) return;
   if (!summary.inventory) {
     diagnostics.warn(
-        "--leave-one-out: antennas that move locate tags; it is of inventories by "
-        "antennas at rest, or with localization.method=none");
+        "--leave-one-out is for inventories: it requires antennas that are all at rest, or "
+        "localization.method=none");
     return;
   }
   ProgressBar bar("leave one out");
@@ -210,7 +210,7 @@ void print_result(const Summary& summary, const std::string& tracks, const std::
   fmt::print("{}{}", table_of(summary), tracks);
   if (!summary.complete) {
     fmt::print("INCOMPLETE: the run was interrupted{}\n",
-               summary.seeds.size() > 1 ? "; --resume goes on" : "");
+               summary.seeds.size() > 1 ? "; --resume continues it" : "");
   }
   fmt::print("{}: {}\n", arguments.no_page ? "folder" : "page",
              arguments.no_page ? out : out + "/report.html");
@@ -233,9 +233,10 @@ int finish_recording(const SeedRun& run, const Diagnostics& diagnostics, const s
                      StagedFolder& folder) {
   print_warnings(diagnostics);
   if (!run.complete) {
-    folder.add("INCOMPLETE", fmt::format("Interrupted at {:.3f} s simulated; what is here is whole "
-                                         "up to then.\n",
-                                         run.simulated_s));
+    folder.add(
+        "INCOMPLETE",
+        fmt::format("Interrupted at {:.3f} s simulated; the files are complete up to then.\n",
+                    run.simulated_s));
   }
   std::vector<std::filesystem::path> stale = stale_files();
   stale.insert(stale.end(), {"estimates.csv", "summary.json"});
@@ -315,7 +316,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   add_world_options(*command, arguments->world);
   command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
-  command->add_option("--seeds", arguments->seeds, "Run so many seeds, from --seed on")
+  command->add_option("--seeds", arguments->seeds, "Run this many seeds, from --seed on")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   command->add_option("--out", arguments->out, "Folder for the results (default runs/NAME)");
   add_change_options(*command, arguments->settings, arguments->without);
@@ -333,21 +334,22 @@ void add_run_command(CLI::App& app, Action& chosen) {
       ->excludes("--json");
   command
       ->add_flag("--breakdown", arguments->breakdown,
-                 "Run again with each effect of the physical models alone and with all but it, "
-                 "and say what each costs")
+                 "Run again with each effect of the physical models alone and with all but it, and "
+                 "report what each costs")
       ->excludes("--record-only");
   command
       ->add_flag("--leave-one-out", arguments->leave_one_out,
-                 "Run again without each antenna in turn, and say how many tags are read then")
+                 "Run again without each antenna in turn, and report how many tags are read then")
       ->excludes("--record-only");
   command
       ->add_flag("--resume", arguments->resume,
-                 "Go on where a run of many seeds into the same folder was cut off")
+                 "Resume a run of many seeds that was cut off, in the same folder")
       ->needs("--seeds");
   add_outlet_options(*command, arguments->outlets);
   command->footer(
       "The folder then holds reads.csv, antenna_poses.csv, estimates.csv, summary.json, truth/,\n"
-      "report.html and figures/. Ctrl-C ends the run early and keeps what there is, marked so.");
+      "report.html and figures/. Ctrl-C ends the run early and keeps the results so far, marked "
+      "so.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

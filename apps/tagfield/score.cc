@@ -59,7 +59,8 @@ std::vector<TagEstimate> read_estimates(const std::string& file,
     return found == heights.end() ? 0.0 : found->second;
   };
   std::vector<TagEstimate> estimates = read_estimates_csv(file, height);
-  if (is_level) diagnostics.warn({file, 0}, "has places without z_m: their errors are horizontal");
+  if (is_level)
+    diagnostics.warn({file, 0}, "has positions without z_m: their errors are horizontal");
   return estimates;
 }
 
@@ -92,8 +93,8 @@ int score(const ScoreArguments& arguments) {
 
 void add_score_command(CLI::App& app, Action& chosen) {
   const auto arguments = std::make_shared<ScoreArguments>();
-  CLI::App* command =
-      app.add_subcommand("score", "Judge places that another program estimated from a run's reads");
+  CLI::App* command = app.add_subcommand(
+      "score", "Judge positions that another program estimated from a run's reads");
   command
       ->add_option("ESTIMATES", arguments->estimates,
                    "CSV: tag,x_m,y_m and, where they are known, z_m,verdict,expected_error_m, …")
@@ -104,7 +105,7 @@ void add_score_command(CLI::App& app, Action& chosen) {
       ->required();
   command->add_flag("--json", arguments->as_json, "Print JSON, as summary.json");
   command->footer(
-      "An estimator in any language takes part: it reads reads.csv and antenna_poses.csv of a "
+      "An estimator in any language can take part: it reads reads.csv and antenna_poses.csv of a "
       "run,\n"
       "writes a table, and is judged as Tagfield's own methods are:\n\n"
       "  tagfield run scenarios/paper_warehouse.yaml --out runs/a --record-only\n"

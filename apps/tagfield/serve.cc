@@ -220,13 +220,14 @@ void add_serve_command(CLI::App& app, Action& chosen) {
       "Run a scenario live: a page to watch it in, an API to change it, readers over LLRP");
   add_scenario_options(*command, arguments->of_scenario);
   command
-      ->add_option("--http", arguments->http,
-                   "Port of the page and the API; 0 for any (default 8080, with --llrp none)")
+      ->add_option(
+          "--http", arguments->http,
+          "Port of the page and the API; 0 for any free one (default 8080, with --llrp none)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   command
       ->add_option("--llrp", arguments->llrp,
-                   "Port of the first reader's LLRP, the next reader has the next; 0 for any. "
-                   "Readers then read when a client starts them")
+                   "LLRP port of the first reader, further readers have the next ones; 0 for any "
+                   "free one. Readers then read when a client starts them")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   add_middleware_options(*command, arguments->middleware);
   add_start_option(*command, arguments->start);
@@ -238,24 +239,24 @@ void add_serve_command(CLI::App& app, Action& chosen) {
       ->needs("--locate");
   command
       ->add_option("--window", arguments->window_s,
-                   "For how long a read counts for that [s] (default 120)")
+                   "How long a read is used for that [s] (default 120)")
       ->check(CLI::Range(0.1, 1e6))
       ->needs("--locate");
   command->add_option("--plan", arguments->plan,
-                      "Folder of a plan: the page shows its places and antennas, with a slider "
-                      "(default: that of the scenario, if it is a plan's layout.yaml)");
+                      "Folder of a plan: the page shows its tag positions and antennas, with a "
+                      "slider (default: that of the scenario, if it is a plan's layout.yaml)");
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at; 0.0.0.0 for all (default 127.0.0.1, by this "
                       "machine alone)");
   command->add_option("--token", arguments->token,
-                      "That commands must bring, where others can reach it (default: drawn anew)");
+                      "Token required for commands from other machines (default: random)");
   command->add_option("--speed", arguments->speed, "Multiple of real time, or max (default 1)");
-  command->add_flag("--paused", arguments->is_paused, "Time stands until it is resumed");
+  command->add_flag("--paused", arguments->is_paused, "Start paused, until resumed");
   command->footer(
       "Then open the page that it names, or ask the API (docs/live.md):\n"
       "  curl -N http://127.0.0.1:8080/api/reads\n"
       "  curl -X POST http://127.0.0.1:8080/api/antennas/NAME/disconnect\n"
-      "It goes on until Ctrl-C: robots that have arrived stand still.");
+      "It runs until Ctrl-C: robots that have arrived stand still.");
   command->callback([arguments, &chosen] {
     chosen = [arguments] {
       ServeArguments asked = *arguments;

@@ -16,8 +16,8 @@ constexpr Time kUnixTime(std::chrono::seconds(1'000'000'000));
 
 void add_start_option(CLI::App& command, std::string& start) {
   command.add_option("--start", start,
-                     "Civil time at stamp 0, as 2020-01-01T00:00:00Z, which is the default; where "
-                     "stamps are Unix time they are taken as that");
+                     "Date and time at stamp 0, by default 2020-01-01T00:00:00Z; stamps that are "
+                     "Unix time are taken as such");
 }
 
 Time start_time(const std::string& command, const std::string& start, Time first_stamp) {

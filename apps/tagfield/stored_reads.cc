@@ -36,8 +36,8 @@ void warn_of_thinned_tags(const StoredReads& reads, Diagnostics& diagnostics) {
   }
   if (tags == 0) return;
   diagnostics.warn({reads.source.file, 0},
-                   fmt::format("{} {} over {} reads, up to {}: every second, third, … counts, so "
-                               "that those of one tag fit in memory (--part-reads)",
+                   fmt::format("{} {} over {} reads, up to {}: only every second, third, … is "
+                               "used, so that those of one tag fit in memory (--part-reads)",
                                counted(tags, "tag"), tags == 1 ? "has" : "have",
                                grouped(reads.most_of_a_tag), grouped(most)));
 }
@@ -47,9 +47,9 @@ void warn_of_thinned_tags(const StoredReads& reads, Diagnostics& diagnostics) {
 void add_part_option(CLI::App& command, std::optional<std::size_t>& part_reads) {
   command
       .add_option("--part-reads", part_reads,
-                  "Work in parts of some tags each, with about so many reads, and keep the "
-                  "others on the disk; 0: all at once, in memory. Default: 250000 for CSV of over "
-                  "400 MB and recordings of over five million reads, else 0")
+                  "Process tags in parts of about this many reads, and keep the others on disk; 0: "
+                  "all at once, in memory. Default: 250000 for CSV of over 400 MB and recordings "
+                  "of over five million reads, else 0")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000'000}));
 }
 
@@ -59,7 +59,7 @@ std::optional<std::size_t> part_of_table(const std::string& table,
   std::error_code unknown;
   const bool is_file = fs::is_regular_file(table, unknown);
   if (part_reads && fs::exists(table, unknown) && !is_file) {
-    fail({table, 0}, "is no file that can be read twice, as --part-reads needs it");
+    fail({table, 0}, "can't be read twice, as --part-reads requires: expected a file");
   }
   if (part_reads) return part_reads;
   const std::uintmax_t size = is_file ? fs::file_size(table, unknown) : std::uintmax_t{0};
@@ -93,8 +93,8 @@ ReadSource reads_of_table(const std::string& table) {
         },
         on_progress);
     if (again == at_first) return;
-    fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: "
-                                 "expected a file that stays as it is",
+    fail({table, 0}, fmt::format("had {} reads at first and {} when they were read again: expected "
+                                 "a file that does not change",
                                  at_first, again));
   };
   return source;

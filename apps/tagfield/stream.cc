@@ -118,7 +118,7 @@ void add_stream_command(CLI::App& app, Action& chosen) {
       "A line has timestamp, reader, antennaPort, antennaName, epc, epcHex (where the tag's ID "
       "has\n"
       "bits), peakRssiCdbm [dBm/100], phaseAngle [deg] and frequency [kHz]. It ends with the\n"
-      "scenario, by Ctrl-C, or when whoever reads the lines closes them:\n"
+      "scenario, by Ctrl-C, or when the program that reads the lines ends:\n"
       "  tagfield stream scenarios/conveyor.yaml --speed 0 | head -n 3");
   command->callback([arguments, &chosen] { chosen = [arguments] { return stream(*arguments); }; });
 }

@@ -154,31 +154,31 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   command.add_option("SUITE", arguments.suite, "Suite file (YAML), with a section 'sweep'");
   command.add_option("--out", arguments.out, "Folder of the sweep (default runs/sweep_NAME)");
   command.add_option("--shard", arguments.shard,
-                     "Do the part I of N, from 1/N to N/N, and merge nothing");
-  command.add_option("--merge", arguments.merge, "Put together what all shards left in a folder")
+                     "Do part I of N, from 1/N to N/N, without merging");
+  command.add_option("--merge", arguments.merge, "Merge the results of all shards in a folder")
       ->option_text("DIR");
-  command.add_option("--status", arguments.status, "Say how far all shards are")
+  command.add_option("--status", arguments.status, "Show the progress of all shards")
       ->option_text("DIR");
   command
       .add_option("--again", arguments.again,
-                  "Do these runs again, POINT:SEED, or all that failed: 'failed'")
+                  "Repeat these runs, POINT:SEED, or all that failed: 'failed'")
       ->delimiter(',')
       ->take_all()
       ->allow_extra_args(false)
       ->excludes("--shard");
   command
       .add_option("--save-every", arguments.save_every_s,
-                  "Seconds of work that are lost at most where a process is killed (default 5)")
+                  "Seconds of work that are lost at most when a process is killed (default 5)")
       ->check(CLI::Range(0.0, 3600.0));
   command.add_option("--threads", arguments.threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command.add_flag("--resume", arguments.resume,
-                   "Go on where the sweep was cut off, as it does anyway");
+                   "Resume a sweep that was cut off, which is the default");
   command.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   add_world_options(command, arguments.world);
   add_json_option(
       command, arguments.as_json,
-      "results.json, or how far it is (--status, --shard, --again without a failed run)");
+      "results.json, or the progress (--status, --shard, --again without a failed run)");
 }
 
 }  // namespace

@@ -96,15 +96,15 @@ int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
 std::optional<int> parse(int argc, char** argv, MpiArguments& arguments) {
   CLI::App app(
       "Do a sweep with all ranks of mpirun\n\n"
-      "A sweep as 'tagfield sweep' does it (see tagfield sweep --help): each rank takes runs as "
-      "it\n"
-      "gets done with others. A folder that was begun with shards can be gone on with, and the\n"
+      "A sweep as 'tagfield sweep' does it (see tagfield sweep --help): each rank takes new runs "
+      "when\n"
+      "it has finished others. A sweep that was begun with shards can be resumed here, and the\n"
       "other way round.",
       "tagfield_sweep_mpi");
   app.add_option("SUITE", arguments.suite, "Suite file (YAML)")->required();
   app.add_option("--out", arguments.out, "Folder of the sweep (default runs/sweep_NAME)");
   app.add_option("--save-every", arguments.save_every_s,
-                 "Seconds of work that are lost at most where a process is killed (default 5)")
+                 "Seconds of work that are lost at most when a process is killed (default 5)")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--no-page", arguments.no_page, "Write the data only, no sweep.html");
   app.footer("For example:\n  mpirun -np 4 tagfield_sweep_mpi SUITE --out DIR");

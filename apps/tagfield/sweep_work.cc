@@ -147,12 +147,12 @@ std::string left_text(const SweepResults& results, const FoundSweep& found,
                       const std::string& folder, bool closed_a_rung) {
   if (results.missing > 0 && !closed_a_rung) {
     return fmt::format(
-        "INCOMPLETE: {} of {} runs are missing; go on:  tagfield sweep {} --out {}\n",
+        "INCOMPLETE: {} of {} runs are missing; resume with:  tagfield sweep {} --out {}\n",
         results.missing, results.planned, found.source.suite, folder);
   }
   if (results.complete()) return "";
   const std::size_t over = results.closed.survivors.size();
-  return fmt::format("rung {} of {} is over: {} points go on; run the shards again\n", over,
+  return fmt::format("rung {} of {} is complete: {} points remain; run the shards again\n", over,
                      results.rungs, results.closed.survivors.back().size());
 }
 

@@ -133,7 +133,7 @@ std::string navigation_lines(const Summary& summary) {
   if (!summary.navigation) return "";
   const NavigationSummary& navigation = *summary.navigation;
   std::string text =
-      fmt::format("goals: {} of {} reached, {} collisions, nearest to anything {:.0f} mm\n",
+      fmt::format("goals: {} of {} reached, {} collisions, least distance to anything {:.0f} mm\n",
                   navigation.goals_reached, navigation.goals, navigation.collisions,
                   millimetres(navigation.closest_m));
   const auto& unreached = navigation.goals_unreached;
@@ -263,7 +263,7 @@ std::string without_lines(const InventorySummary& inventory) {
 
 /// Who was read, where nothing is located.
 std::string inventory_lines(const Summary& summary) {
-  const std::string why = fmt::format("no places: {}\n", summary.method_why);
+  const std::string why = fmt::format("no positions: {}\n", summary.method_why);
   return inventory_head(*summary.inventory) + zone_lines(*summary.inventory) +
          antenna_lines(*summary.inventory) + without_lines(*summary.inventory) + why;
 }

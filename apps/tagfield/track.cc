@@ -34,8 +34,8 @@ bool is_scenario(const std::string& path) {
 void refuse_options_of_reads(const TrackArguments& arguments) {
   if (!arguments.poses.empty() || !arguments.scenario.empty() || !arguments.format.empty()) {
     throw Error(
-        "track: --poses, --scenario and --format go with reads, not with a scenario in their "
-        "place");
+        "track: --poses, --scenario and --format can only be used with reads, not with a scenario "
+        "in their place");
   }
   if (arguments.part_reads) throw Error(kUselessParts);
   refuse_ros_options("track", arguments.ros);
@@ -155,10 +155,10 @@ int track_command(const TrackArguments& arguments) {
 void add_knowledge(CLI::App& command, TrackArguments& arguments) {
   command
       .add_option("--lane", arguments.lane,
-                  "Where tags run: X Y of a point [m], HEADING [deg from x towards y], and how far "
-                  "to the side they may be (one sigma, default 0.1 m)")
+                  "Lane along which tags move: X Y of a point [m], HEADING [deg from x towards y], "
+                  "and how far to the side they may be (one sigma, default 0.1 m)")
       ->expected(3, 4);
-  command.add_flag("--both-ways", arguments.both_ways, "On the lane tags may also run backwards");
+  command.add_flag("--both-ways", arguments.both_ways, "Tags may also move backwards on the lane");
   command
       .add_option(
           "--line", arguments.line,
@@ -167,14 +167,14 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
   command.add_option("--speed", arguments.speed, "Least and greatest speed [m/s] (default 0.05 3)")
       ->expected(2);
   command
-      .add_option("--acceleration-noise", arguments.acceleration_noise,
-                  "How unsteady the motion is [m/s2/sqrt(Hz)]: after a time t the velocity has "
-                  "strayed by this times sqrt(t). Default 0.005, a conveyor; a person walks with "
-                  "0.3")
+      .add_option(
+          "--acceleration-noise", arguments.acceleration_noise,
+          "Process noise of the motion [m/s2/sqrt(Hz)]: after a time t the velocity has drifted by "
+          "this times sqrt(t). Default 0.005, a conveyor; a person walks with 0.3")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--tag-height", arguments.tag_height_m,
-                  "Height of the tags [m, world]; without it, it is estimated about the antennas'")
+                  "Height of the tags [m, world] (default: estimated, near that of the antennas)")
       ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--tag-heights", arguments.heights_file,
                      "CSV: tag,height_m; takes precedence over --tag-height");
@@ -195,7 +195,7 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
     options.lane = lane;
   }
   if (arguments.both_ways) {
-    if (!options.lane) throw Error("track: --both-ways goes with a lane only");
+    if (!options.lane) throw Error("track: --both-ways can only be used with a lane");
     options.lane->both_ways = true;
   }
   if (!arguments.line.empty()) {
@@ -242,7 +242,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
   add_ros_options(*command, arguments->ros);
   add_part_option(*command, arguments->part_reads);
   command->add_option("--scenario", arguments->scenario,
-                      "With reads, a scenario whose 'tracking' and heights are to be used");
+                      "With reads, a scenario whose 'tracking' and heights are used");
   add_world_options(*command, arguments->world);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario")
       ->take_all()
@@ -252,7 +252,7 @@ void add_track_command(CLI::App& app, Action& chosen) {
   add_knowledge(*command, *arguments);
   command->add_option("--seed", arguments->seed, "Seed instead of the scenario's")
       ->check(fault_of_seed);
-  command->add_option("--seeds", arguments->seeds, "With a scenario, so many seeds")
+  command->add_option("--seeds", arguments->seeds, "With a scenario, this many seeds")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
   command->add_option("--out", arguments->out,
                       "Folder for the results (default runs/tracked, of a scenario runs/NAME)");
@@ -261,12 +261,13 @@ void add_track_command(CLI::App& app, Action& chosen) {
   command->add_flag("--no-page", arguments->no_page, "Write the data only, no tracks.html");
   add_json_option(*command, arguments->as_json, "tracks.json");
   command->footer(
-      "Writes tracks.csv (a row for each stamp), verdicts.csv, order.csv (who passed the line, "
+      "Writes tracks.csv (a row for each stamp), verdicts.csv, order.csv (which tag passed the "
+      "line,\n"
+      "and each antenna at rest, when, and how surely before the next), tracks.json, tracks.svg, "
       "and\n"
-      "each antenna at rest, when, and how surely before the next), tracks.json, tracks.svg, and\n"
       "tracks.html, a page with the tracks, when they passed what, their order and their speeds.\n"
-      "From antennas in one vertical plane a tag and its mirror image look alike: then say by\n"
-      "--lane where tags run. For example, a belt along x with its middle at y = 0:\n"
+      "From antennas in one vertical plane a tag and its mirror image look alike: then state\n"
+      "the lane by --lane. For example, a belt along x with its middle at y = 0:\n"
       "  tagfield track reads.csv --poses poses.csv --lane 0 0 0 0.1 --line 0 0 90 --tag-height "
       "0.8\n"
       "Truth beside READS (truth/tags.csv) judges the tracks and is not used to make them.");

@@ -45,8 +45,8 @@ struct TrackArguments {
 
 /// Of --part-reads.
 inline constexpr const char* kUselessParts =
-    "track: --part-reads goes with CSV in Tagfield's own form, not packed, and with recordings of "
-    "ROS only";
+    "track: --part-reads can only be used with CSV in Tagfield's own form, not packed, and with "
+    "recordings of ROS";
 
 struct TrackResult {
   TrackSummary summary;

@@ -42,7 +42,7 @@ struct Task {
 };
 
 Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
-  if (arguments.seeds > 1) throw Error("track: --seeds goes with a scenario only");
+  if (arguments.seeds > 1) throw Error("track: --seeds can only be used with a scenario");
   Task task;
   auto& [spec, known] = task;
   if (!arguments.scenario.empty()) {
@@ -50,11 +50,11 @@ Task task_of(const TrackArguments& arguments, Diagnostics& diagnostics) {
     spec = loaded.scenario.tracking;
     known = known_beforehand(loaded.scenario);
   } else if (!arguments.settings.empty()) {
-    throw Error("track: --set goes with a scenario only");
+    throw Error("track: --set can only be used with a scenario");
   }
   if (arguments.scenario.empty() &&
       (arguments.world.skip_missing || arguments.world.allow_outside)) {
-    throw Error("track: --skip-missing and --allow-outside go with a scenario only");
+    throw Error("track: --skip-missing and --allow-outside can only be used with a scenario");
   }
   apply(arguments, spec);
   if (arguments.tag_height_m || !arguments.heights_file.empty()) known.heights = {};
@@ -176,7 +176,7 @@ std::optional<std::pair<TableFiles, std::size_t>> table_for_parts(const TrackArg
 std::optional<LoadedRecording> recording_of(const TrackArguments& arguments, const std::string& out,
                                             Diagnostics& diagnostics) {
   if (is_bag(arguments.input)) {
-    if (!arguments.format.empty()) throw Error("track: --format goes with CSV only");
+    if (!arguments.format.empty()) throw Error("track: --format can only be used with CSV");
     return bag_recording(
         {"track", arguments.input, arguments.poses, arguments.ros, arguments.part_reads}, out, {},
         true, diagnostics);

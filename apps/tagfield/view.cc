@@ -33,13 +33,13 @@ class RunAnswerer final : public http::Answerer {
   void ask(const http::ApiRequest& request, const std::atomic<bool>& /*stop*/,
            Answered answered) override {
     if (request.method != "GET") {
-      answered(http::api_error(405, "a run that is over can't be changed"));
+      answered(http::api_error(405, "a finished run can't be changed"));
     } else if (request.target == "/api/run") {
       answered(http::ApiResponse{200, run_});
     } else if (request.target == "/api/status") {
       answered(http::ApiResponse{200, R"({"mode":"recorded"})"});
     } else {
-      answered(http::api_error(404, "of a run that is over there is /api/run and /api/status"));
+      answered(http::api_error(404, "a finished run offers only /api/run and /api/status"));
     }
   }
 
@@ -50,7 +50,7 @@ class RunAnswerer final : public http::Answerer {
 /// A folder's own scene goes before what others say of it.
 std::string run_in_folder(const ViewArguments& arguments) {
   if (!arguments.scenario.empty()) {
-    throw Error("--scenario goes with a recording: a run's folder has its world");
+    throw Error("--scenario can only be used with a recording: a run's folder has its world");
   }
   finish_commit(arguments.run);
   return http::run_json(read_run_files(arguments.run), http::read_surroundings(arguments.run));
@@ -70,8 +70,8 @@ std::string run_in_recording(const ViewArguments& arguments, Diagnostics& diagno
   around.robot_poses = bag.truth.robot_poses;
   if (bag.truth.tag_positions.empty()) {
     diagnostics.warn({arguments.run, 0},
-                     "has no tag's position, so that no tag is drawn: 'tagfield localize' finds "
-                     "places, and 'tagfield view' shows its folder");
+                     "has no positions of tags, so no tag is drawn: 'tagfield localize' estimates "
+                     "them, and 'tagfield view' shows its folder");
   }
   const std::string name = std::filesystem::path(arguments.run).filename().string();
   const RunFiles run = recorded_run(name, std::move(bag.reads), bag.believed.poses, bag.truth);
@@ -102,15 +102,16 @@ void add_view_command(CLI::App& app, Action& chosen) {
       ->add_option("RUN", arguments->run,
                    "Folder of a run, or a recording of ROS (.mcap, .db3, .bag, a folder of them)")
       ->required();
-  command->add_option("--scenario", arguments->scenario,
-                      "What a recording was made of: its world and its antennas' beams are drawn");
+  command->add_option(
+      "--scenario", arguments->scenario,
+      "Scenario that a recording was made from: its world and its antennas' beams are drawn");
   command->add_option("--http", arguments->port, "Port of the page; 0 for any (default 8080)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at (default 127.0.0.1, by this machine alone)");
   command->footer(
       "report.html in a run's folder shows the same without a server. A recording shows more with\n"
-      "the scenario that it was made of:\n"
+      "the scenario that it was made from:\n"
       "  tagfield run SCENARIO.yaml --mcap run.mcap\n"
       "  tagfield view run.mcap --scenario SCENARIO.yaml\n"
       "What is happening now is shown by 'tagfield serve'.");

@@ -137,7 +137,7 @@ std::unique_ptr<AntennaLinks> links_from(const LoadedPtr& loaded, const std::str
 }
 
 void require_finite(const Eigen::Vector3d& place) {
-  if (!place.allFinite()) throw Error("link: a place must be three finite numbers [m]");
+  if (!place.allFinite()) throw Error("link: a position must be three finite numbers [m]");
 }
 
 LinkRow one_link(AntennaLinks& self, double x_m, double y_m, double z_m) {
@@ -175,7 +175,7 @@ void bind_links(py::module_& module) {
       .def_readonly("tag_dbm", &LinkRow::tag_dbm, "At the chip [dBm]; NaN by the paper's model.")
       .def_readonly("reply_dbm", &LinkRow::reply_dbm, "At the reader's port: its RSSI [dBm].")
       .def_readonly("phase_rad", &LinkRow::phase_rad, "In [0, 2π), growing with distance [rad].")
-      .def_readonly("heard", &LinkRow::heard, "Whether tag and reader have power enough.")
+      .def_readonly("heard", &LinkRow::heard, "Whether tag and reader have enough power.")
       .def("__repr__", [](const LinkRow& row) {
         return py::str(
                    "LinkState(distance_m={:.3f}, tag_dbm={:.2f}, reply_dbm={:.2f}, "

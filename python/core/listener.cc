@@ -100,7 +100,7 @@ void bind_records(py::module_& module) {
       .def_readonly("frequency_hz", &TagRead::frequency_hz, "Carrier [Hz].")
       .def_readonly("phase_rad", &TagRead::phase_rad, "In [0, 2π), growing with distance [rad].")
       .def_readonly("rssi_dbm", &TagRead::rssi_dbm, "[dBm]")
-      .def_readonly("doppler_hz", &TagRead::doppler_hz, "[Hz], or None where it is not told.")
+      .def_readonly("doppler_hz", &TagRead::doppler_hz, "[Hz], or None where it is not reported.")
       .def("__repr__", [](const TagRead& read) {
         return py::str(
                    "Read(stamp_s={:.9f}, antenna={!r}, tag={!r}, phase_rad={:.4f}, "

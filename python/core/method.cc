@@ -17,7 +17,8 @@ struct ProblemView {
   int threads = 1;
 
   [[nodiscard]] const LocalizationProblem& get() const {
-    if (problem == nullptr) throw Error("this problem is over: it is good while its method runs");
+    if (problem == nullptr)
+      throw Error("this problem is over: it can only be used while its method runs");
     return *problem;
   }
 };
@@ -104,8 +105,9 @@ Method method_of(const std::string& name, const std::string& summary, py::object
 void bind_methods(py::module_& module) {
   py::class_<ProblemView, std::shared_ptr<ProblemView>>(
       module, "Problem",
-      "What a localization method is given: reads joined with the antennas' believed places, and\n"
-      "what is known beforehand. Nothing of where the tags are. Good while the method runs.")
+      "What a localization method is given: reads joined with the antennas' believed positions, "
+      "and\n"
+      "what is known beforehand. Nothing about where the tags are. Valid while the method runs.")
       .def_property_readonly(
           "tags",
           [](const ProblemView& view) {
@@ -127,10 +129,10 @@ void bind_methods(py::module_& module) {
           py::arg("tag"), "Height of the tag [m, world]: known, or else the antennas' mean.")
       .def_property_readonly(
           "reference_tags", [](const ProblemView& view) { return view.get().reference_tags; },
-          "Places (3,) [m, world] of tags at known places, by ID.")
+          "Positions (3,) [m, world] of tags at known positions, by ID.")
       .def_property_readonly(
           "half_turns", [](const ProblemView& view) { return view.get().half_turns; },
-          "Whether phases are known but for π: then phases and carriers of samples are doubled.")
+          "Whether phases have the π ambiguity: then phases and carriers of samples are doubled.")
       .def_property_readonly(
           "has_phases", [](const ProblemView& view) { return view.get().has_phases; },
           "False where the reads have none.")
@@ -140,8 +142,8 @@ void bind_methods(py::module_& module) {
   py::class_<Method>(module, "Method",
                      "A localization method of your own, as tagfield.method() makes one.")
       .def(py::init(&method_of), py::arg("name"), py::arg("summary"), py::arg("function"))
-      .def_readonly("name", &Method::name, "As tables call it.")
-      .def_readonly("summary", &Method::summary, "One line for people.");
+      .def_readonly("name", &Method::name, "Its name in tables.")
+      .def_readonly("summary", &Method::summary, "A one-line description.");
 }
 
 }  // namespace tagfield::python

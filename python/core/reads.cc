@@ -36,7 +36,7 @@ class Asked {
       return keywords_[key].cast<T>();
     } catch (const py::cast_error&) {
       throw Error(command_ + ": " + key + " is " + std::string(py::repr(keywords_[key])) +
-                  ", which is no value for it");
+                  ", which is not a valid value");
     }
   }
   [[nodiscard]] std::optional<double> number(const char* key, double least) const {
@@ -235,7 +235,7 @@ TrackingSpec tracking_of(const Asked& asked, const LoadedPtr& loaded) {
   if (const auto method = asked.get<std::string>("method")) options.method = track_method(*method);
   if (const auto lane = asked.get<std::vector<double>>("lane")) {
     if (lane->size() != 3 && lane->size() != 4) {
-      throw Error("track: lane must be x, y [m], heading [deg] and, if told, sigma [m]");
+      throw Error("track: lane must be x, y [m], heading [deg] and, if given, sigma [m]");
     }
     Lane of;
     of.point = {(*lane)[0], (*lane)[1]};
@@ -244,7 +244,7 @@ TrackingSpec tracking_of(const Asked& asked, const LoadedPtr& loaded) {
     options.lane = of;
   }
   if (const auto both_ways = asked.get<bool>("both_ways")) {
-    if (!options.lane) throw Error("track: both_ways goes with a lane only");
+    if (!options.lane) throw Error("track: both_ways can only be used with a lane");
     options.lane->both_ways = *both_ways;
   }
   if (const auto line = asked.get<std::vector<double>>("line")) {
@@ -372,8 +372,8 @@ py::dict calibrate(const ReadsArgument& reads, const PosesArgument& poses, const
   });
   if (calibration.antennas.empty()) {
     throw Error(
-        "calibrate: nothing to calibrate by: expected at least 30 reads of the tags by an "
-        "antenna with poses, whose phases go by their distances");
+        "calibrate: nothing to calibrate by: expected at least 30 reads of the tags by an antenna "
+        "with poses whose phases follow their distances");
   }
   calibration.name = "calibration by Python";
   return to_python(calibration, diagnostics.warnings());

@@ -39,7 +39,7 @@ RigidTransform transform_of(const PoseRow& row, std::size_t number) {
   const auto rotation = as_rotation(Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
   if (!rotation) {
     throw Error("poses: row " + std::to_string(number) +
-                ": quaternion_xyzw must be of length 1 (0.9 to 1.1 is taken)");
+                ": quaternion_xyzw must be of length 1 (0.9 to 1.1 is accepted)");
   }
   RigidTransform transform{*rotation, vector_of(row.position_m)};
   if (!is_finite(transform)) {

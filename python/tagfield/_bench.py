@@ -63,8 +63,8 @@ def bench(what: str | os.PathLike | Scenario, methods: Sequence[Any] = (),
     own += [entry[1] for entry in methods if isinstance(entry, tuple) and isinstance(entry[1], _core.Method)]
     if not isinstance(what, Scenario) and _is_suite(what):
         if conditions is not None or len(own) != len(methods):
-            raise _core.Error("bench: a suite has its own conditions and methods: only methods of your own "
-                              "can be added")
+            raise _core.Error("bench: a suite has its own conditions and methods: only your own methods can "
+                              "be added")
         if phase_noise_rad is not None or name is not None:
             raise _core.Error("bench: a suite says phase_noise_rad and its name itself")
         return Bench(_core.bench_suite(os.fspath(what), own, seeds, first_seed, skip_missing, allow_outside,

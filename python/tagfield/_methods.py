@@ -18,13 +18,13 @@ Problem = _core.Problem
 
 @dataclass
 class Estimate:
-    """A place where a tag may be, as a method of your own returns it.
+    """A position where a tag may be, as your own method returns it.
 
     position_m: x, y [m, world], or x, y, z; without z the tag's height is taken as known.
     covariance_m2: (3, 3) or (2, 2) covariance of it [m²], if the method knows it.
     expected_error_m: root of the horizontal variances [m]; by default that of the covariance. Above
         the scenario's limit (0.15 m) a tag does not count as located.
-    rms_m: root mean square of what the fit leaves unexplained [m].
+    rms_m: root mean square of the fit's residuals [m].
     """
 
     position_m: Any
@@ -34,7 +34,7 @@ class Estimate:
 
 
 def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[Callable], _core.Method]:
-    """Makes a localization method of a function, to be run and compared as any other.
+    """Makes a localization method from a function, to be run and compared like any other.
 
     With ``per_tag`` the function is called as ``function(problem, tag, samples)`` for each tag, with
     ``samples = problem.samples(tag)``. Otherwise as ``function(problem)``, and returns a mapping from
@@ -44,7 +44,7 @@ def method(name: str, summary: str = "", *, per_tag: bool = True) -> Callable[[C
     - a list of such, best first: the tag is ambiguous;
     - ``None``, or a string that says why: the tag is not located.
 
-    Whatever it says is then held against the phases once more, as with all methods. Called from
+    Its result is then checked against the phases once more, as with all methods. Called from
     several threads of a bench, one at a time.
 
         @tagfield.method("strongest", "where the antenna heard the tag best")
@@ -72,7 +72,7 @@ def _answers(name: str, problem: Problem, answers: Mapping[str, Any]) -> list[tu
     tags = problem.tags
     if not isinstance(answers, Mapping):
         raise _core.Error(f"method '{name}': returned {type(answers).__name__}, expected a mapping "
-                          "from tag to place")
+                          "from tag to position")
     for tag in answers:
         if tag not in tags:
             raise _core.Error(f"method '{name}': the problem has no tag '{tag}'")
@@ -80,7 +80,7 @@ def _answers(name: str, problem: Problem, answers: Mapping[str, Any]) -> list[tu
     for tag in tags:
         answer = answers.get(tag)
         if answer is None or isinstance(answer, str):
-            found.append((tag, answer or f"{name} found no place", []))
+            found.append((tag, answer or f"{name} found no position", []))
         else:
             found.append((tag, "", [_place(name, problem, tag, one) for one in _several(answer)]))
     return found
@@ -97,8 +97,8 @@ def _place(name: str, problem: Problem, tag: str, answer: Any) -> tuple:
     estimate = answer if isinstance(answer, Estimate) else Estimate(answer)
     place = np.asarray(estimate.position_m, dtype=float)
     if place.shape not in ((2,), (3,)) or not np.isfinite(place).all():
-        raise _core.Error(f"method '{name}': tag '{tag}': {estimate.position_m!r} is no place: expected "
-                          "two or three finite numbers [m]")
+        raise _core.Error(f"method '{name}': tag '{tag}': {estimate.position_m!r} is not a position: "
+                          "expected two or three finite numbers [m]")
     if len(place) == 2:
         place = np.append(place, problem.height_m(tag))
     covariance = None

@@ -18,7 +18,7 @@ __all__ = ["Plan", "plan"]
 class Plan:
     """Layouts of antennas, from one up: str() says what the command prints.
 
-    data: what plan.json holds: layouts, hard places, sensitivity, the check. docs/plan.md says what it means.
+    data: the content of plan.json: layouts, hard places, sensitivity, the check. docs/plan.md says what it means.
     chosen: of the layouts, the one that was chosen. layout: that as a scenario (YAML).
     """
 
@@ -73,14 +73,14 @@ def plan(path: str | os.PathLike, *changes: str | Mapping[str, Any], seed: int |
          samples: int = 32, check: int = 0, exact_s: float = 0.0, links: str | os.PathLike = "",
          threads: int | None = None, progress: Callable[[float], Any] | None = None,
          skip_missing: bool = False, allow_outside: bool = False) -> Plan:
-    """Decides where antennas go: of a scenario's file with a section ``plan`` (docs/plan.md).
+    """Decides where antennas go: from a scenario's file with a section ``plan`` (docs/plan.md).
 
         made = tagfield.plan(tagfield.share("scenarios/plan/store.yaml"), {"plan.limits.antennas": 4}, check=20)
         made.scenario.run(seed=2)
 
-    changes: as of Scenario.with_(). samples: of each forecast. check: so many runs of the chosen layout in full,
-    with other tags and seeds. exact_s: for so long an integer program looks for a better one (needs CBC). links:
-    a folder where links are kept, from which the same plan goes on, or plans with other limits and aims at once.
+    changes: as of Scenario.with_(). samples: of each forecast. check: this many runs of the chosen layout in full,
+    with other tags and seeds. exact_s: seconds in which an integer program looks for a better one (needs CBC). links:
+    a folder where links are kept, from which the same plan resumes, or plans with other limits and aims at once.
     progress: called with 0 … 1 now and then; Ctrl-C raises KeyboardInterrupt.
     """
     if not 8 <= samples <= 10_000:

@@ -92,15 +92,16 @@ def localize(reads: Any, poses: Any, method: _core.Method | str | None = None, *
     method: a name of :func:`methods`, one of your own, or None: the scenario's, else "auto", which
         chooses by the data and says why.
     settings: of the method, as {"stride_m": 1} (docs/methods.md).
-    truth: places (3,) [m, world] by tag, for the errors alone.
+    truth: positions (3,) [m, world] by tag, only for the errors.
     scenario: whose knowledge of heights, poses, world is used where nothing else is given.
 
-    What is known beforehand, as keywords: tag_height_m; tag_heights_m {tag: m}; height "above" or "below":
+    Prior knowledge, as keywords: tag_height_m; tag_heights_m {tag: m}; height "above" or "below":
     heights are estimated, on that side of the antennas; side ("left", "right", "+x", "-x", "+y", "-y") and
     box_m (x0, y0, x1, y1): where tags can be; reference_tags {tag: (3,) m}; offset_rad, or offsets_rad
     {antenna: rad}; pose_sigma_m, pose_yaw_sigma_deg, pose_time_constant_s: the error of the poses;
     world_sigma_m: how far surfaces of the scenario's world may be off, for multipath (0.01 if not given;
-    0 suits reads that were simulated in that very world); max_expected_error_m: a worse place is none; half_turns: whether phases have the π ambiguity.
+    0 suits reads that were simulated in that very world); max_expected_error_m: with a larger
+    one a tag is not located; half_turns: whether phases have the π ambiguity.
     """
     _refuse_unknown("localize", known, _KNOWN)
     own = method if isinstance(method, _core.Method) else None
@@ -118,7 +119,7 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
           **known: Any) -> Tracks:
     """Follows moving tags past antennas; see docs/tracking.md.
 
-    Keywords: method ("ekf", "ukf", "particle"); lane (x, y [m], heading [deg], sigma [m]): where tags run;
+    Keywords: method ("ekf", "ukf", "particle"); lane (x, y [m], heading [deg], sigma [m]): along which tags move;
     both_ways; line (x, y [m], heading [deg]): across which the order is reported; speed_m_s (least, greatest);
     acceleration_noise [m/s²/√Hz]; tag_height_m, tag_heights_m, offset_rad, offsets_rad as of
     :func:`localize`. What is not given is the scenario's, if there is one.
@@ -131,7 +132,7 @@ def track(reads: Any, poses: Any, *, scenario: Scenario | None = None, threads: 
 
 @dataclass(frozen=True)
 class Calibration:
-    """What reads of tags at known places tell of the antennas.
+    """What reads of tags at known positions tell about the antennas.
 
     antennas: by name {"phase_sign", "place_m": 3 × (value, sigma, observable), "time_offset_s": (value,
         sigma, observable), "noise_rad", "reads", "offsets_rad": {frequency_hz: (value, sigma)}}.
@@ -150,9 +151,9 @@ class Calibration:
 
 def calibrate(reads: Any, poses: Any, tags: Mapping[str, Any], *, place_sigma_m: float = 0.1,
               time_sigma_s: float = 0.05, threads: int | None = None) -> Calibration:
-    """Antennas' phase centres, time offset, phase offsets and noise from tags at known places.
+    """Antennas' phase centres, time offset, phase offsets and noise from tags at known positions.
 
-    tags: places (3,) [m, world] by ID. place_sigma_m, time_sigma_s: how far off an antenna's place and
+    tags: positions (3,) [m, world] by ID. place_sigma_m, time_sigma_s: how far off an antenna's position and
     its stamps may be, one sigma. See docs/calibration.md.
     """
     places = {tag: np.asarray(place, dtype=float) for tag, place in tags.items()}

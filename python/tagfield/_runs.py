@@ -19,7 +19,7 @@ __all__ = ["Coverage", "Explanation", "Layer", "Localization", "Run", "Scan", "S
 
 @dataclass(frozen=True)
 class Truth:
-    """What really was: to judge by, never to locate by.
+    """The ground truth: to judge by, never to locate by.
 
     antennas, robots: tables of stamp_ns, name, position_m (3,), quaternion_xyzw (4,); a fixed antenna
         has one row.
@@ -33,19 +33,19 @@ class Truth:
     distances: Table
 
     def places_m(self) -> dict[str, np.ndarray]:
-        """The last place (3,) [m, world] of each tag, by ID."""
+        """The last position (3,) [m, world] of each tag, by ID."""
         return {name: row["position_m"].copy()
                 for name, row in zip(self.tags.names("tag"), self.tags, strict=True)}
 
 
 class Localization:
-    """Estimates of the tags' places.
+    """Estimates of the tags' positions.
 
     estimates: a row a tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
         position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not stated),
         expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown) and error_m
         (NaN where there is none).
-    candidates: all places that a tag may be in: tag, number (1 is best), position_m, covariance_m2,
+    candidates: all positions that a tag may have: tag, number (1 is best), position_m, covariance_m2,
         expected_error_m, rms_m.
     method, why: by which method, and why "auto" chose it.
     corrected_poses: antenna poses with their error taken out, by methods that estimate it.
@@ -70,7 +70,7 @@ class Localization:
 
     @property
     def errors_m(self) -> np.ndarray:
-        """(N,) distances [m] between estimate and truth, of located tags with a known place."""
+        """(N,) distances [m] between estimate and truth, of located tags with a known position."""
         errors = self.estimates["error_m"]
         return errors[np.isfinite(errors)]
 
@@ -120,9 +120,9 @@ class Run(Localization):
 
 @dataclass(frozen=True)
 class Scan:
-    """One turn of a robot's laser: ranges_m (N,) at first_angle_rad + i·angle_step_rad, to the left.
+    """One scan of a robot's laser: ranges_m (N,) at first_angle_rad + i·angle_step_rad, to the left.
 
-    A range over most_range_m met nothing; 0 means nothing.
+    A range over most_range_m hit nothing; 0 is invalid.
     """
 
     stamp_s: float
@@ -151,13 +151,13 @@ class Simulation:
         self._told: dict[str, Table] = self._core.take()
 
     def step(self, count: int = 1) -> Table:
-        """Goes `count` time steps on and gives the reads that came, as a table (maybe of no rows)."""
+        """Runs `count` time steps and returns the reads that came, as a table (maybe without rows)."""
         self._core.step(count)
         self._told = self._core.take()
         return self._told["reads"]
 
     def run_until(self, time_s: float) -> Table:
-        """Steps to `time_s`, or the end, and gives the reads that came."""
+        """Steps to `time_s`, or the end, and returns the reads that came."""
         while self.now_s < time_s and not self.finished:
             self._core.step(1)
         self._told = self._core.take()

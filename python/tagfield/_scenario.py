@@ -45,7 +45,7 @@ class World:
     Frames: W is the world, x and y level, z up [m]. ``rpy_rad`` turns about the fixed x, y, z axes in
     this order. ``material`` is one of ITU-R P.2040's (``concrete``, ``metal``, ``wood``, ``glass``, …) or
     of the scenario's own; without it, it is guessed from the name, with a warning. Only the physical
-    models mind the world.
+    models use the world.
 
         hall = tagfield.World()
         hall.box("wall", size_m=(10, 0.2, 4), position_m=(0, 3, 2), material="concrete")
@@ -96,7 +96,7 @@ class World:
 
 
 class Outlet:
-    """What an object may do to follow a run while it goes on; give it as ``outlets=[…]``.
+    """What an object may do to follow a run in progress; give it as ``outlets=[…]``.
 
     Any object with some of these methods will do, and so will a function, which gets each read. Stamps
     never fall. What a method raises ends the run and is raised there.
@@ -242,7 +242,7 @@ class Scenario:
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd about it."""
+        """Warnings about it."""
         return self._loaded.warnings
 
     def outlines(self, low_m: float = 0.2, high_m: float = 2.0) -> list[tuple[str, list[np.ndarray]]]:
@@ -258,7 +258,7 @@ class Scenario:
         seed: instead of the scenario's. The same seed gives the same bytes, whatever `threads`.
         method: instead of the scenario's, by name or one of your own (:func:`method`).
         locate: False for reads alone.
-        outlets: who gets reads while it goes on; see :class:`Outlet`.
+        outlets: what gets reads during the run; see :class:`Outlet`.
         progress: called with 0 … 1 now and then. Ctrl-C ends the run with KeyboardInterrupt.
         """
         scenario, own = self._by(method)
@@ -360,7 +360,7 @@ def _plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    raise TypeError(f"{type(value).__name__} is nothing that a scenario can hold")
+    raise TypeError(f"{type(value).__name__} can't be a value in a scenario")
 
 
 def _dumped(value: Any, indent: int | None = None) -> str:

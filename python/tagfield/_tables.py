@@ -63,7 +63,7 @@ class Table(np.ndarray):
         return known[np.asarray(self[column])]
 
     def number(self, column: str, name: str) -> int:
-        """The number that stands for ``name`` in a column, or -1 where it never stands there."""
+        """The index of ``name`` in a column, or -1 if the column does not have it."""
         known = self._known(column)
         return known.index(name) if name in known else -1
 
@@ -78,7 +78,7 @@ class Table(np.ndarray):
     def to_pandas(self):
         """The table as a pandas.DataFrame.
 
-        Columns of names become categories; a place (3,) becomes three columns ``x_m``, ``y_m``,
+        Columns of names become categories; a position (3,) becomes three columns ``x_m``, ``y_m``,
         ``z_m`` (with the column's own name before them where that is not ``position_m``); matrices
         become columns with their indices; ``time_s`` comes first where there are stamps.
         """
@@ -100,7 +100,7 @@ class Table(np.ndarray):
 
     def _known(self, column: str) -> tuple[str, ...]:
         if column not in self.categories:
-            raise KeyError(f"'{column}' is no column of names; these are: {', '.join(self.categories)}")
+            raise KeyError(f"'{column}' is not a column of names; these are: {', '.join(self.categories)}")
         return self.categories[column]
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Figures by matplotlib: each function draws into `ax`, or a new figure, and returns the Axes.
 
-Colours tell apart without red against green; ordered quantities are on one perceptual scale (viridis).
+Colours are distinct without red against green; ordered quantities are on one perceptual scale (viridis).
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def world(scenario: Scenario, ax: Axes | None = None, low_m: float = 0.2, high_m
 
 
 def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
-    """The hall from above: the antennas' path, true places, estimates and candidates."""
+    """The hall from above: the antennas' path, true positions, estimates and candidates."""
     ax = world(run.scenario, _axes(ax))
     for antenna in dict.fromkeys(run.poses.names("name")):
         track = run.poses.where(name=antenna)["position_m"]
@@ -66,7 +66,7 @@ def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
             ax.plot(track[:, 0], track[:, 1], color=_BLUE, linewidth=1.4, label="antenna's path")
     truth = np.array(list(run.truth.places_m().values())).reshape(-1, 3)
     ax.plot(truth[:, 0], truth[:, 1], "o", markerfacecolor="none", markeredgecolor="black", markersize=9,
-            label="true place")
+            label="true position")
     _estimates(run, ax)
     if legend:
         _legend(ax)
@@ -131,7 +131,7 @@ def errors(results: Localization | Sequence[Localization] | dict[str, Any], ax: 
         if len(values):
             share = np.arange(1, len(values) + 1) / len(values)
             ax.step(1e3 * values, share, where="post", color=color, linewidth=1.8,
-                    label=f"{label or 'mean'}: {1e3 * values.mean():.1f} mm in the mean")
+                    label=f"{label or 'mean'}: {1e3 * values.mean():.1f} mm on average")
     ax.set_xscale("log")
     ax.set_ylim(0, 1.02)
     ax.set_xlabel("error [mm]")
@@ -183,7 +183,7 @@ def coverage(covered: Coverage, quantity: str = "probability", layer: int = 0,
 
 def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1.0,
               step_m: float = 0.02) -> Axes:
-    """The matched filter of a tag's phases (tagfield.sar.image) around its true place."""
+    """The matched filter of a tag's phases (tagfield.sar.image) around its true position."""
     ax = _axes(ax, (6.0, 5.0))
     places = run.truth.places_m()
     if tag not in places:
@@ -196,7 +196,7 @@ def sar_image(run: Run, tag: str, ax: Axes | None = None, *, radius_m: float = 1
                         extent=(xs[0] - step_m / 2, xs[-1] + step_m / 2, ys[0] - step_m / 2,
                                 ys[-1] + step_m / 2))
     ax.figure.colorbar(picture, ax=ax, label="share of phases that fit")
-    ax.plot(x, y, "o", markerfacecolor="none", markeredgecolor="white", markersize=11, label="true place")
+    ax.plot(x, y, "o", markerfacecolor="none", markeredgecolor="white", markersize=11, label="true position")
     row, column = np.unravel_index(values.argmax(), values.shape)
     ax.plot(xs[column], ys[row], "+", color=_ORANGE, markersize=12, markeredgewidth=2, label="maximum")
     ax.legend(labelcolor="white", frameon=False)

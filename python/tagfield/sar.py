@@ -39,7 +39,7 @@ def image(reads: Table, poses: Table, tag: str, x_m: Any, y_m: Any, height_m: fl
 
         I(p) = (1/M) Σ_a,f |Σ_n exp(j (φ_n − 4π f |p − a_n| / c))|
 
-    summed coherently over the reads n of one antenna a on one carrier f, whose phase offset nobody knows,
+    summed coherently over the reads n of one antenna a on one carrier f, whose phase offset is unknown,
     and over these by magnitude; M is the number of reads. 1 where all phases fit.
     """
     of_tag = reads.where(tag=tag)

@@ -98,14 +98,14 @@ def test_methods_say_what_they_like(run):
     assert by_tag["tag3"] == ("not_located", "cannot localize: nobody asked")
     assert by_tag["tag4"][0] == "located"
     assert by_tag["tag5"][0] == "not_located"
-    assert by_tag["tag6"] == ("not_located", "cannot localize: knower found no place")
+    assert by_tag["tag6"] == ("not_located", "cannot localize: knower found no position")
     one = found.estimates.where(tag="tag1")[0]
     assert one["error_m"] < 1e-12
     assert one["expected_error_m"] == pytest.approx(np.sqrt(2e-4))
 
 
 @pytest.mark.parametrize("answer, said", [
-    ((1.0, np.nan), "is no place"), ((1.0,), "is no place"),
+    ((1.0, np.nan), "is not a position"), ((1.0,), "is not a position"),
     (tagfield.Estimate((1, 2), covariance_m2=[1, 2]), "covariance_m2"),
 ])
 def test_methods_are_checked(run, answer, said):

@@ -71,7 +71,7 @@ def texts(ax):
 def test_hall_shows_way_tags_and_estimates(run):
     ax = tagfield.plot.hall(run)
     labels = {line.get_label(): line for line in ax.lines}
-    assert len(labels["true place"].get_xdata()) == 10
+    assert len(labels["true position"].get_xdata()) == 10
     np.testing.assert_allclose(labels["estimate"].get_xdata(), run.estimates["position_m"][run.located, 0])
     np.testing.assert_allclose(labels["antenna's path"].get_ydata(), run.poses["position_m"][:, 1])
     assert len(ax.patches) > 10

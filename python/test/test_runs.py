@@ -77,7 +77,7 @@ def test_tables_know_their_names(run):
     assert len(of_tag) == (run.reads.names("tag") == "tag3").sum()
     assert len(run.reads.where(tag=["tag3", "tag4"])) > len(of_tag)
     assert len(run.reads.where(tag="nobody")) == 0
-    with pytest.raises(KeyError, match="is no column of names"):
+    with pytest.raises(KeyError, match="is not a column of names"):
         run.reads.names("phase_rad")
 
 

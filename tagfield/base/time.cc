@@ -60,8 +60,9 @@ Duration duration_from_seconds(double seconds) {
 
 Time time_from_seconds(double seconds) {
   if (!(std::abs(seconds) < kMostStamp)) {
-    throw Error(fmt::format("stamp {} s is no time: expected less than {:g} s (146 years) from 0",
-                            seconds, kMostStamp));
+    throw Error(
+        fmt::format("stamp {} s is not a valid time: expected less than {:g} s (146 years) from 0",
+                    seconds, kMostStamp));
   }
   return Time(duration_from_seconds(seconds));
 }

@@ -348,7 +348,7 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
                       const CalibrationOptions& options, int threads, Diagnostics& diagnostics) {
   check(options);
   for (const auto& [tag, place] : tags) {
-    if (!place.allFinite()) throw Error("the place of tag '" + tag + "' must be finite");
+    if (!place.allFinite()) throw Error("the position of tag '" + tag + "' must be finite");
   }
   const auto tracks = tracks_of(poses, diagnostics);
   SamplesByTag samples = join_reads_with_tracks(reads, tracks, options.max_pose_gap_s, diagnostics);
@@ -367,7 +367,7 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
       continue;
     }
     diagnostics.warn(fmt::format(
-        "antenna '{}': {} reads of tags at known places, at least {} are needed to calibrate it",
+        "antenna '{}': {} reads of tags at known positions, at least {} are needed to calibrate it",
         antenna, one.samples.size(), kFewestReads));
   }
   std::vector<std::optional<AntennaCalibration>> results(usable.size());
@@ -379,10 +379,10 @@ Calibration calibrate(const std::vector<TagRead>& reads, const std::vector<Anten
       calibration.antennas[usable[i]->name] = std::move(*results[i]);
       continue;
     }
-    diagnostics.warn(fmt::format(
-        "antenna '{}' is not calibrated: random phases would fit its {} reads as well; are tags, "
-        "poses and stamps those of these reads?",
-        usable[i]->name, usable[i]->samples.size()));
+    diagnostics.warn(
+        fmt::format("antenna '{}' is not calibrated: random phases would fit its {} reads equally "
+                    "well; do tags, poses and stamps belong to these reads?",
+                    usable[i]->name, usable[i]->samples.size()));
   }
   return calibration;
 }

@@ -63,7 +63,7 @@ CalibratedValue carried(const std::string& antenna, const Figure& figure, const 
   if (left > kClearly * std::sqrt(own)) {
     diagnostics.warn(fmt::format(
         "antenna '{}': {} does not carry over: it differs by {:.1f} {} from experiment to "
-        "experiment, where each by itself is sure of it to {:.1f} {}; left as it was",
+        "experiment, while each by itself determines it to {:.1f} {}; left as it was",
         antenna, figure.name, 1e3 * scatter, figure.unit, 1e3 * std::sqrt(own), figure.unit));
   }
   return {0.0, left, false};
@@ -71,7 +71,7 @@ CalibratedValue carried(const std::string& antenna, const Figure& figure, const 
 
 std::vector<Figure> figures() {
   std::vector<Figure> all;
-  constexpr const char* kNames[] = {"place x", "place y", "place z"};
+  constexpr const char* kNames[] = {"position x", "position y", "position z"};
   all.reserve(std::size(kNames));
   for (int i = 0; i < 3; ++i) {
     all.push_back(
@@ -148,7 +148,7 @@ AntennaCalibration antenna_of(const std::string& name, const OfAntenna& all,
 
 Calibration carried_over(const std::vector<Calibration>& experiments, Diagnostics& diagnostics) {
   if (experiments.size() < 3) {
-    throw Error("whether a calibration carries over takes three experiments at least");
+    throw Error("at least three experiments are needed to see whether a calibration carries over");
   }
   Calibration result;
   result.half_turns = std::any_of(experiments.begin(), experiments.end(),

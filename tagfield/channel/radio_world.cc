@@ -164,7 +164,7 @@ void warn_of_guesses(const Guesses& guesses, Diagnostics& diagnostics) {
                                 others > 0 ? fmt::format(" and {} more", others) : ""));
   }
   diagnostics.warn(
-      fmt::format("materials are guessed from names: {} (say better under world.materials)",
+      fmt::format("materials are guessed from names: {} (state them under world.materials)",
                   fmt::join(parts, "; ")));
 }
 

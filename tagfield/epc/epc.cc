@@ -53,7 +53,8 @@ EpcScheme take_scheme(std::string_view& rest, std::string_view suffix) {
   const SchemeLayout* layout =
       has_suffix ? layout_named(name.substr(0, name.size() - suffix.size())) : nullptr;
   if (layout == nullptr || colon == std::string_view::npos) {
-    throw Error(fmt::format("'{}' is no scheme of 96 bits: one of {}{}", name, scheme_names(),
+    throw Error(fmt::format("'{}' is not a scheme of 96 bits: expected one of {}{}", name,
+                            scheme_names(),
                             suffix.empty() ? "" : fmt::format(", with {}", suffix)));
   }
   rest.remove_prefix(colon + 1);

@@ -107,7 +107,7 @@ std::string padded_cage(const std::string& code) {
   if (code.size() + 1 < kCageLetters || code.size() > kCageLetters ||
       !std::all_of(code.begin(), code.end(), is_cage_letter)) {
     throw Error(fmt::format(
-        "'{}' must be a CAGE code (5) or DoDAAC (6) of digits and capital letters but I and O",
+        "'{}' must be a CAGE code (5) or DoDAAC (6) of digits and capital letters except I and O",
         code));
   }
   return code.size() < kCageLetters ? ' ' + code : code;
@@ -166,7 +166,7 @@ void take_usdod(const SchemeLayout& layout, BitReader& bits, Epc& epc) {
 Epc decoded(const EpcBytes& bytes) {
   const SchemeLayout* layout = layout_of_header(bytes[0]);
   if (layout == nullptr) {
-    throw Error(fmt::format("header {:02X} is no scheme's of 96 bits", bytes[0]));
+    throw Error(fmt::format("header {:02X} is not that of a scheme of 96 bits", bytes[0]));
   }
   BitReader bits(bytes);
   bits.take(8);

@@ -38,7 +38,8 @@ EpcFieldPattern range_of(const std::string& text) {
   const auto least = whole_number(std::string_view(text).substr(1, dash - 1));
   const auto most = whole_number(std::string_view(text).substr(dash + 1, text.size() - dash - 2));
   if (!least || !most || *least > *most) {
-    throw Error(fmt::format("'{}' must be a range [LEAST-MOST] of whole numbers that rise", text));
+    throw Error(
+        fmt::format("'{}' must be a range [LEAST-MOST] of whole numbers in rising order", text));
   }
   return {Kind::kRange, *least, *most, text};
 }
@@ -81,8 +82,8 @@ void parse_scheme_pattern(std::string_view rest, bool is_tag, EpcPattern& patter
     name = "";
   const SchemeLayout* layout = layout_named(name);
   if (layout == nullptr || colon == std::string_view::npos) {
-    throw Error(fmt::format("'{}' is no scheme of 96 bits: one of {}{}", rest.substr(0, colon),
-                            scheme_names(), is_tag ? ", with -96" : ""));
+    throw Error(fmt::format("'{}' is not a scheme of 96 bits: expected one of {}{}",
+                            rest.substr(0, colon), scheme_names(), is_tag ? ", with -96" : ""));
   }
   pattern.scheme = layout->scheme;
   pattern.has_filter = is_tag && layout->scheme != EpcScheme::kGid;

@@ -286,7 +286,7 @@ void require_unique(const std::vector<Named>& all, const YamlValue& list) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!names.insert(all[i].name).second) {
-      list.list()[i].fail(fmt::format("is called '{}', as another one is", all[i].name));
+      list.list()[i].fail(fmt::format("has the name '{}', as another one has", all[i].name));
     }
   }
 }

@@ -214,9 +214,9 @@ std::optional<MapError> map_error_of(const Scenario& scenario, const SeedRun& ru
 SeedRun simulate(const Scenario& scenario, std::uint64_t seed, const RunControl& control,
                  const NavigationWorld* world) {
   if (scenario.pose.source == PoseSource::kSlam) {
-    if (world == nullptr) throw Error("navigation 'slam' needs a world made ready for it");
+    if (world == nullptr) throw Error("navigation 'slam' needs a world that was prepared for it");
     if (control.remote != nullptr) {
-      throw Error("navigation 'slam' goes without a robot that is driven from outside");
+      throw Error("navigation 'slam' can't be used with a robot that is driven from outside");
     }
     return navigated(scenario, seed, control, *world);
   }

@@ -267,7 +267,7 @@ bool all_antennas_rest(const Scenario& scenario) {
 
 std::string why_inventory_alone(const Scenario& scenario) {
   const std::string& method = scenario.localization.method;
-  if (method == kNoLocalization) return "the scenario asks for no places";
+  if (method == kNoLocalization) return "the scenario asks for no localization";
   if (!is_by_phase(method) || !all_antennas_rest(scenario)) return "";
   return fmt::format("all antennas stand still, and '{}' needs one that moves", method);
 }

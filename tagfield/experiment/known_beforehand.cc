@@ -28,7 +28,7 @@ std::map<std::string, Eigen::Vector3d> reference_tags_of(const Scenario& scenari
     const auto tag = std::find_if(scenario.tags.begin(), scenario.tags.end(),
                                   [&](const TagSpec& spec) { return spec.id == id; });
     if (tag == scenario.tags.end())
-      throw Error("reference tag '" + id + "' is no tag of the scenario");
+      throw Error("reference tag '" + id + "' is not a tag of the scenario");
     if (moves(*tag)) throw Error("reference tag '" + id + "' moves");
     places[id] = tag->motion.front().X_WB.translation;
   }
@@ -44,7 +44,7 @@ std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
     const std::optional<StatedPhase> stated = stated_phase(parameters);
     if (!stated) {
       throw Error("antenna '" + parameters.name +
-                  "': localization.offset can be known with model: paper only");
+                  "': localization.offset can only be known with model: paper");
     }
     offsets.push_back({parameters.name, std::nullopt, stated->offset_rad});
   }

@@ -48,7 +48,7 @@ void take_antennas_away(const std::vector<std::string>& patterns, Scenario& scen
     const std::size_t before = all.size();
     all.erase(std::remove_if(all.begin(), all.end(), goes), all.end());
     if (all.size() == before) {
-      throw Error(fmt::format("--without {}: no antenna is called so{}", pattern,
+      throw Error(fmt::format("--without {}: no antenna has this name{}", pattern,
                               suggestion(pattern, names)));
     }
     if (all.empty()) throw Error(fmt::format("--without {}: no antenna is left", pattern));
@@ -58,7 +58,7 @@ void take_antennas_away(const std::vector<std::string>& patterns, Scenario& scen
 std::vector<InventoryWithout> leave_one_out(const Scenario& scenario, std::uint64_t first,
                                             std::size_t count, const RunControl& control) {
   if (scenario.pose.source == PoseSource::kSlam) {
-    throw Error("--leave-one-out: not with robots that navigate by themselves");
+    throw Error("--leave-one-out can't be used with robots that navigate by themselves");
   }
   const std::size_t antennas = scenario.antennas.size();
   if (antennas < 2) return {};

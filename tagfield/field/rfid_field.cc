@@ -105,7 +105,7 @@ void RfidField::Impl::set_world(const FieldWorld& world) {
   try {
     world_ = made(world, diagnostics_);
   } catch (const Error& error) {
-    diagnostics_.warn(fmt::format("the world is not taken over for waves: {}", error.what()));
+    diagnostics_.warn(fmt::format("the world is not used for propagation: {}", error.what()));
     return;
   }
   air_.set_world(world_);
@@ -156,7 +156,7 @@ void RfidField::Impl::remove(std::uint32_t number, Time stamp) {
 
 void RfidField::Impl::add(const TagAdded& tag) {
   if (!is_finite(tag.X_WT)) {
-    throw Error(fmt::format("tag '{}' is not at a finite place", tag.id));
+    throw Error(fmt::format("tag '{}' is not at a finite position", tag.id));
   }
   tags_.add(tag.number, tag.id, tag.X_WT.translation);
   tags_.turn(tag.number, tag.X_WT.rotation);

@@ -172,7 +172,7 @@ Eigen::Vector3d CsvTable::position(const CsvRow& row,
 double CsvTable::length(const CsvRow& row, std::size_t column, double metres) const {
   const double value = metres * number(row, column);
   if (std::abs(value) > kMostCoordinate_m) {
-    fail({file, row.line}, fmt::format("{} is {:g} m, expected a place within ±{:g} m",
+    fail({file, row.line}, fmt::format("{} is {:g} m, expected a position within ±{:g} m",
                                        header[column], value, kMostCoordinate_m));
   }
   return value;

@@ -111,7 +111,7 @@ struct StampReader {
     try {
       return time_from_seconds(seconds);
     } catch (const Error&) {
-      fail({table.file, row.line}, fmt::format("{} is '{}', which is no time in this unit",
+      fail({table.file, row.line}, fmt::format("{} is '{}', which is not a time in this unit",
                                                form.column, row.fields[*column]));
     }
   }

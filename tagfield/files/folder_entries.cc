@@ -18,7 +18,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     entries.push_back(entry->path());
   }
-  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
+  if (error) fail({folder.string(), 0}, "can't be listed: " + error.message());
   std::sort(entries.begin(), entries.end());
   return entries;
 }

@@ -189,7 +189,7 @@ void finish_commit(const fs::path& folder) {
 }
 
 StagedFolder::StagedFolder(const fs::path& folder) : folder_(folder) {
-  if (folder_ == "-") throw Error("'-' is no folder for results: they are several files");
+  if (folder_ == "-") throw Error("'-' is not a folder for results: they are several files");
   make_folder(folder_);
   finish_commit(folder_);
   const FolderLock lock(folder_);
@@ -218,7 +218,8 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::require_free(const fs::path& name) const {
-  if (!is_within(name)) throw Error(fmt::format("'{}' is no path below a folder", name.string()));
+  if (!is_within(name))
+    throw Error(fmt::format("'{}' is not a path below a folder", name.string()));
   require_way(folder_, name);
   std::error_code error;
   const fs::file_status status = fs::symlink_status(folder_ / name, error);

@@ -261,7 +261,7 @@ LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest
   }
   if (bytes > kMostBytes) {
     throw Error(fmt::format(
-        "plan: {} ways to mount an antenna and {} places and orientations of tags make a matrix of "
+        "plan: {} ways to mount an antenna and {} tag positions and orientations make a matrix of "
         "{:.1f} GB, over {:g}: expected fewer, by a greater spacing_m or fewer orientations",
         matrix.columns.size(), matrix.rows.size(), 1e-9 * bytes, 1e-9 * kMostBytes));
   }
@@ -282,7 +282,7 @@ LinkMatrix evaluate_links(const ScenarioToPlan& to_plan, const LinkMatrixRequest
   if (evaluation.stopped()) {
     throw Error(request.folder.empty()
                     ? "plan: interrupted"
-                    : "plan: interrupted; what is computed is kept, the same command goes on");
+                    : "plan: interrupted; what is computed is kept, the same command resumes");
   }
   return matrix;
 }

@@ -66,9 +66,9 @@ std::string holding_limit(const SelectionProblem& problem, const OptionSet& choi
   const Location location = to_plan.plan.mounts.front().location;
   if (limit.empty()) {
     fail(location,
-         "plan: no mount reaches any tag: nearer mounts, more power or other tags are needed");
+         "plan: no mount reaches any tag: closer mounts, more power or other tags are needed");
   }
-  fail(location, fmt::format("plan: no layout is feasible: plan.{} lets no antenna in", limit));
+  fail(location, fmt::format("plan: no layout is feasible: plan.{} allows no antenna", limit));
 }
 
 /// The best found of `count` antennas at most.
@@ -339,7 +339,8 @@ class Planner {
       return fmt::format("heard with {:.1f} dB to spare, but not often enough", link.median_db);
     }
     return std::isfinite(layout.errors_m[place])
-               ? fmt::format("known to {:.2f} m by those that hear it", layout.errors_m[place])
+               ? fmt::format("located to {:.2f} m at best by the antennas that hear it",
+                             layout.errors_m[place])
                : "heard by too few antennas, or from one direction";
   }
 

@@ -17,7 +17,7 @@ const AntennaDuty& duty_of(const std::string& antenna, const ReaderDuty& duty) {
       std::find_if(duty.antennas.begin(), duty.antennas.end(),
                    [&](const AntennaDuty& known) { return known.antenna == antenna; });
   if (found == duty.antennas.end()) {
-    throw Error(fmt::format("antenna '{}' is none of the duty's", antenna));
+    throw Error(fmt::format("antenna '{}' is not one of the duty's", antenna));
   }
   return *found;
 }

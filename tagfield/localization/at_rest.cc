@@ -339,8 +339,8 @@ struct Objection {
 
 Objection of_lateness(const DepartureFit& fit, const Candidate& claim) {
   const double late_s = fit.departure[0];
-  return {fmt::format("the phase fits a place {:.2f} m away, with reads stamped {:.2f} s {} "
-                      "against the poses",
+  return {fmt::format("the phase fits a position {:.2f} m away, with reads stamped {:.2f} s {} "
+                      "relative to the poses",
                       (fit.place.head<2>() - claim.p_WT.head<2>()).norm(), std::abs(late_s),
                       late_s > 0.0 ? "late" : "early"),
           late_s};
@@ -374,9 +374,9 @@ bool has_no_place(const DepartureFit& fit, double lambda) {
 }
 
 Objection of_no_place(double misfit_m) {
-  return {fmt::format("the phase fits no tag at rest near there: {:.0f} cm rms are left, over half "
-                      "a cycle",
-                      100.0 * misfit_m),
+  return {fmt::format(
+              "the phase fits no tag at rest near there: {:.0f} cm rms remain, over half a cycle",
+              100.0 * misfit_m),
           std::nullopt};
 }
 
@@ -461,10 +461,10 @@ bool leaves_slow_errors(const LocalizationProblem& problem, const std::string& t
 }
 
 void warn_of_latency(double late_s, Diagnostics& diagnostics) {
-  diagnostics.warn(fmt::format(
-      "most tags' phases fit better with reads stamped {:.2f} s {} against the poses: are their "
-      "clocks the same?",
-      std::abs(late_s), late_s > 0.0 ? "late" : "early"));
+  diagnostics.warn(
+      fmt::format("most tags' phases fit better with reads stamped {:.2f} s {} relative to the "
+                  "poses: are their clocks the same?",
+                  std::abs(late_s), late_s > 0.0 ? "late" : "early"));
 }
 
 std::optional<DepartureFit> fit_departure(const LocalizationProblem& problem,

@@ -148,7 +148,7 @@ LocalizationProblem without_outliers(const LocalizationProblem& given, int threa
       static_cast<double>(std::accumulate(removed.begin(), removed.end(), std::size_t{0})) /
       static_cast<double>(std::max<std::size_t>(all, 1));
   diagnostics.warn(
-      fmt::format("{:.1f} % of the phases belong nowhere and are left out", 100.0 * share));
+      fmt::format("{:.1f} % of the phases are outliers and are left out", 100.0 * share));
   return cleaned;
 }
 
@@ -172,7 +172,7 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
   for (const std::string& warning : of_joint.warnings()) diagnostics.warn(warning);
   result = std::move(joint);
   choice = {"joint", fmt::format("the pose is not exact, and with its error estimated the phases "
-                                 "can be followed, over {:.0f} reads in the mean",
+                                 "can be followed, over {:.0f} reads on average",
                                  traits.reads_a_stretch)};
 }
 
@@ -180,10 +180,9 @@ void try_jointly(const std::vector<Method>& methods, const LocalizationProblem& 
 LocalizationResult locate_robustly(const std::vector<Method>& methods,
                                    const LocalizationProblem& given, double misfit, int threads,
                                    Diagnostics& diagnostics, Choice& choice) {
-  choice = {"robust",
-            fmt::format("even with the pose error estimated the misfit is {:.1f} times the noise, "
-                        "as reflections make it",
-                        misfit)};
+  choice = {"robust", fmt::format("even with the pose error estimated the misfit is {:.1f} times "
+                                  "the noise, as with reflections",
+                                  misfit)};
   return find_method(methods, choice.method).locate(given, threads, diagnostics);
 }
 
@@ -201,10 +200,10 @@ bool is_through_world(const AutomaticOptions& options, const LocalizationProblem
   }
   if (!problem.trace || !traits.antennas_move || !traits.has_phases) return false;
   if (problem.samples.size() <= kMostThroughWorld || options.wants_known_world) return true;
-  diagnostics.warn(fmt::format(
-      "the world is known, but tracing its reflections for more than {} tags takes long: {} are "
-      "located without it (known_world: true does it all the same)",
-      kMostThroughWorld, problem.samples.size()));
+  diagnostics.warn(
+      fmt::format("the world is known, but tracing its reflections for more than {} tags takes "
+                  "long: {} are located without it (known_world: true uses it nevertheless)",
+                  kMostThroughWorld, problem.samples.size()));
   return false;
 }
 
@@ -217,7 +216,7 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
           LocalizationResult result =
               find_method(methods, "multipath").locate(given, threads, diagnostics);
           result.why =
-              "the world is known, and what its reflections do to the phases is traced "
+              "the world is known, and the effect of its reflections on the phases is traced "
               "(known_world: false locates without it)";
           // Nothing is explained by a world that is another one.
           if (!result.explained.empty()) return result;
@@ -291,40 +290,41 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
 }
 
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
-  if (!traits.has_reads) return {"ml", "too few reads of any tag for a choice"};
+  if (!traits.has_reads) return {"ml", "too few reads of any tag to choose by"};
   // By three or more antennas a law of distance places tags better than their neighbours do.
   if (!traits.antennas_move && traits.antennas < 3 && reference_tags >= 3) {
     return {"landmarc",
-            "two antennas at most stand still, and there are reference tags to compare "
-            "with"};
+            "at most two antennas, at rest, and there are reference tags to compare with"};
   }
   if (!traits.antennas_move) {
     return {"fixed",
-            "the antennas stand still: strengths give distances, and phases over channels "
-            "where their offsets are known"};
+            "the antennas are at rest: RSSI gives distances, as do phases over channels where "
+            "their offsets are known"};
   }
   if (!traits.has_phases) return {"trilateration", "the reads have no phases"};
   if (traits.short_scans >= kMost && traits.unexplained >= kMost) {
-    return {"scan", fmt::format("a short straight scan, and {:.0f} % of its phases are "
-                                "bent, as by reflections",
-                                100.0 * traits.unexplained)};
+    return {"scan",
+            fmt::format(
+                "a short straight scan, and {:.0f} % of its phases are biased, as by reflections",
+                100.0 * traits.unexplained)};
   }
   if (traits.reads_a_stretch < kShortStretch && traits.bent >= kMost) {
-    return {"robust",
-            fmt::format("{:.0f} % of the phases are bent, as by reflections", 100.0 * traits.bent)};
+    return {"robust", fmt::format("{:.0f} % of the phases are biased, as by reflections",
+                                  100.0 * traits.bent)};
   }
   if (traits.reads_a_stretch < kShortStretch) {
-    return {"sar", fmt::format("the phase can be followed over {:.0f} reads in the mean only, with "
-                               "{} channels: waves are added up without unwrapping",
+    return {"sar", fmt::format("the phase can be followed over {:.0f} reads on average only, with "
+                               "{} channels: phasors are added up without unwrapping",
                                traits.reads_a_stretch, traits.channels)};
   }
   if (!traits.pose_is_exact) {
     return {"joint", "the pose is not exact: its error is estimated with the tags"};
   }
   if (traits.misfit > kLeftOver) {
-    return {"robust", fmt::format("with an exact pose the misfit is {:.1f} times the noise, as "
-                                  "reflections make it",
-                                  traits.misfit)};
+    return {
+        "robust",
+        fmt::format("with an exact pose the misfit is {:.1f} times the noise, as with reflections",
+                    traits.misfit)};
   }
   return {"ml", "the pose is exact and the phase fits"};
 }
@@ -353,7 +353,7 @@ MethodSettings own_settings(const MethodSettings& settings) {
 Method automatic_method(const std::vector<Method>& methods) {
   std::vector<Method> chosen;
   for (const char* const name : kChosen) chosen.push_back(find_method(methods, name));
-  Method automatic{"auto", "one of the others, chosen by the data, and named with the reason",
+  Method automatic{"auto", "one of the others, chosen by the data and named with the reason",
                    among(chosen, {}), helps_of(automatic_options().table)};
   for (const Method& method : chosen) {
     for (const SettingHelp& help : method.settings) {

@@ -289,7 +289,7 @@ void refuse_moved(const LocalizationProblem& problem, double late_s, Localizatio
     if (moved < kElsewhere * claim.expected_error_m) continue;
     estimate = not_located(std::move(estimate),
                            fmt::format("the phases of all tags fit reads stamped {:.2f} s {} "
-                                       "against the poses, which puts it {:.2f} m elsewhere",
+                                       "relative to the poses, which puts it {:.2f} m elsewhere",
                                        std::abs(late_s), late_s > 0.0 ? "late" : "early", moved));
   }
 }

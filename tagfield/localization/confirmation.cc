@@ -86,8 +86,8 @@ void refuse_unconfirmed(const LocalizationProblem& problem, int threads,
       continue;
     }
     estimate = not_located(std::move(estimate),
-                           "the place explains less than half of the phases' power, and pieces of "
-                           "the way by themselves (robust) don't confirm it");
+                           "the position explains less than half of the phases' power, and "
+                           "separate sections of the path (method robust) do not confirm it");
   }
 }
 

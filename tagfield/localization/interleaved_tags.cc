@@ -69,9 +69,9 @@ void refuse_interleaved_tags(const LocalizationProblem& problem, LocalizationRes
     const HeightModel height = height_model(problem, estimate.tag, phases);
     const PlaceVector place = to_unknowns(height, estimate.candidates.front().p_WT);
     if (!are_of_two_tags(phase_triples(phases, height, place))) return;
-    estimate = not_located(std::move(estimate),
-                           "the phase jumps to and fro from read to read, as of two tags under one "
-                           "EPC");
+    estimate = not_located(
+        std::move(estimate),
+        "the phase jumps back and forth from read to read, as with two tags under one EPC");
   });
 }
 

@@ -116,7 +116,7 @@ void judge(const EstimateLimits& limits, TagEstimate& estimate) {
   } else {
     estimate.verdict = Verdict::kAmbiguous;
     estimate.reason = fmt::format(
-        "{} places explain the phase equally well; a turn of the path would distinguish them",
+        "{} positions explain the phase equally well; a turn in the path would distinguish them",
         estimate.candidates.size());
   }
 }

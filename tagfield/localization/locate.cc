@@ -137,9 +137,9 @@ void warn_of_unknown_pose_error(const LocalizationProblem& problem,
   const bool is_told = std::any_of(problem.tracks.begin(), problem.tracks.end(),
                                    [](const auto& of) { return !of.second.covariance.empty(); });
   diagnostics.warn(fmt::format(
-      "{}, and '{}' takes them as exact: if they are not, places are further off than the expected "
-      "errors say. Give their error (0 if they are exact), or use 'joint', which {}",
-      is_told ? "the poses' covariances are not used" : "nothing is said of the poses' error",
+      "{}, and '{}' takes them as exact: if they are not, positions are further off than the "
+      "expected errors say. Give their error (0 if they are exact), or use 'joint', which {}",
+      is_told ? "the poses' covariances are not used" : "the poses' error is not stated",
       result.method, is_told ? "uses them" : "estimates it"));
 }
 

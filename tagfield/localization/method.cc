@@ -70,7 +70,7 @@ TagEstimate reference_estimate(const std::string& tag, const Eigen::Vector3d& p_
   TagEstimate estimate;
   estimate.tag = tag;
   estimate.verdict = Verdict::kLocated;
-  estimate.reason = "a reference tag: its place was given";
+  estimate.reason = "a reference tag: its position was given";
   estimate.candidates = {there};
   return estimate;
 }

@@ -138,10 +138,9 @@ void warn_of_reads_left_out(const std::map<std::string, ReadCount>& counts, cons
           count.without_pose, count.all, why_without_pose(antenna, count, tracks, max_pose_gap_s)));
     }
     if (count.repeated > 0) {
-      diagnostics.warn(
-          fmt::format("antenna '{}': {} of {} reads repeat tag and stamp of another, "
-                      "of which the first counts",
-                      antenna, count.repeated, count.all));
+      diagnostics.warn(fmt::format(
+          "antenna '{}': {} of {} reads repeat tag and stamp of another; only the first counts",
+          antenna, count.repeated, count.all));
     }
   }
 }
@@ -224,7 +223,7 @@ std::map<std::string, BelievedTrack> tracks_of(const std::vector<AntennaPose>& p
     tracks[antenna] = track_of(of_antenna);
     if (repeats == 0) continue;
     diagnostics.warn(
-        fmt::format("antenna '{}': {} poses repeat the stamp of another, of which the first counts",
+        fmt::format("antenna '{}': {} poses repeat the stamp of another; only the first counts",
                     antenna, repeats));
   }
   return tracks;

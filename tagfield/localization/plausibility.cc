@@ -118,9 +118,9 @@ void refuse_mixture(const Eigen::ArrayXd& angles, TagEstimate& estimate) {
   const OutlierMixture mixture = outlier_mixture(angles);
   const double certain = std::log(static_cast<double>(angles.size()));
   if (mixture.share > kMostElsewhere && mixture.sigma_rad < kFits && mixture.evidence > certain) {
-    refuse(estimate, fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads "
-                                 "belong elsewhere",
-                                 100.0 * mixture.share));
+    refuse(estimate,
+           fmt::format("the phase does not fit one tag at rest: {:.0f} % of the reads are outliers",
+                       100.0 * mixture.share));
   }
 }
 
@@ -192,7 +192,7 @@ double log_chance(const std::vector<double>& reads, double sum, double places) {
 
 void refuse_without_phases(const LocalizationProblem& problem, LocalizationResult& result) {
   for_each_place(problem, result, [](const SamplesOfTag&, TagEstimate& estimate) {
-    refuse(estimate, "the reads have no phases, or all the same one: use a method by strength");
+    refuse(estimate, "the reads have no phases, or all the same one: use a method by RSSI");
   });
 }
 
@@ -201,7 +201,7 @@ void refuse_chance(const LocalizationProblem& problem, LocalizationResult& resul
     const double chance =
         least_log_chance(problem, estimate.tag, samples, estimate.candidates.front().p_WT);
     if (chance > std::log(kMostChance)) {
-      refuse(estimate, "the phases say nothing: chance fits them as well");
+      refuse(estimate, "the phases carry no information: random ones fit as well");
     }
   });
 }
@@ -256,9 +256,8 @@ void refuse_wrong_sign(const LocalizationProblem& problem, LocalizationResult& r
   }
   if (wrong == 0 || 2 * wrong <= telling.size()) return;
   diagnostics.warn(
-      "the phases fit places with the other sign only: they fall with distance (a dataset's "
-      "profile "
-      "says so by falls_with_distance: true), or antennas are mixed up");
+      "the phases fit positions only with the opposite sign: they fall with distance (a dataset's "
+      "profile says so by falls_with_distance: true), or antennas are mixed up");
   for (TagEstimate& estimate : result.estimates) {
     if (problem.reference_tags.count(estimate.tag) > 0) continue;
     refuse(estimate, "the phase falls with distance, where it should grow");

@@ -40,7 +40,7 @@ void check(const KnownBeforehand& known) {
     require_finite(height, "the height of tag '" + tag + "'");
   }
   for (const auto& [tag, place] : known.reference_tags) {
-    if (!place.allFinite()) throw Error("the place of tag '" + tag + "' must be finite");
+    if (!place.allFinite()) throw Error("the position of tag '" + tag + "' must be finite");
   }
   for (const KnownOffset& offset : known.offsets) {
     require_finite(offset.offset_rad, "the offset of antenna '" + offset.antenna + "'");
@@ -136,12 +136,12 @@ void warn_of_unknown_heights(const KnownBeforehand& known, const std::vector<std
   if (without.empty()) return;
   const std::string whose =
       heights.of_tag.empty()
-          ? "nothing is said of the tags' heights"
-          : fmt::format("nothing is said of the heights of {} of {} tags, '{}' for one",
-                        without.size(), tags.size(), without.front());
+          ? "the tags' heights are not stated"
+          : fmt::format("the heights of {} of {} tags are not stated, such as '{}'", without.size(),
+                        tags.size(), without.front());
   diagnostics.warn(whose +
-                   ": they are taken to be as high as the antennas, and what that moves places by "
-                   "is not in the expected errors");
+                   ": they are taken to be as high as the antennas, and the resulting shift of "
+                   "positions is not in the expected errors");
 }
 
 LocalizationProblem make_problem(const std::vector<TagRead>& reads,

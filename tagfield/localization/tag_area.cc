@@ -89,7 +89,7 @@ void keep_within(const TagArea& area, const WayLine& way, double most_error_m,
   if (candidates.empty() || candidates.front().expected_error_m > most_error_m) {
     candidates.clear();
     estimate.verdict = Verdict::kNotLocated;
-    estimate.reason = "cannot localize: no place explains the phase where tags can be";
+    estimate.reason = "cannot localize: no position explains the phase where tags can be";
   } else if (candidates.size() == 1) {
     estimate.verdict = Verdict::kLocated;
     estimate.reason.clear();

@@ -52,7 +52,7 @@ class MapYaml {
     } catch (const YAML::Exception& error) {
       fail({file_, error.mark.line + 1}, "is not YAML: " + error.msg);
     }
-    if (!root_.IsMap()) fail({file_, 1}, "is no map's YAML: expected 'image: …' and so on");
+    if (!root_.IsMap()) fail({file_, 1}, "is not a map's YAML: expected 'image: …' and so on");
     for (const auto& entry : root_) add(entry.first, entry.second);
   }
 

@@ -47,7 +47,7 @@ OccupancyGrid grid_around(const std::vector<Segment>& segments, const Eigen::Vec
   const Eigen::Array2d low = ((box.min().array() - margin) / resolution_m).floor();
   const Eigen::Array2d high = ((box.max().array() + margin) / resolution_m).ceil();
   const Eigen::Array2d cells = high - low;
-  require(cells.prod() <= kMostCells, "at most 4e8 cells are made, wanted", cells.prod());
+  require(cells.prod() <= kMostCells, "expected at most 4e8 cells, wanted", cells.prod());
   OccupancyGrid grid;
   grid.resolution_m = resolution_m;
   grid.width = static_cast<int>(cells.x());

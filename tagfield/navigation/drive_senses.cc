@@ -95,7 +95,7 @@ std::string DriveSenses::blindness(Time now) const {
   const double age_s = to_seconds(now - *last_scan_);
   if (std::abs(age_s) > kFresh) {
     return fmt::format("the last laser scan is {:.1f} s {}", std::abs(age_s),
-                       age_s > 0.0 ? "old" : "ahead of the time");
+                       age_s > 0.0 ? "old" : "in the future");
   }
   return valid_share_ < kLeastValid ? "the laser's beams are invalid" : "";
 }

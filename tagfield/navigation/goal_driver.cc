@@ -195,7 +195,7 @@ std::string GoalDriver::Impl::why_no_nearer() const {
   std::string why = fmt::format("no nearer for {:.0f} s", settings.patience_s);
   const std::optional<Eigen::Vector2d>& block = route.block_M();
   if (last && last->hindrance == Hindrance::kMoving) {
-    why = "somebody keeps moving across the path";
+    why = "something keeps moving across the path";
   } else if (block) {
     why = fmt::format("an obstacle that is not on the map blocks the path at ({:.2f}, {:.2f})",
                       block->x(), block->y());

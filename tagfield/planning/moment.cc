@@ -15,7 +15,7 @@ void plan(RobotSpec& robot, Diagnostics& diagnostics) {
   robot.random_goals = 0;
   robot.carried.clear();
   diagnostics.warn(robot.location,
-                   fmt::format("robot '{}' navigates by laser; it is taken to {}", robot.name,
+                   fmt::format("robot '{}' navigates by laser; it is assumed to {}", robot.name,
                                robot.waypoints.empty() ? "stand at its start"
                                : is_unknown ? "follow its waypoints, without being carried"
                                             : "drive straight over its waypoints or goals"));
@@ -41,7 +41,7 @@ Simulation simulation_at(const Scenario& scenario, std::uint64_t seed, Time time
   Simulation simulation(scenario, seed);
   while (simulation.now() < time) {
     if (simulation.finished()) {
-      throw Error(fmt::format("the run ends at {:g} s, and {:g} s was asked for",
+      throw Error(fmt::format("the run ends at {:g} s, but {:g} s was asked for",
                               to_seconds(simulation.now()), to_seconds(time)));
     }
     simulation.skip_step();

@@ -121,9 +121,9 @@ std::vector<ComparedTag> tags_of(const std::array<const Summary*, 2>& summaries,
                                    run == 0 ? "first" : "second"));
   }
   if (elsewhere > 0) {
-    warnings.push_back(
-        fmt::format("{} really elsewhere in the second run: each run is judged by its own truth",
-                    elsewhere == 1 ? "1 tag is" : grouped(elsewhere) + " tags are"));
+    warnings.push_back(fmt::format(
+        "{} at another true position in the second run: each run is judged by its own truth",
+        elsewhere == 1 ? "1 tag is" : grouped(elsewhere) + " tags are"));
   }
   return all;
 }
@@ -185,7 +185,7 @@ RunComparison compared(Summary first, const std::string& first_name, Summary sec
         is_first ? take_truths(first, of_second) : take_truths(second, of_first);
     if (taken == 0) continue;
     comparison.warnings.push_back(fmt::format(
-        "the {} run does not know where {} truly: judged by the {} run's truth",
+        "the {} run does not know where {}: judged by the {} run's truth",
         is_first ? "first" : "second", taken == 1 ? "1 tag is" : grouped(taken) + " tags are",
         is_first ? "second" : "first"));
   }
@@ -195,7 +195,7 @@ RunComparison compared(Summary first, const std::string& first_name, Summary sec
   // Recordings have none.
   if (!first.seeds.empty() && !second.seeds.empty() && first.seeds != second.seeds) {
     comparison.warnings.push_back(
-        "the runs are of different seeds: a part of what differs is chance");
+        "the runs have different seeds: a part of the difference is chance");
   }
   for (const Summary* summary : {&first, &second}) {
     if (summary->complete) continue;

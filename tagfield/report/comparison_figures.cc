@@ -150,7 +150,7 @@ void draw_compared_tag(Svg& svg, const MapView& map, const RunComparison& compar
                        const ComparedTag& tag) {
   if (tag.truth_m) {
     add_diamond(svg, on_map(map, *tag.truth_m), 10.0, styled("truth"),
-                clean_text(tag.tag) + ", true place");
+                clean_text(tag.tag) + ", true position");
   }
   const auto& [first, second] = tag.runs;
   if (first.place_m && second.place_m) {
@@ -196,8 +196,8 @@ Figure places_figure(const RunComparison& comparison, const std::vector<Silhouet
     }
   }
   figure.caption =
-      "From above. Lines join the two estimates of a tag; where only one dot is seen, the other "
-      "lies under it.";
+      "From above. Lines join the two estimates of a tag; where only one dot is seen, the other is "
+      "under it.";
   if (std::max(comparison.runs[0].seeds.size(), comparison.runs[1].seeds.size()) > 1) {
     figure.caption += " Shown are those of the first seed.";
   }

@@ -175,7 +175,7 @@ std::string comparison_sentence(const RunComparison& comparison) {
   }
   std::string text = fmt::format(
       "Of {} that both located, the second run has the smaller error for {} and the larger for {}. "
-      "Its errors differ by {} in the mean",
+      "Its errors differ by {} on average",
       counted(error->tags, "tag"), grouped(error->smaller), grouped(error->larger),
       signed_length(error->mean_m));
   if (!error->interval_m) return text + ".";
@@ -196,10 +196,10 @@ std::string comparison_page(const RunComparison& comparison, const std::vector<F
          "<body>\n" + compared_header(comparison) + "<main>\n" + compared_numbers(comparison) +
          warnings_note(comparison) + "<div class=\"figures\">\n" + drawn + "</div>\n" + missing +
          whole_table(comparison) + tags_table(comparison) +
-         "</main>\n<footer>\n<p>Made by Tagfield; compare.csv and compare.json lie beside this "
-         "page, figures/ holds the figures. Differences are the second run less the first; the "
-         "confidence takes tags as independent of each other, which errors of the antenna's pose "
-         "make them less.</p>\n</footer>\n" +
+         "</main>\n<footer>\n<p>Made by Tagfield; compare.csv and compare.json are beside this "
+         "page, figures/ holds the figures. Differences are the second run minus the first; the "
+         "confidence assumes that tags are independent of each other, which pose errors of the "
+         "antenna make less true.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";
 }

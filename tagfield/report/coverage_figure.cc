@@ -121,7 +121,7 @@ Drawn words_of(const Coverage& coverage, const CoverageLayer& layer, CoverageQua
     case CoverageQuantity::kPower:
       return {"power", paper ? "RSSI" : "Power at the chip",
               paper ? "By eq. (5) of the paper, without noise."
-                    : "Local mean over the fading, from the antenna place with the greatest "
+                    : "Local mean over the fading, from the antenna position with the greatest "
                       "margin. Left blank where nothing arrives."};
     case CoverageQuantity::kAntenna:
       return {"antenna", "Best antenna",
@@ -285,8 +285,9 @@ Figure coverage_tags_figure(const Coverage& coverage, const std::vector<Silhouet
   figure.name = "tags";
   figure.title = "The scenario’s tags";
   figure.caption =
-      "By who reads them in the run. A tag is meant for its zone’s readers or, without zones, for "
-      "that of the antenna that comes nearest to it; all antennas of one robot are one reader.";
+      "By the readers that read them in the run. A tag is meant for its zone’s readers or, without "
+      "zones, for that of the antenna that comes nearest to it; all antennas of one robot are one "
+      "reader.";
   const double top =
       draw_legend(figure.svg, {{Symbol::kDiamond, "cover-own", "read by its own reader only"},
                                {Symbol::kDiamond, "cover-also", "by others too"},

@@ -59,7 +59,7 @@ std::string antennas_text(const Coverage& coverage) {
   for (const CoverageAntenna& antenna : coverage.antennas) {
     text += (text.empty() ? "" : ", ") + clean_text(antenna.name);
     if (antenna.places_W.size() > 1) {
-      text += fmt::format(" ({} places of its path)", antenna.places_W.size());
+      text += fmt::format(" ({} positions on its path)", antenna.places_W.size());
     }
   }
   return text;
@@ -106,7 +106,7 @@ std::string table(const Coverage& coverage) {
   const bool paper = is_by_paper(coverage);
   std::string html =
       "<div class=\"table told\" role=\"region\" aria-label=\"Tags\" tabindex=\"0\"><table>\n"
-      "<thead><tr><th scope=\"col\">Tag</th><th scope=\"col\" class=\"words\">Who reads it</th>"
+      "<thead><tr><th scope=\"col\">Tag</th><th scope=\"col\" class=\"words\">Read by</th>"
       "<th scope=\"col\">Margin<br>[dB]</th><th scope=\"col\">";
   html += paper ? "RSSI<br>[dBm]" : "Power at<br>chip [dBm]";
   html +=
@@ -184,7 +184,7 @@ std::string coverage_page(const Coverage& coverage, const std::vector<Figure>& f
          "<body>\n" + header(coverage) + "<main>\n" + numbers(coverage) + facts(coverage) +
          warnings(coverage) + maps + "<h2>The scenario’s tags</h2>\n" +
          figures_html(figures, next, figures.size()) + table(coverage) +
-         "</main>\n<footer>\n<p>Made by Tagfield; the cells lie beside this page as CSV files, the "
+         "</main>\n<footer>\n<p>Made by Tagfield; the cells are beside this page as CSV files, the "
          "maps in figures/ as SVG files.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";

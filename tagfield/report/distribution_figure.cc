@@ -56,7 +56,7 @@ Figure distribution_figure(const RunFiles& run) {
   const std::vector<double> errors = all_errors(run.summary);
   const auto numbers = statistics(errors);
   if (!numbers) {
-    figure.missing = "no tag was located whose true place is known.";
+    figure.missing = "no tag with a known true position was located.";
     return figure;
   }
   const Axes axes = distribution_axes(1e3 * numbers->min, 1e3 * numbers->max);

@@ -38,7 +38,7 @@ std::string row(const std::string& name, const EffectCost* left, const EffectCos
 std::string effects_table(const Summary& summary) {
   if (summary.effects.empty()) return "";
   std::string html =
-      "<h2>Which effect costs how much</h2>\n"
+      "<h2>Cost of each effect</h2>\n"
       "<p>The same experiment with each effect by itself, and with all but that one: tags located, "
       "their mean error, and reads.</p>\n"
       "<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Effect</th>"

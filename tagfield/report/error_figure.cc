@@ -119,12 +119,12 @@ void draw_rows(Figure& figure, const std::vector<TagRow>& rows, const ErrorStati
                error ? std::optional(1e3 * *error) : std::nullopt);
     }
   }
-  figure.caption = "Distance between the estimated and the true place of each tag.";
+  figure.caption = "Distance between the estimated and the true position of each tag.";
   if (seeds > 1) {
     figure.caption += fmt::format(
-        " Over {} seeds: every error a dot, the box holds the middle half, its line is the median,"
-        " the whiskers reach to the least and the greatest; a fraction at the right says in how"
-        " many seeds the tag was located.",
+        " Over {} seeds: every error is a dot, the box holds the middle half, its line is the "
+        "median, the whiskers reach to the least and the greatest; a fraction at the right says in "
+        "how many seeds the tag was located.",
         seeds);
   }
 }
@@ -176,7 +176,7 @@ Figure error_figure(const RunFiles& run) {
   Figure figure{"fig10_errors", "Fig. 10", "Error of each tag", "", {}, ""};
   const auto errors = error_statistics(run.summary);
   if (!errors) {
-    figure.missing = "no tag was located whose true place is known.";
+    figure.missing = "no tag with a known true position was located.";
     return figure;
   }
   const std::vector<TagRow> rows = rows_by_tag(run.summary);
@@ -187,8 +187,8 @@ Figure error_figure(const RunFiles& run) {
   figure.title = "Errors of the tags";
   draw_histogram(figure, all_errors(run.summary));
   figure.caption = fmt::format(
-      "How often errors of each size occur. With {} tags, too many for a bar each, they are counted"
-      " in classes eight to a power of ten; errors below 0.01 mm count as that.",
+      "How often errors of each size occur. With {} tags, too many for a bar each, they are "
+      "counted in eight classes per decade; errors below 0.01 mm count as that.",
       grouped(rows.size()));
   return figure;
 }

@@ -73,7 +73,7 @@ class EstimateRows {
     if (has(row, "cov_xy")) c(0, 1) = c(1, 0) = number(row, "cov_xy");
     if (has(row, "cov_zz")) c(2, 2) = not_negative(row, "cov_zz");
     if (c(0, 1) * c(0, 1) > c(0, 0) * c(1, 1) * (1.0 + 1e-4)) {
-      fail({table_.file, row.line}, "cov_xx, cov_xy, cov_yy are no covariance");
+      fail({table_.file, row.line}, "cov_xx, cov_xy, cov_yy are not a covariance");
     }
     return c;
   }

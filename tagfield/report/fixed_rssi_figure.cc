@@ -65,7 +65,7 @@ std::string caption_of(const std::vector<TagStrength>& strengths, const std::str
       " low dark blue, middle green, high yellow, the weaker the more transparent.",
       antenna, counted(strengths.size(), "tag"));
   const std::size_t lost = count_without_place(strengths);
-  if (lost > 0) text += fmt::format(" {} of unknown place left out.", counted(lost, "tag"));
+  if (lost > 0) text += fmt::format(" {} of unknown position left out.", counted(lost, "tag"));
   const std::size_t step = thinning(strengths.size(), kMostMarks / 2);
   if (step > 1) text += fmt::format(" One tag in {} is drawn.", step);
   return text;
@@ -79,7 +79,7 @@ Figure fixed_rssi_figure(const RunFiles& run) {
   if (track == nullptr) return figure;
   const std::vector<TagStrength> strengths = strengths_at(run, *track);
   if (count_without_place(strengths) == strengths.size()) {
-    figure.missing = "no tag that it read has a place, such as where all of them move.";
+    figure.missing = "no tag that it read has a single position, as when all of them move.";
     return figure;
   }
   const Eigen::Vector3d p_WA = track->best().front().X_WB.translation;

@@ -157,7 +157,7 @@ void draw_places(Svg& svg, const MapView& map, const TagOutcome& outcome) {
   };
   if (outcome.truth_m && within(on_map(map, *outcome.truth_m))) {
     add_circle(svg, on_map(map, *outcome.truth_m), 11.0, styled("true-line"),
-               clean_text(outcome.estimate.tag) + ", true place");
+               clean_text(outcome.estimate.tag) + ", true position");
   }
   if (outcome.estimate.verdict != Verdict::kLocated || outcome.estimate.candidates.empty()) return;
   const Place place = on_map(map, outcome.estimate.candidates.front().p_WT);
@@ -184,13 +184,13 @@ Figure hologram_figure(const Shown& shown, const HoppingReads& reads, const TagO
   draw_hologram_cells(figure.svg, map, values, bands);
   draw_places(figure.svg, map, outcome);
   figure.caption = fmt::format(
-      "{}, so in place of Fig. 12: how well the phases of {} reads agree with each place at the "
-      "tag’s height, each carrier with an offset of its own. 1 is all of them, random phases give "
+      "{}, so in place of Fig. 12: how well the phases of {} reads agree with each position at the "
+      "tag’s height, each carrier with its own offset. 1 is full agreement, random phases give "
       "{:.1f}.",
       carriers_words(shown), grouped(reads.samples.size()),
       std::min(1.0, std::sqrt(std::numbers::pi / 4.0 * static_cast<double>(count_carriers(shown)) /
                               static_cast<double>(reads.samples.size()))));
-  if (outcome.truth_m) figure.caption += " The circle is the true place.";
+  if (outcome.truth_m) figure.caption += " The circle is the true position.";
   if (outcome.estimate.verdict == Verdict::kLocated) {
     figure.caption += " The cross is the estimate.";
   }

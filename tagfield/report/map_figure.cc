@@ -117,8 +117,9 @@ void draw_moved_tag(Svg& svg, const MapView& map, const RunFiles& run, const Tag
 
 void draw_truth(Svg& svg, const MapView& map, const TagOutcome& outcome) {
   if (!outcome.truth_m) return;
-  add_diamond(svg, on_map(map, *outcome.truth_m), 10.0, styled("truth"),
-              clean_text(outcome.estimate.tag) + ", true place: " + spoken_place(*outcome.truth_m));
+  add_diamond(
+      svg, on_map(map, *outcome.truth_m), 10.0, styled("truth"),
+      clean_text(outcome.estimate.tag) + ", true position: " + spoken_place(*outcome.truth_m));
 }
 
 void draw_candidates(Svg& svg, const MapView& map, const TagEstimate& estimate) {
@@ -201,15 +202,14 @@ std::vector<LegendEntry> legend_of(const Findings& found) {
 }
 
 std::string caption_of(const RunFiles& run, const Outcomes& outcomes, const Findings& found) {
-  std::string text = run.top_view.empty()
-                         ? "From above; the world's geometry is not known."
-                         : "The world from above, with all that stands in it in grey.";
+  std::string text = run.top_view.empty() ? "From above; the world's geometry is not known."
+                                          : "The world from above, with everything in it in grey.";
   if (found.truth && found.estimates) {
     text +=
-        " An estimate that lies within its diamond is off by less than the map can show;"
-        " the errors themselves are in the next figure and the table.";
+        " An estimate within its diamond is off by less than the map can show; the errors "
+        "themselves are in the next figure and the table.";
   }
-  if (found.pairs) text += " A dashed blue line joins places that the data can't distinguish.";
+  if (found.pairs) text += " A dashed blue line joins positions that the data can't distinguish.";
   if (found.outside > 0) {
     text += fmt::format(
         " {} beyond the edge of the map.",
@@ -254,7 +254,7 @@ Figure map_figure(const RunFiles& run) {
   const Outcomes outcomes = first_outcomes(run.summary);
   const Extent content = content_extent(run, outcomes);
   if (content.isEmpty()) {
-    figure.missing = "there is neither an antenna pose nor a tag with a known place.";
+    figure.missing = "there is neither an antenna pose nor a tag with a known position.";
     return figure;
   }
   MapView map = make_map(figure.name, content, run.top_view, 0.0);

@@ -56,8 +56,8 @@ std::string methods_table(const Summary& summary) {
   std::string html = "<h2>Methods</h2>\n<p>The same reads and poses, located by each method.";
   if (aligned) {
     html +=
-        " A pose that is off as a whole shifts and turns all tags alike, which reads can’t reveal: "
-        "the columns on the right are after the shift and turn that fit best.";
+        " A pose that is off as a whole shifts and rotates all tags alike, which reads can’t "
+        "reveal: the columns on the right are after the shift and rotation that fit best.";
   }
   html += "</p>\n<div class=\"table\" role=\"region\" aria-label=\"Methods\" tabindex=\"0\">";
   html += "<table>\n" + head(aligned) + "<tbody>\n";

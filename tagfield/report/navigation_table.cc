@@ -48,12 +48,12 @@ std::string pose_rows(const NavigationSummary& navigation) {
   std::string rows;
   if (const auto& error = navigation.position_error_m) {
     rows += row("Position off by", spoken_length(error->mean),
-                fmt::format("in the mean, 95 % of the time by less than {}, {} at most",
+                fmt::format("on average, 95 % of the time by less than {}, {} at most",
                             spoken_length(error->p95), spoken_length(error->max)));
   }
   if (const auto& error = navigation.yaw_error_rad) {
     rows += row("Heading off by", degrees_of(error->mean),
-                fmt::format("in the mean, 95 % of the time by less than {}, {} at most",
+                fmt::format("on average, 95 % of the time by less than {}, {} at most",
                             degrees_of(error->p95), degrees_of(error->max)));
   }
   return rows;
@@ -79,12 +79,12 @@ std::string finding_row(const std::string& name, const std::string& what,
   if (!finding) return "";
   std::string words = what;
   if (finding->seconds && finding->driven_m) {
-    words += fmt::format(", after {:.1f} m and {:.0f} s in the mean, {:.1f} m and {:.0f} s at most",
+    words += fmt::format(", after {:.1f} m and {:.0f} s on average, {:.1f} m and {:.0f} s at most",
                          finding->driven_m->mean, finding->seconds->mean, finding->driven_m->max,
                          finding->seconds->max);
   }
   if (finding->wrong > 0) {
-    words += fmt::format("; took another place for its own {}", counted(finding->wrong, "time"));
+    words += fmt::format("; mistook another place for its own {}", counted(finding->wrong, "time"));
   }
   return row(name, fmt::format("{} of {}", grouped(finding->found), grouped(finding->count)),
              words);
@@ -93,11 +93,11 @@ std::string finding_row(const std::string& name, const std::string& what,
 std::string driving_rows(const NavigationSummary& navigation) {
   return row("Goals reached",
              fmt::format("{} of {}", grouped(navigation.goals_reached), grouped(navigation.goals)),
-             "places that it was sent to") +
+             "goals that it was sent to") +
          unreached_rows(navigation) +
          row("Least distance", spoken_length(std::max(navigation.closest_m, 0.0)),
              "between its outline and anything else") +
-         row("Collisions", grouped(navigation.collisions), "times it came to touch anything") +
+         row("Collisions", grouped(navigation.collisions), "times it touched anything") +
          finding_row("Unknown starts", "found out where it was", navigation.unknown_starts) +
          finding_row("Carried away", "found out where it was put", navigation.carried) +
          row("Times lost", grouped(navigation.times_lost), "times it no longer knew where it was");
@@ -115,8 +115,8 @@ std::string navigation_table(const Summary& summary) {
           "</tbody></table></div>\n";
   if (summary.seeds.size() > 1) {
     html += fmt::format(
-        "<p class=\"muted\">Of {} seeds: the map and the least distance are the worst, mapping is"
-        " the first, poses, goals and losses are of all.</p>\n",
+        "<p class=\"muted\">Of {} seeds: the map and the least distance are those of the worst, "
+        "mapping that of the first, poses, goals and losses those of all.</p>\n",
         summary.seeds.size());
   }
   return html;

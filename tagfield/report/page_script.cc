@@ -8,7 +8,7 @@ constexpr PageScript kTables = {R"js((()=>{
 const number=text=>{const n=parseFloat(text.replace(/[,\s]/g,"").replace("−","-"));return isNaN(n)?null:n};
 for(const box of document.querySelectorAll(".table")){
  const hint=document.createElement("p");
- hint.className="hint";hint.textContent="The table goes on to the right: scroll it sideways →";box.after(hint);
+ hint.className="hint";hint.textContent="The table continues to the right: scroll it sideways →";box.after(hint);
  const look=()=>{hint.hidden=box.scrollWidth<=box.clientWidth+1};
  new ResizeObserver(look).observe(box);look();
  const table=box.querySelector("table"),body=table&&table.tBodies[0];

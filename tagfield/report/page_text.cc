@@ -34,8 +34,8 @@ bool all_moved(const Summary& summary) {
 /// There is no one place that a moving tag could be located at.
 std::string moved_sentence(const Summary& summary) {
   return fmt::format(
-      "{} of {} read, {} in all. All of them moved, so none has one place; tagfield track follows "
-      "tags past antennas at rest.",
+      "{} of {} read, {} in all. All of them moved, so none has a single position; tagfield track "
+      "follows tags past antennas at rest.",
       grouped(count_read(summary)), counted(summary.tags.size(), "tag"),
       counted(summary.reads, "read"));
 }
@@ -55,8 +55,8 @@ std::string outcome_sentence(const Summary& summary) {
       std::any_of(summary.tags.begin(), summary.tags.end(),
                   [](const TagOutcome& tag) { return tag.truth_m || tag.moved; });
   if (!errors && truth_known) return text + ". No located tag at rest, so no error to report.";
-  if (!errors) return text + ". The true places are not known, so neither are the errors.";
-  return text + fmt::format(". The estimates are off by {} in the mean and by {} at most.",
+  if (!errors) return text + ". The true positions are not known, so neither are the errors.";
+  return text + fmt::format(". The estimates are off by {} on average and by {} at most.",
                             spoken_length(errors->mean), spoken_length(errors->max));
 }
 
@@ -90,7 +90,7 @@ std::string fact(const std::string& name, const std::string& value) {
 }
 
 std::string spoken_method(const std::string& method) {
-  if (method == "none") return "none: an inventory, no places";
+  if (method == "none") return "none: an inventory, no localization";
   if (method == "hyperbola") return "hyperbolic intersections of the unwrapped phase (the paper's)";
   for (const Method& known : built_in_methods()) {
     if (known.name == method) return method + ": " + known.summary;
@@ -189,7 +189,7 @@ std::string key_numbers(const Summary& summary) {
 std::string pose_error_text(const Summary& summary) {
   if (!summary.pose_error) return "";
   const PoseErrorSummary& pose = *summary.pose_error;
-  std::string text = fmt::format("The robot believed its antenna {} (rms) off its true place.",
+  std::string text = fmt::format("The robot believed its antenna {} (rms) off its true position.",
                                  spoken_length(pose.position_rms_m));
   if (pose.corrected_rms_m) {
     text += fmt::format(" Localization estimated that error, too, which leaves {} of it.",
@@ -198,9 +198,9 @@ std::string pose_error_text(const Summary& summary) {
   const auto errors = error_statistics(summary);
   if (!errors || !pose.error_with_true_pose_m) return text;
   const double with_truth = pose.error_with_true_pose_m->mean;
-  text += fmt::format(
-      " With the true pose the same reads give {} in the mean; with the believed one {}",
-      spoken_length(with_truth), spoken_length(errors->mean));
+  text +=
+      fmt::format(" With the true pose the same reads give {} on average; with the believed one {}",
+                  spoken_length(with_truth), spoken_length(errors->mean));
   if (errors->mean > 2.0 * with_truth) {
     return text + ": pose error, not phase noise, sets this figure.";
   }
@@ -216,7 +216,7 @@ std::string compared_pose_text(const Summary& summary) {
       spoken_pose(other.pose), spoken_length(other.position_rms_m), grouped(other.located),
       counted(summary.tags.size(), "tag"));
   if (!other.error_m) return text + ".";
-  return text + fmt::format(", off by {} in the mean and by {} at most.",
+  return text + fmt::format(", off by {} on average and by {} at most.",
                             spoken_length(other.error_m->mean), spoken_length(other.error_m->max));
 }
 
@@ -264,11 +264,11 @@ std::string figure_html(const Figure& figure) {
 }
 
 std::string page_footer() {
-  return "<footer>\n<p>Model and experiment follow S. D’Avella, M. Unetti, P. Tripicchio, “RFID"
-         " Gazebo-Based Simulator With RSSI and Phase Signals for UHF Tags Localization and"
-         " Tracking”, IEEE Access 10, 2022, doi:10.1109/ACCESS.2022.3152199. Please cite it for"
-         " them.</p>\n<p>Made by Tagfield from the files beside this page. The figures lie in"
-         " figures/ as SVG files, fit for a paper.</p>\n</footer>\n";
+  return "<footer>\n<p>Model and experiment follow S. D’Avella, M. Unetti, P. Tripicchio, “RFID "
+         "Gazebo-Based Simulator With RSSI and Phase Signals for UHF Tags Localization and "
+         "Tracking”, IEEE Access 10, 2022, doi:10.1109/ACCESS.2022.3152199. Please cite "
+         "it.</p>\n<p>Made by Tagfield from the files beside this page. The figures are in "
+         "figures/ as SVG files, fit for a paper.</p>\n</footer>\n";
 }
 
 }  // namespace tagfield

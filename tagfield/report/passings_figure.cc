@@ -163,7 +163,7 @@ Figure passings_figure(const std::vector<TagRead>& reads, const std::vector<Pass
     }
   }
   figure.caption = fmt::format(
-      "A row a tag, in the order in which they passed {}: from its first read to its last, and "
+      "One row per tag, in the order in which they passed {}: from its first read to its last, and "
       "when its track passed each antenna at rest, where it was nearest, or crossed the line.",
       spoken_gate(orders.front()));
   if (shown < tags.size()) {

@@ -106,8 +106,7 @@ Figure path_rssi_figure(const RunFiles& run) {
   }
   figure.title += fmt::format(", {}", shortened(tag, 24));
   figure.caption = fmt::format(
-      "Strength of {}'s answers where {} received them, over {}; the colours span the middle 90 % "
-      "of "
+      "RSSI of {}'s replies where {} received them, over {}; the colours span the middle 90 % of "
       "the values. Where only the thin line is, it received none.",
       shortened(tag, 32), shortened(track->antenna, 32), counted(reads.size(), "read"));
   const std::size_t step = thinning(reads.size(), kMostMarks);

@@ -197,8 +197,8 @@ std::string caption_of(const std::vector<Segment>& segments, std::size_t left_ou
   }
   if (truth_known)
     text +=
-        " The true change is shifted to agree with each segment in"
-        " the mean; what is left between the two stands below.";
+        " The true change is shifted to agree with each segment on average; the difference between "
+        "the two is shown below.";
   const std::size_t step = thinning(size_of(segments), kMostMarks);
   if (step > 1) text += fmt::format(" One read in {} is drawn.", step);
   return text;
@@ -217,7 +217,7 @@ Figure phase_figure(const RunFiles& run) {
   std::vector<Segment> segments = drawn_segments(run, *track, tag);
   const std::size_t left_out = leave_out_short(segments);
   if (segments.empty()) {
-    figure.missing = "no read of the moving antenna falls where its pose is known.";
+    figure.missing = "no read of the moving antenna is at a time when its pose is known.";
     return figure;
   }
   const bool truth_known = segments.front().front().true_m.has_value();

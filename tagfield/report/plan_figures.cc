@@ -153,9 +153,8 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
                 {map.axes.x.to - map.axes.x.from, map.axes.y.from - map.axes.y.to},
                 styled("frame"));
   figure.caption = fmt::format(
-      "{} from above; antennas as squares, a colour a reader, with where they look (a disc: down "
-      "or "
-      "up).",
+      "{} from above; antennas as squares, one colour per reader, with their direction (a disc: "
+      "down or up).",
       counted(level.places.size(), "place"));
   if (step > 1) figure.caption += fmt::format(" One in {} is drawn.", step);
   return figure;

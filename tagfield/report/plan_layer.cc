@@ -50,7 +50,7 @@ std::size_t number_of(const Json& layouts, std::uint64_t antennas, const JsonPla
   for (std::size_t i = 0; i < layouts.size(); ++i) {
     if (layouts[i]["antennas"].size() == antennas) return i;
   }
-  fail_at(said, fmt::format("is {}, but there is no layout of so many", antennas));
+  fail_at(said, fmt::format("is {}, but there is no layout with that many", antennas));
 }
 
 void add_places(const CsvTable& table, Json& json) {

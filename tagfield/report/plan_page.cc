@@ -223,11 +223,12 @@ std::string antennas_table(const AntennaPlan& plan) {
 
 std::string hard_table(const AntennaPlan& plan) {
   if (plan.hard.empty()) {
-    return fmt::format("<h2>Hard tags</h2>\n<p>At every place tags are {} in 90 % and more.</p>\n",
-                       words_for(plan.aim));
+    return fmt::format(
+        "<h2>Hard tags</h2>\n<p>At every position tags are {} in 90 % and more.</p>\n",
+        words_for(plan.aim));
   }
   std::string html = "<h2>Hard tags, as chosen</h2>\n" +
-                     table_begin("", {"Place", capital(words_for(plan.aim)) + " [%]",
+                     table_begin("", {"Position", capital(words_for(plan.aim)) + " [%]",
                                       "Best antenna", "Distance [m]", "Why"});
   for (const HardPlace& hard : plan.hard) {
     const PlannedPlace& place = plan.places[hard.place];
@@ -243,7 +244,7 @@ std::string hard_table(const AntennaPlan& plan) {
 
 std::string sensitivity_table(const AntennaPlan& plan) {
   std::string html =
-      "<h2>Where something is otherwise</h2>\n" +
+      "<h2>If something is different</h2>\n" +
       table_begin("", {"The chosen layout", "Tags " + words_for(plan.aim), "95 % of runs", "Lost"});
   for (const PlanVariant& variant : plan.sensitivity) {
     html += plan_row(
@@ -266,18 +267,15 @@ std::string check_text(const AntennaPlan& plan) {
   const PlannedLayout& layout = plan.layouts[plan.chosen];
   std::string text = fmt::format(
       "<div class=\"note\"><p><strong>Checked.</strong> In {} with other tags and seeds {:.1f} "
-      "tags "
-      "were {} in the mean; {:.1f} were forecast, and {} of {} lie within the stated range of "
+      "tags were {} on average; {:.1f} were forecast, and {} of {} are within the stated range of "
       "{:.0f} to {:.0f}.",
       counted(plan.check->read.size(), "full simulation"), mean, words_for(plan.aim),
       layout.read.mean, plan.check->inside, plan.check->read.size(), std::ceil(layout.read.low),
       std::floor(layout.read.high));
   if (!plan.check->cross.empty()) {
     text += fmt::format(
-        " Cross reads, with links as they are: {:.1f} tags in the mean; {:.1f} were forecast, and "
-        "{} "
-        "of "
-        "{} lie within {:.0f} to {:.0f}.",
+        " Cross reads, with links as they are: {:.1f} tags on average; {:.1f} were forecast, and "
+        "{} of {} are within {:.0f} to {:.0f}.",
         mean_of(plan.check->cross), layout.cross.mean, plan.check->cross_inside,
         plan.check->cross.size(), std::ceil(layout.cross.low), std::floor(layout.cross.high));
   }
@@ -323,7 +321,7 @@ std::string dots_text(const PlannedAim& aim) {
       fmt::format("with the share in which one there is {}, {}", words_for(aim), over);
   if (aim.kind == PlannedAim::Kind::kPosition) {
     text +=
-        ": by the Cramér-Rao bound of the direct path, which no estimator undercuts, and with "
+        ": by the Cramér-Rao bound of the direct path, which no estimator can beat, and with "
         "reflections hardly any reaches";
   }
   return text;
@@ -331,17 +329,17 @@ std::string dots_text(const PlannedAim& aim) {
 
 std::string plan_facts(const AntennaPlan& plan) {
   const std::string guaranteed =
-      plan.guaranteed ? fmt::format(
-                            "at least {:.0f} % of the best, whatever the case; the table "
-                            "has what holds for this one",
-                            std::floor(100.0 * *plan.guaranteed))
-                      : "none beforehand with these limits; the table has what holds for this case";
+      plan.guaranteed
+          ? fmt::format(
+                "at least {:.0f} % of the best in any case; the table has what holds for this one",
+                std::floor(100.0 * *plan.guaranteed))
+          : "none beforehand with these limits; the table has what holds for this case";
   return "<dl class=\"facts\">\n" + plan_fact("Aim", aim_text(plan)) +
-         plan_fact("Limits", plan.limits) + plan_fact("More is kept out by", plan.stopped_by) +
+         plan_fact("Limits", plan.limits) + plan_fact("More is prevented by", plan.stopped_by) +
          plan_fact("Choice",
                    fmt::format("of {} ways to mount an antenna, for {}", grouped(plan.options),
                                counted(plan.places.size(), "place"))) +
-         plan_fact("Greed guarantees", guaranteed) + "</dl>\n";
+         plan_fact("Greedy choice guarantees", guaranteed) + "</dl>\n";
 }
 
 }  // namespace
@@ -358,14 +356,14 @@ std::string plan_page(const AntennaPlan& plan, const std::vector<Figure>& figure
     html += "<p class=\"muted\">" + escaped(plan.description) + "</p>\n";
   html += "</header>\n<main>\n" + plan_numbers(plan) + plan_facts(plan) + check_text(plan) +
           plan_warnings(plan) + "<h2>The hall from above</h2>\n" +
-          "<p>Each dot is a place where tags can be, " + dots_text(plan.aim) + ".</p>\n" +
+          "<p>Each dot is a position where tags can be, " + dots_text(plan.aim) + ".</p>\n" +
           controls(plan) + maps + layouts_table(plan) + zones_of_plan(plan) + antennas_table(plan) +
           hard_table(plan) + sensitivity_table(plan) + "<h2>Tables</h2>\n<p>" +
           data_link("plan_layouts.csv", "layouts", plan_layouts_to_csv(plan)) + " · " +
           data_link("plan_antennas.csv", "antennas", plan_antennas_to_csv(plan)) + " · " +
           data_link("plan_places.csv", "places", plan_places_to_csv(plan)) + " (CSV)</p>\n";
   return html +
-         "</main>\n<footer>\n<p>Made by Tagfield; the same tables lie beside this page, and "
+         "</main>\n<footer>\n<p>Made by Tagfield; the same tables are beside this page, and "
          "layout.yaml is the chosen layout as a scenario.</p>\n</footer>\n" +
          plan_data(plan) + script_html(table_script()) + script_html(plan_script()) +
          "</body>\n</html>\n";

@@ -137,11 +137,11 @@ void draw_panel(Svg& svg, const Panel& panel) {
 }
 
 std::string caption_of(const RunFiles& run, const Panel& panel) {
-  std::string text = panel.courses.size() > 1
-                         ? fmt::format("How far off the robots believed their {} moving antennas",
-                                       panel.courses.size())
-                         : std::string("How far off the robot believed its antenna");
-  text += " while it read tags: horizontally, and in heading.";
+  std::string text =
+      panel.courses.size() > 1
+          ? fmt::format("Error of the believed poses of {} moving antennas", panel.courses.size())
+          : std::string("Error of the believed pose of the antenna");
+  text += " while tags were read: horizontal, and in heading.";
   if (run.summary.seeds.size() > 1) {
     text += fmt::format(" Shown is the first of {} seeds.", run.summary.seeds.size());
   }

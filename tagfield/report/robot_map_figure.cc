@@ -88,7 +88,7 @@ std::string caption_of(const RunFiles& run, std::size_t step) {
       spoken_length(run.map->resolution_m));
   if (const auto distance = mean_distance(run.mapping_way)) {
     text +=
-        fmt::format(" Believed and true path are {} apart in the mean.", spoken_length(*distance));
+        fmt::format(" Believed and true path are {} apart on average.", spoken_length(*distance));
   }
   if (run.summary.seeds.size() > 1) {
     text += fmt::format(" Shown is the first of {} seeds.", run.summary.seeds.size());

@@ -103,7 +103,7 @@ std::vector<LegendEntry> tracks_legend(const std::vector<TagTrack>& tracks, bool
   };
   if (any(TrackVerdict::kTracked)) legend.push_back({Symbol::kLine, "line0", "track"});
   if (any(TrackVerdict::kAmbiguous)) {
-    legend.push_back({Symbol::kLine, "line1", "ambiguous: the likeliest"});
+    legend.push_back({Symbol::kLine, "line1", "ambiguous: most likely"});
   }
   if (truth_known) legend.push_back({Symbol::kLine, "true-line", "true path"});
   legend.push_back({Symbol::kDiamond, "ink", "antenna"});
@@ -167,8 +167,8 @@ Figure tracks_figure(const std::vector<TagTrack>& tracks, const std::vector<Ante
   draw_tracks(svg, axes, tracks, step);
   draw_antennas_of_tracks(svg, axes, antennas);
   figure.caption =
-      "Each tag’s likeliest track from its first read to its last, which is a ring. x and y are "
-      "scaled apart.";
+      "Each tag’s most likely track from its first read to its last, which is a ring. x and y have "
+      "different scales.";
   if (step > 1) figure.caption += fmt::format(" One point in {} is drawn.", step);
   figure.data = tracks_data(tracks, step);
   return figure;
@@ -221,7 +221,7 @@ Figure speeds_figure(const std::vector<TagTrack>& tracks) {
     }
     add_polyline(svg, places, styled(fmt::format("line{} tag{}", i % kSeriesColors, i)));
   }
-  figure.caption = "Of each tag’s likeliest track, as smoothed over all of its reads.";
+  figure.caption = "Of each tag’s most likely track, as smoothed over all of its reads.";
   if (step > 1) figure.caption += fmt::format(" One point in {} is drawn.", step);
   figure.data = tracks_data(tracks, step);
   return figure;

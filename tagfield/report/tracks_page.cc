@@ -95,7 +95,7 @@ std::string tracks_facts(const TrackSummary& summary) {
                       : fmt::format("{}", summary.seeds.front()));
   if (const auto nees = mean_nees(summary)) {
     html += tracks_fact("Squared errors over stated covariances",
-                        fmt::format("{:.2f} in the mean; 1 is right, more is too bold", *nees));
+                        fmt::format("{:.2f} on average; 1 is right, more is overconfident", *nees));
   }
   html += "</dl>\n";
   if (summary.warnings.empty()) return html;
@@ -203,7 +203,7 @@ std::string tracks_sentence(const TrackNumbers& numbers, const std::vector<Passi
   text += ".";
   if (numbers.along_m && numbers.across_m) {
     text += fmt::format(
-        " The tracks are off by {} along their direction and by {} across it, in the mean.",
+        " The tracks are off by {} along their direction and by {} across it, on average.",
         spoken_length(*numbers.along_m), spoken_length(*numbers.across_m));
   }
   if (!orders.empty() && !orders.front().passings.empty()) text += order_words(orders.front());
@@ -236,7 +236,7 @@ std::string tracks_page(const TracksShown& shown, const std::vector<Figure>& fig
          passings_table(*shown.orders) + "<h2>Tags</h2>\n" + tracks_table(shown) +
          tracks_facts(*shown.summary) +
          "</main>\n<footer>\n<p>Made by Tagfield; tracks.csv, verdicts.csv, order.csv and "
-         "tracks.json lie beside this page; tracks.svg and figures/ are the "
+         "tracks.json are beside this page; tracks.svg and figures/ are the "
          "figures.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";

@@ -55,7 +55,7 @@ void read_figures(const YamlValue& figures, Profile& profile) {
     const auto key = entry.first.as<std::string>();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       map.at(key).fail(
-          fmt::format("is no setting of a profile of this kind{}", suggestion(key, known)));
+          fmt::format("is not a setting of a profile of this kind{}", suggestion(key, known)));
     }
     profile.parameters.push_back(figure_of(key, YamlMap(map.at(key))));
   }

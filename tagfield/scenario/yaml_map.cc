@@ -110,7 +110,7 @@ std::vector<std::string> split_at_dots(std::string_view path) {
 }
 
 void mark_as_from_command_line(YAML::Node node, int levels = kMostLevels) {
-  if (levels == 0) throw Error("holds itself, or lists and maps too deep in each other");
+  if (levels == 0) throw Error("contains itself, or nests lists and maps too deeply");
   node.SetTag(kFromCommandLine);
   if (node.IsSequence()) {
     for (const YAML::Node& element : node) mark_as_from_command_line(element, levels - 1);

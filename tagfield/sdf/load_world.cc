@@ -137,7 +137,7 @@ void warn_of_unused_parts(Context& context, const XMLElement& world) {
   for (const char* name : {"population", "actor"}) {
     if (const XMLElement* part = world.FirstChildElement(name)) {
       context.diagnostics.warn(location_of(*part),
-                               fmt::format("<{}> is not used: it is left out", name));
+                               fmt::format("<{}> is not supported: it is left out", name));
     }
   }
 }
@@ -166,7 +166,7 @@ Scene scene_of_model(Context& context, const XMLElement& element) {
 Scene scene_of(Context& context, const XMLElement& root) {
   if (const XMLElement* world = root.FirstChildElement("world")) {
     if (world->NextSiblingElement("world") != nullptr) {
-      context.diagnostics.warn(location_of(root), "holds several worlds; the first is taken");
+      context.diagnostics.warn(location_of(root), "holds several worlds; the first is used");
     }
     return scene_of_world(context, *world);
   }

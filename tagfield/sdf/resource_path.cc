@@ -86,7 +86,7 @@ FoundResource find_below(const std::vector<std::string>& folders, const fs::path
   }
   for (const std::string& folder : folders) {
     const std::string path = find_like(folder, rest);
-    if (!path.empty()) return {path, "found in another case, as '" + path + "'"};
+    if (!path.empty()) return {path, "found with a different case, as '" + path + "'"};
   }
   return {};
 }
@@ -175,7 +175,7 @@ FoundResource find_in_fuel(const FuelName& name, const ResourcePaths& paths) {
   for (const std::string& called : {name.model, model_name(name.model)}) {
     FoundResource found = find_below(paths.folders, below_folder(called, name.rest));
     if (found.path.empty()) continue;
-    found.oddity = "not in Fuel's caches; '" + found.path + "' is taken for it";
+    found.oddity = "not in Fuel's caches; '" + found.path + "' is used instead";
     return found;
   }
   return {};

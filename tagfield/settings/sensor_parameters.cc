@@ -93,7 +93,7 @@ Numbers numbers_in(const std::vector<RawParameter>& parameters, const Location& 
     }
   }
   if (!missing.empty()) {
-    diagnostics.warn(location, fmt::format("antenna '{}' leaves to their defaults: {}", antenna,
+    diagnostics.warn(location, fmt::format("antenna '{}' uses the defaults of: {}", antenna,
                                            fmt::join(missing, ", ")));
   }
   return numbers;

@@ -70,8 +70,9 @@ void require_good_carryings(const Scenario& scenario, const RobotClearance& clea
                    carried[j].location, element);
       const Eigen::Vector2i cell = truth.cell_of(position_of(to_W));
       if (is_free(truth.at(cell.x(), cell.y()))) continue;
-      fail(carried[j].location, place_name(element, to_W) +
-                                    " is on no floor that can be seen from where a robot gets to");
+      fail(carried[j].location,
+           place_name(element, to_W) +
+               " is not on a floor that can be seen from where a robot can go");
     }
   }
 }
@@ -131,8 +132,9 @@ NavigationWorld navigation_world(const Scenario& scenario, const Scene& scene,
   world.floor =
       reachable_floor(world.true_map, world.clearance, scenario.obstacles, start, radius_m);
   if (world.floor.empty() && draws_places(scenario)) {
-    fail(robot.location,
-         fmt::format("robot '{}' has no floor around its start to draw places from", robot.name));
+    fail(
+        robot.location,
+        fmt::format("robot '{}' has no floor around its start to draw positions from", robot.name));
   }
   if (navigation.keep_out)
     world.low_things = top_view(scene, kRolledOver, laser_height(navigation));

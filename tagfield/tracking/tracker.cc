@@ -129,14 +129,14 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
   const Track& best = result.tracks.front();
   if (best.coherence < options.min_coherence) {
     return not_tracked(result, fmt::format("the best track explains too little of the phases "
-                                           "(coherence {:.2f}, at least {} is asked for)",
+                                           "(coherence {:.2f}, at least {} is expected)",
                                            best.coherence, options.min_coherence));
   }
   if (!(best.log_evidence >= kLeastEvidence)) {
     return not_tracked(result,
-                       fmt::format("random phases would look like a track as well: {} reads "
-                                   "in {} groups of one antenna and channel are too few; longer "
-                                   "stays on a channel, or offsets by a calibration, would help",
+                       fmt::format("random phases would fit a track as well: {} reads in {} groups "
+                                   "of one antenna and channel are too few; a longer dwell on a "
+                                   "channel, or offsets by a calibration, would help",
                                    pass.reads.size(), pass.groups));
   }
   if (best.expected_error_m > options.max_expected_error_m) {
@@ -146,7 +146,7 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
                             best.expected_error_m, options.max_expected_error_m));
   }
   if (stillness(pass) > best.coherence - kAsStill) {
-    return not_tracked(result, "its phases stand still: tags at rest are localized");
+    return not_tracked(result, "its phases do not change: 'localize' is for tags at rest");
   }
   const double beside = beside_lane(options, best);
   if (beside > kOffLane) {
@@ -156,19 +156,17 @@ TagTrack judged(const TrackingOptions& options, const Pass& pass, TagTrack resul
   }
   const double way = (best.points.back().p_WT - best.points.front().p_WT).head<2>().norm();
   if (way < kAtRest * options.min_speed_m_s * duration_of(pass)) {
-    return not_tracked(result,
-                       fmt::format("it went {:.2f} m in {:.1f} s, less than the least speed "
-                                   "of {} m/s: tags at rest are localized",
-                                   way, duration_of(pass), options.min_speed_m_s));
+    return not_tracked(result, fmt::format("it went {:.2f} m in {:.1f} s, less than the least "
+                                           "speed of {} m/s: 'localize' is for tags at rest",
+                                           way, duration_of(pass), options.min_speed_m_s));
   }
   result.reason = remark(pass);
   result.verdict = TrackVerdict::kTracked;
   if (result.tracks.size() > 1) {
     result.verdict = TrackVerdict::kAmbiguous;
-    result.reason = fmt::format(
-        "{} tracks explain the phases equally well; a lane would tell them "
-        "apart",
-        result.tracks.size());
+    result.reason =
+        fmt::format("{} tracks explain the phases equally well; a lane would distinguish them",
+                    result.tracks.size());
   }
   return result;
 }

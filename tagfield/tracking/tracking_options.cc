@@ -29,7 +29,7 @@ TrackMethod track_method(const std::string& word) {
   for (const TrackMethod method : {TrackMethod::kEkf, TrackMethod::kUkf, TrackMethod::kParticle}) {
     if (to_string(method) == word) return method;
   }
-  throw Error(fmt::format("'{}' is no method of tracking, expected ekf, ukf or particle", word));
+  throw Error(fmt::format("'{}' is not a method of tracking, expected ekf, ukf or particle", word));
 }
 
 const std::vector<Setting<TrackingOptions>>& tracking_settings() {
@@ -38,7 +38,7 @@ const std::vector<Setting<TrackingOptions>>& tracking_settings() {
       setting<O>("min_speed_m_s", "m/s", "of horizontal motion", &O::min_speed_m_s, kOverZero),
       setting<O>("max_speed_m_s", "m/s", "of horizontal motion", &O::max_speed_m_s,
                  {0.0, true, 30.0}),
-      setting<O>("acceleration_noise", "m/s²/√Hz", "process noise: velocity strays by it times √t",
+      setting<O>("acceleration_noise", "m/s²/√Hz", "process noise: velocity drifts by it times √t",
                  &O::acceleration_noise, kAtLeastZero),
       setting<O>("height_sigma_m", "m", "of a height that is known", &O::height_sigma_m, kOverZero),
       setting<O>("unknown_height_sigma_m", "m", "of one that is not", &O::unknown_height_sigma_m,
@@ -50,7 +50,7 @@ const std::vector<Setting<TrackingOptions>>& tracking_settings() {
       setting<O>("gate_sigmas", "σ", "reads beyond are left out", &O::gate_sigmas, kOverZero),
       setting<O>("max_gap_s", "s", "over longer gaps a tag is not followed", &O::max_gap_s,
                  kOverZero),
-      setting<O>("max_expected_error_m", "m", "tracks less sure are not given",
+      setting<O>("max_expected_error_m", "m", "tracks that are less certain are not given",
                  &O::max_expected_error_m, kOverZero),
       setting<O>("min_coherence", "", "nor those that explain less", &O::min_coherence, kOverZero)};
   return all;

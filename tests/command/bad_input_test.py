@@ -979,7 +979,7 @@ def malformed_reads_poses_and_heights(context):
         ("poses.csv", "x_m", "x", "x_m", 1),
         ("poses.csv", "0.1,a,0.1", "0.1,a,far", "x_m", 3),
         ("poses.csv", "0.1,a,0.1", "0.1,a,nan", "x_m", 3),
-        ("poses.csv", "0.1,a,0.1", "0.1,a,1e15", "x_m is 1e+15 m, expected a place within", 3),
+        ("poses.csv", "0.1,a,0.1", "0.1,a,1e15", "x_m is 1e+15 m, expected a position within", 3),
         ("poses.csv", "0.1,a,0.1", "0.1,a,-1000001", "x_m", 3),
         ("heights.csv", "1.0", "1e15", "height_m", 2),
         ("poses.csv", "0.1,a,0.1,0,1,0,0,0,1", "0.1,a,0.1,0,1,0,0,0,0", "length", 3),
@@ -1117,7 +1117,7 @@ def odd_worlds_get_warnings(context):
             ("a box of negative size", WORLD.replace("1 1 1</size>", "1 -1 1</size>"),
              "has no volume", 7),
             ("a cylinder without radius", MODEL.replace(
-                "GEOMETRY", "<cylinder><length>1</length></cylinder>"), "1 m is taken", 7)):
+                "GEOMETRY", "<cylinder><length>1</length></cylinder>"), "1 m is assumed", 7)):
         context.write("hall.sdf", text)
         said = warnings_of(context.run_well("check", "hall.sdf"))
         check_in(says, said, name)
@@ -1233,7 +1233,7 @@ def what_never_ends(context):
     for settings, code, says in (
             (("duration_s=4e9", "time_step_s=1e-5"), 2, "more than a computer gets done in a year"),
             (("duration_s=4e8",), 0, "this takes hours"),
-            (("duration_s=4e8",), 0, "with 'run --record-only' it doesn't grow")):
+            (("duration_s=4e8",), 0, "with 'run --record-only' memory doesn't grow")):
         words = [word for setting in settings for word in ("--set", setting)]
         result = context.run("check", "long.yaml", *words)
         check_equal(result.code, code, f"exit code with {settings}")
@@ -1273,7 +1273,7 @@ def yaml_beyond_all_measure(context):
     expect_complaint(context, "keys", ["run", many, "--out", "o"], "has 100001 keys, expected at most")
     path = context.write("good.yaml", SCENARIO)
     expect_complaint(context, "a node that holds itself",
-                     ["run", path, "--set", "tags=&a [*a]", "--out", "o"], "--set tags: holds itself")
+                     ["run", path, "--set", "tags=&a [*a]", "--out", "o"], "--set tags: contains itself")
     long = context.write("long.yaml", "#" * 16_000_001)
     expect_complaint(context, "16 MB", ["run", long, "--out", "o"], "is longer than 16000000 bytes")
     expect_complaint(context, "a device", ["run", "/dev/zero", "--out", "o"], "/dev/zero: ")

@@ -75,7 +75,7 @@ def a_bag_is_located_in_parts_as_its_tables_are(context):
     check_equal(set(files_in(parts)) ^ set(files_in(whole)), {"compared_poses.csv"}, "the files")
     summary = read_json(parts / "summary.json")
     check_equal(summary["error_m"], read_json(whole / "summary.json")["error_m"], "the errors")
-    check_in("its reads are worked on in parts: with the poses 'true' alone, and not beside others",
+    check_in("its reads are processed in parts: with the poses 'true' alone, without a comparison with others",
              result.err, "what it says")
     context.run_well("localize", bag, *known, "--part-reads", 0, "--out", "at_once")
     check_equal((context.folder / "at_once/summary.json").read_bytes(),
@@ -227,7 +227,7 @@ def bad_bags_get_one_line(context):
     for command in ("localize", "report"):
         expect_complaint(context, [command, "none.bag"], "none.bag: no such file")
         expect_complaint(context, [command, "empty.bag"], "empty.bag: is empty")
-        expect_complaint(context, [command, "text.bag"], "is no rosbag")
+        expect_complaint(context, [command, "text.bag"], "is not a rosbag")
         expect_complaint(context, [command, "folder.bag"], "is a folder")
         expect_complaint(context, [command, "nothing.bag"], "has no reads")
         expect_complaint(context, [command, "unindexed.bag"], "rosbag reindex")
@@ -235,7 +235,7 @@ def bad_bags_get_one_line(context):
                          "nan.bag: topic /rfid/reads, message 1: reads[0].phase is nan")
         expect_complaint(context, [command, "poseless.bag"], "has no poses of the antennas")
         for share in (0.001, 0.3, 0.9, 0.999):
-            expect_complaint(context, [command, f"torn{share}.bag"], f"torn{share}.bag: is torn")
+            expect_complaint(context, [command, f"torn{share}.bag"], f"torn{share}.bag: is cut off")
 
 
 @case
@@ -247,7 +247,7 @@ def bad_options_get_one_line(context):
     expect_complaint(context, ["localize", bag, "--frequency", "0"], "--frequency")
     expect_complaint(context, ["track", bag, "--frame", "moon"], "from 'moon'")
     for words in (["--frame", "map"], ["--frequency", "866e6"]):
-        says = f"track: {words[0]} goes with a recording of ROS only"
+        says = f"track: {words[0]} can only be used with a recording of ROS"
         expect_complaint(context, ["track", folder, *words], says)
         expect_complaint(context, ["track", context.source / "scenarios/two_antennas.yaml", *words], says)
     expect_complaint(context, ["localize", bag, "--scenario", "none.yaml"], "none.yaml")

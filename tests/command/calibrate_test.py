@@ -91,7 +91,7 @@ def several_experiments_tell_what_carries_over(context):
     tags = write_tags(context, run)
     common = ("--poses", poses, "--tags", tags, "--out", context.folder / "profile.yaml")
     told = context.run_well("calibrate", reads, reads, reads, *common)
-    check_in("place x         30.", told.out.replace("29.", "30."), "what is the same in all")
+    check_in("position x      30.", told.out.replace("29.", "30."), "what is the same in all")
     two = context.run("calibrate", reads, reads, *common)
     check_equal(two.code, 2, "exit code of two")
     check_in("two experiments do not show what carries over", two.err, "stderr of two")
@@ -110,7 +110,7 @@ def bad_input_is_told_in_one_line(context):
     words = context.write("words.csv", "tag,x_m,y_m,z_m\nt,1,two,3\n")
     good = context.write("good.csv", "tag,x_m,y_m,z_m\nt,1,2,3\n")
     out = context.folder / "profile.yaml"
-    for tags, says in ((twice, "twice.csv:3: tag 't' stands here twice"),
+    for tags, says in ((twice, "twice.csv:3: tag 't' is here twice"),
                        (words, "words.csv:2: y_m is 'two'"),
                        (context.folder / "none.csv", "none.csv"),
                        (good, "reads.csv: nothing to calibrate by")):

@@ -159,7 +159,7 @@ def a_repository_that_comes_late_or_is_busy_gets_all(context):
     late[0].stop()
     check_equal(late[0].events(), events, "events")
     check_in("trying again", result.err, "warnings")
-    check_in("it takes events again", result.err, "warnings")
+    check_in("it accepts events again", result.err, "warnings")
     check(late[0].times[2] - late[0].times[1] >= 2, f"Retry-After was not heeded: {late[0].times}")
 
 

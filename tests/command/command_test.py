@@ -236,7 +236,7 @@ def an_interrupted_recording_is_whole_and_says_that_it_ends_early(context):
     check(session.wait_for(r"\b[23] %"), f"no progress: {session.seen!r}")
     session.process.send_signal(signal.SIGINT)
     check_equal(session.finish()[0], 130, "exit code")
-    check_in("whole up to then", (out / "INCOMPLETE").read_text(encoding="utf-8"), "INCOMPLETE")
+    check_in("complete up to then", (out / "INCOMPLETE").read_text(encoding="utf-8"), "INCOMPLETE")
     check(len(read_csv(out / "reads.csv")) > 20, "few reads")
     context.run_well("run", context.shipped("paper_warehouse"), "--record-only", "--out", out)
     check(not (out / "INCOMPLETE").exists(), "INCOMPLETE stays after a whole run")

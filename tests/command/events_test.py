@@ -75,7 +75,7 @@ def the_table_says_who_came_and_went(context):
                               context.write("spec.yaml", SPEC.replace("gate_2]", "gate_2, gate_3]")))
     check_in("gone at 1.300 s", result.out, "the table")
     check_in("1 times observed, 1 times gone, 2 cycles reported", result.out, "the table")
-    check_in("nothing was read of antenna 'gate_3' of logical reader 'belt'", result.err, "warnings")
+    check_in("nothing was read by antenna 'gate_3' of logical reader 'belt'", result.err, "warnings")
 
 
 @case

@@ -398,7 +398,7 @@ def coverage_is_of_the_tag_that_is_named(context):
                                 "--step", "0.2", "--height", "1", *words, "--json", "--out",
                                 context.folder / "out")
         check_equal(json.loads(told.out), read_json(context.folder / "out/coverage.json"), "--json")
-        check_equal("--tag-set gain_dbi=6 now" in told.err, name == "old", f"warning of {name}")
+        check_equal("is now --tag-set gain_dbi=6" in told.err, name == "old", f"warning of {name}")
         powers[name] = float(read_csv(context.folder / "out/coverage_1.00m.csv")[0]["power_dbm"])
     check_near(powers["near"], powers["first"], 1e-6, "the first is taken")
     for name in ("lost", "set", "old"):
@@ -416,7 +416,7 @@ def without_an_antenna_it_is_the_one_whose_link_is_best(context):
         named = explained(context, path, *asked, "--antenna", nearer)
         check_equal({**best, "antennas_compared": 1}, named, f"what is told of {tag}")
     text = context.run_well("explain", path, "--tag", "near").out
-    check_in("of 2 antennas the one whose link is the best; --antenna names another", text, "explain")
+    check_in("of 2 antennas the one with the best link; --antenna names another", text, "explain")
 
 
 # --- Bad input ------------------------------------------------------------------------------------
@@ -442,8 +442,8 @@ def bad_arguments(context):
             ([*coverage, "--height", "high"], "height"),
             ([*coverage, "--region", "1,2,3"], "3 numbers, expected X_LOW"),
             ([*coverage, "--region", "1,1,0,2"], "X_LOW < X_HIGH"),
-            ([*coverage, "--region", "1,1,x,2"], "'x' is no number"),
-            ([*coverage, "--region", "0,0,1e9,2"], "'1e9' is no number up to 1e6"),
+            ([*coverage, "--region", "1,1,x,2"], "'x' is not a number"),
+            ([*coverage, "--region", "0,0,1e9,2"], "'1e9' is not a number up to 1e6"),
             ([*coverage, "--orientation", "up"], "ROLL,PITCH,YAW"),
             ([*coverage, "--orientation", "0,0"], "2 numbers"),
             ([*coverage, "--tag-set", "sensitivity_dbm"], "key=value"),
@@ -451,7 +451,7 @@ def bad_arguments(context):
             ([*coverage, "--tag-set", "sensitivity_dbm=low"], "expected a finite number"),
             ([*coverage, "--tag", "neer"], "did you mean 'near'"),
             ([*coverage, "--tag", "near", "--tag", "late"], "expected one name"),
-            ([*coverage, "--tag", "near", "--tag-profile", "monza_r6"], "both say of which kind"),
+            ([*coverage, "--tag", "near", "--tag-profile", "monza_r6"], "both state the kind"),
             ([*coverage, "--tag-profile", "absent.yaml"], "absent.yaml"),
             ([*coverage, "--tag-profile", profile], "expected kind: tag"),
             ([*coverage, "--time", "11"], "the run ends at 10 s"),

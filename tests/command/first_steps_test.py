@@ -89,7 +89,7 @@ def new_runs_as_it_is(context):
     summary = read_json(context.folder / "out/summary.json")
     check_equal((summary["located"], len(summary["tags"])), (4, 4), "tags that are located")
     again = context.run("new", "halls/my_hall")
-    check_equal((again.code, again.err), (2, "tagfield: new: halls/my_hall is there already, and stays as it is\n"),
+    check_equal((again.code, again.err), (2, "tagfield: new: halls/my_hall exists already and is not changed\n"),
                 "a second time")
     for name in ("a b", "-x", ".hidden", "ä", ""):
         check_equal(context.run("new", "--", name).code, 2, f"exit code of new {name!r}")
@@ -177,7 +177,7 @@ def check_names_the_model_in_force(context):
 def check_says_what_is_none(context):
     for path, words in ((context.write("a.txt", "x"), "expected a scenario, plan, suite"),
                         (context.write("a.csv", "foo,bar\n1,2\n"), "is a table with the columns foo, bar"),
-                        (context.folder, "is a folder, and not of a run"),
+                        (context.folder, "is a folder, but not of a run"),
                         (context.write("bad_reads.csv", "stamp_s,antenna,tag,frequency_hz,phase_rad,rssi_dbm\n1,a,t,x,1,1\n"),
                          "bad_reads.csv:2")):
         result = context.run("check", path)

@@ -203,13 +203,13 @@ def tags_of_unknown_height_are_warned_of(context):
     context.write("some.csv", "tag,height_m\n" + "".join(f"{tag},{HEIGHT}\n" for tag in others))
     words = ("--tag-heights", "some.csv", "--method", "ml", "--pose-sigma", "0")
     result, _, _ = localize(context, reads, pose_rows(), *words, "--reference", "known.csv")
-    check_in(f"the heights of 1 of {len(TAGS)} tags, '{first}' for one", result.err, "some heights")
+    check_in(f"the heights of 1 of {len(TAGS)} tags are not stated, such as '{first}'", result.err, "some heights")
     context.write("some.csv", "tag,height_m\n" + "".join(f"{tag},{HEIGHT}\n" for tag in TAGS))
     result, _, _ = localize(context, reads, pose_rows(), *words)
     check("height" not in result.err, f"all heights known: {result.err!r}")
     result = context.run_well("localize", "reads.csv", "--poses", "poses.csv", "--out", "out",
                               *words[2:])
-    check_in("nothing is said of the tags' heights", result.err, "no height")
+    check_in("the tags' heights are not stated", result.err, "no height")
 
 
 @case
@@ -218,7 +218,7 @@ def reference_tags_and_offsets(context):
     _, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--reference",
                                      "known.csv", "--pose-sigma", "0")
     check_equal(position(estimates["one"]), TAGS["one"], "place of the reference tag")
-    check_in("its place was given", estimates["one"]["reason"], "reason")
+    check_in("its position was given", estimates["one"]["reason"], "reason")
     check_equal([tag["id"] for tag in summary["tags"] if tag["reference"]], ["one"], "references")
     check((context.folder / "out/reference_tags.csv").exists(), "no reference_tags.csv")
     # A known offset turns phases into distances: it narrows, a wrong one spoils.
@@ -289,7 +289,7 @@ def bad_words_for_what_is_known(context):
                         (["--pose-sigma", "nan"], "pose"),
                         (["--pose-yaw-sigma", "1"], "--pose-sigma"),
                         (["--pose-sigma", "1", "--pose-time-constant", "0"], "time-constant"),
-                        (["--reference", "twice.csv"], "twice.csv:3: tag 'one' stands here twice"),
+                        (["--reference", "twice.csv"], "twice.csv:3: tag 'one' is here twice"),
                         (["--reference", "absent.csv"], "no such file")):
         result = context.run("localize", "reads.csv", "--poses", "poses.csv", *words)
         check_equal(result.code, 2, f"{words}: exit code")
@@ -345,7 +345,7 @@ def rows_out_of_order_and_twice(context):
         check_equal(estimates, expected, f"{method}: estimates of shuffled rows")
         for name in ("reads.csv", "poses.csv"):
             check_in(f"{name}: ", result.err, f"{method}: the warnings")
-        check_in("they are put in order of time", result.err, f"{method}: the warnings")
+        check_in("they are sorted by time", result.err, f"{method}: the warnings")
         result, estimates, _ = localize(context, reads + reads[:90], poses, "--method", method)
         check_equal({tag: position(row) for tag, row in estimates.items()},
                     {tag: position(row) for tag, row in expected.items()},
@@ -635,7 +635,7 @@ def circular_antennas_turn_phases_by_the_wire(context):
     check(off["--circular", "right"] < 3 * expected and off["--circular", "right"] < 0.5 * off[()],
           f"errors {off}, {expected} expected with --circular")
     result, _, _ = localize(context, read_rows(FARTHER), pose_rows(), *height, "--circular", "left")
-    check("--circular does nothing" in result.err, f"no warning of poses without orientation: {result.err}")
+    check("--circular has no effect" in result.err, f"no warning of poses without orientation: {result.err}")
 
 
 @case
@@ -683,14 +683,15 @@ def reads_that_do_not_fit_in_memory(context):
     # Of a tag with more reads than a part every second counts.
     result, estimates, _ = localize(context, reads, pose_rows(), "--part-reads", "200", "--method", "ml")
     check_located(estimates, TAGS, "every second read")
-    check_in("3 tags have over 200 reads, up to 360: every second", result.err, "warning")
+    check_in("3 tags have over 200 reads, up to 360: only every second", result.err, "warning")
     check_equal({row["reads"] for row in estimates.values()}, {"180"}, "reads that count")
     check_equal(sorted(path.name for path in context.folder.iterdir()),
                 ["known.csv", "out", "poses.csv", "reads.csv"], "files")
     bad = reads[:700] + ["1,r,a,one,865700000,x,-50"] + reads[700:]
     context.write("bad.csv", "\n".join(["stamp_s,reader,antenna,tag,frequency_hz,phase_rad,rssi_dbm", *bad]) + "\n")
     for arguments, words in ((("bad.csv", "--poses", "poses.csv"), "bad.csv:702: phase_rad is 'x'"),
-                             (("reads.csv", "--poses", "poses.csv", "--format", "adarf"), "goes with CSV in Tagfield's")):
+                             (("reads.csv", "--poses", "poses.csv", "--format", "adarf"),
+                              "can only be used with CSV in Tagfield's")):
         result = context.run("localize", *arguments, "--part-reads", "100", "--out", "new")
         check_equal(result.code, 2, f"{arguments}: exit code")
         check_in(words, result.err, "what it says")
@@ -699,7 +700,7 @@ def reads_that_do_not_fit_in_memory(context):
     result = context.run("localize", "pipe", "--poses", "poses.csv", "--part-reads", "100",
                          "--out", "new")
     check_equal(result.code, 2, "exit code with a pipe")
-    check_in("pipe: is no file that can be read twice", result.err, "what it says")
+    check_in("pipe: can't be read twice", result.err, "what it says")
 
 
 @case

@@ -156,7 +156,7 @@ def nothing_is_lost_while_the_broker_restarts(context):
         broker.start()
         out, err = program.communicate(timeout=60)
         check_equal(program.returncode, 0, "exit code")
-        check_in("the connection is gone; trying again", err, "warnings")
+        check_in("the connection is lost; trying again", err, "warnings")
         check_in(": connected\n", err, "warnings")
         check("lost" not in err, f"it says {err!r}")
         lines = out.splitlines()
@@ -171,7 +171,7 @@ def a_broker_that_comes_late_gets_all(context):
         broker.stop()
         program = stream(context, context.shipped("conveyor"), "--speed", "0", "--mqtt",
                          broker.url())
-        check_in("the broker is not there; trying again", program.stderr.readline(), "a warning")
+        check_in("the broker can't be reached; trying again", program.stderr.readline(), "a warning")
         broker.start()
         out, err = program.communicate(timeout=60)
         check_in(": connected\n", err, "warnings")
@@ -197,7 +197,7 @@ def what_there_is_no_room_for_is_counted(context):
     check(took < 5.0, f"{took:.1f} s beside a broker that is away, {alone:.1f} s alone")
     err = program.stderr.read()
     check_equal(program.wait(timeout=20), 0, "exit code")
-    check_in("there is room for 100 messages: the oldest are lost from now on", err, "warnings")
+    check_in("the queue of 100 messages is full: the oldest are lost from now on", err, "warnings")
     check_in(f"{len(lines)} of {len(lines)} messages were lost, the last 100 of them at the end",
              err, "warnings")
 

@@ -110,7 +110,7 @@ def an_inventory_is_a_result(context):
     out = context.folder / "out"
     said = context.run_well("run", path, "--leave-one-out", "--out", out).out
     check_in("inventory: ", said, "what is said")
-    check_in("no places: all antennas stand still", said, "what is said")
+    check_in("no positions: all antennas stand still", said, "what is said")
     summary = read_json(out / "summary.json")
     inventory = summary["inventory"]
     check_equal(summary["method"], "none", "method")
@@ -171,7 +171,7 @@ def another_scenarios_results_stay(context):
 def bad_plans(context):
     out = context.folder / "out"
     for change, says in (
-            (("antennas: 3", "cost: 10"), "plan.limits.cost lets no antenna in"),
+            (("antennas: 3", "cost: 10"), "plan.limits.cost allows no antenna"),
             (("0.5, 4, 2, 1.5]", "0.5, 4, 2]"), "6 numbers"),
             (("rpy_deg: [[0, 90, 0]]", "rpy_deg: [[0, 90]]"), "rpy_deg"),
             (("ports: 4", "ports: 0"), "must be from 1 to 256"),

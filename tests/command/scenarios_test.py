@@ -249,9 +249,9 @@ def paper_warehouse_with_pose_error(context):
                "position_rms_m")
     page = (folder / "report.html").read_text(encoding="utf-8")
     for phrase in (f"The robot believed its antenna {1e3 * pose['position_rms_m']:.0f} mm (rms) off"
-                   " its true place.",
-                   f"With the true pose the same reads give {1e3 * with_truth['mean']:.1f} mm in "
-                   f"the mean; with the believed one {1e3 * summary['error_m']['mean']:.0f} mm",
+                   " its true position.",
+                   f"With the true pose the same reads give {1e3 * with_truth['mean']:.1f} mm on "
+                   f"average; with the believed one {1e3 * summary['error_m']['mean']:.0f} mm",
                    "pose error, not phase noise, sets this figure"):
         check(phrase in page, f"the page does not say {phrase!r}")
 
@@ -632,7 +632,7 @@ def localize_never_reads_truth(context):
     check_equal((without / "estimates.csv").read_bytes(), (with_truth / "estimates.csv").read_bytes(),
                 "estimates without truth/")
     page = (without / "report.html").read_text(encoding="utf-8")
-    check_in("true places are not known", page, "the page")
+    check_in("true positions are not known", page, "the page")
 
 
 if __name__ == "__main__":

@@ -71,7 +71,7 @@ def says_what_is_wrong_in_a_line(context):
     for text, said in (("tag,x_m\na,1\n", "y_m"), ("tag,x_m,y_m\na,1,nan\n", ":2: "),
                        ("tag,x_m,y_m,verdict\na,1,2,sure\n", ":2: "),
                        ("tag,x_m,y_m,expected_error_m\na,1,2,-1\n", "expected_error_m is below 0"),
-                       ("tag,x_m,y_m,cov_xx,cov_xy,cov_yy\na,1,2,1,5,1\n", "no covariance")):
+                       ("tag,x_m,y_m,cov_xx,cov_xy,cov_yy\na,1,2,1,5,1\n", "not a covariance")):
         result = context.run("score", context.write("e.csv", text), "--run", folder)
         check_equal((result.code, len(result.err.splitlines())), (2, 1), f"{text!r}: {result.err!r}")
         check_in(said, result.err, repr(text))

@@ -409,7 +409,7 @@ BAD = (  # what stands in the suite, its line, what is said of it
     ("sweep: {grid: {pose.sigma_m: {from: 2, to: 1, steps: 3}}}\n", 4, "must be greater than 'from'"),
     ("sweep: {grid: {pose.sigma_m: {from: 0, to: 1, steps: 3, scale: log}}}\n", 4,
      "must be greater than 0 on a logarithmic scale"),
-    ("sweep: {grid: {pose.sigma_m: [1, 1]}}\n", 4, "for the second time"),
+    ("sweep: {grid: {pose.sigma_m: [1, 1]}}\n", 4, "is 1 again, expected different values"),
     ("sweep: {grid: {a: [1]}, list: [{a: 1}]}\n", 4, "must have one of 'grid', 'list' and"),
     ("sweep: {gird: {a: [1]}}\n", 4, "did you mean 'grid'?"),
     ("sweep: {list: []}\n", 4, "must have at least one point"),
@@ -436,9 +436,9 @@ def bad_suites_get_one_line(context):
                             ((suite, "--shard", "x"), "expected I/N"),
                             ((suite, "--again", "9:9"), "there is no run '9:9'"),
                             ((), "expected SUITE, or --merge DIR, or --status DIR"),
-                            (("--merge", "nowhere"), "nowhere: is no folder of a sweep")):
+                            (("--merge", "nowhere"), "nowhere: is not the folder of a sweep")):
         check_in(says, line_of(context.run("sweep", *arguments), arguments), "complaint")
-    check_in("run it by tagfield sweep", line_of(context.run("bench", suite), "a sweep as a bench"), "bench")
+    check_in("run it with tagfield sweep", line_of(context.run("bench", suite), "a sweep as a bench"), "bench")
 
 
 # --- Many machines --------------------------------------------------------------------------------

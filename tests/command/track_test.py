@@ -89,7 +89,7 @@ def reads_that_do_not_fit_in_memory(context):
     check_equal(sorted(path.name for path in context.folder.iterdir()), ["parts", "run", "whole"], "folders")
     bad = context.run("track", scenario, "--part-reads", 2000, "--out", context.folder / "bad")
     check_equal(bad.code, 2, "exit code with a scenario")
-    check_in("--part-reads goes with CSV", bad.err, "what it says")
+    check_in("--part-reads can only be used with CSV", bad.err, "what it says")
 
 
 @case
@@ -158,11 +158,11 @@ def bad_input_is_told_in_one_line(context):
                                        "0,a,0,0,1,0,0,0,1\n")
     for arguments, says in (
             ((reads,), "track: reads as CSV need --poses FILE"),
-            ((reads, "--poses", poses, "--seeds", 2), "--seeds goes with a scenario only"),
-            ((reads, "--poses", poses, "--both-ways"), "--both-ways goes with a lane only"),
+            ((reads, "--poses", poses, "--seeds", 2), "--seeds can only be used with a scenario"),
+            ((reads, "--poses", poses, "--both-ways"), "--both-ways can only be used with a lane"),
             ((reads, "--poses", poses, "--speed", 3, 1), "min_speed_m_s, 3 m/s, is over"),
             ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
-            ((context.shipped("conveyor"), "--poses", poses), "go with reads"),
+            ((context.shipped("conveyor"), "--poses", poses), "can only be used with reads"),
             ((context.shipped("conveyor"), "--set", "tracking.lane.width=1"), "width"),
             ((context.shipped("conveyor"), "--set", "tracking.reach_m=51"), "at most 50"),
             ((context.shipped("conveyor"), "--set", "tracking.particles=500"), "not used by ekf"),

@@ -122,7 +122,7 @@ def odd_but_usable_parameters_are_warned_of(context):
         plain = re.sub(r"\x1b\[[0-9;]*m", "", running.log())
         found = messages(running.bag, "/rfid/reads")
     check_all_in(("<freqency> is not known and left out", "did you mean 'frequency'",
-                  "<color> is not known", "leaves to their defaults: <frequency>"), plain)
+                  "<color> is not known", "uses the defaults of: <frequency>"), plain)
     check_equal({read.epc for message in found for read in message.reads}, {"one"}, "tags read")
 
 

@@ -537,7 +537,7 @@ def a_port_that_is_taken_is_said(context):
         result = context.run("serve", context.shipped(PORTAL), "--http", str(server.port))
         check_equal(result.code, 2, "exit code")
         check_in(f"HTTP can't listen on 127.0.0.1 port {server.port}", result.err, "message")
-    for arguments, word in ((["--listen", "nowhere"], "'nowhere' is no IP address"),
+    for arguments, word in ((["--listen", "nowhere"], "'nowhere' is not an IP address"),
                             (["--speed", "-1"], "--speed -1: expected")):
         result = context.run("serve", context.shipped(PORTAL), *arguments)
         check_equal(result.code, 2, f"exit code with {arguments}")

@@ -480,7 +480,7 @@ def place_is_taken_from_a_click(context, one, address, shared):
     one.press_button("views", "Top")
     one.do("view.time.toggle(); view.lists.show('changes')")
     one.still()
-    one.press_button("lists", "Click a place")
+    one.press_button("lists", "Click a position")
     one.click(*one.project([2.0, -7.0, 0.0]))
     x, y, z = (float(one.ask(f"at.root.getElementById('new-tag-{axis}').value")) for axis in "xyz")
     check(math.dist((x, y, z), (2, -7, 0)) < 0.06,

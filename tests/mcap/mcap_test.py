@@ -360,7 +360,7 @@ def tags_are_tracked_from_the_file_as_from_the_tables(context):
                           for folder in (file, tables))
     check(abs(of_file["along_m"]["mean"] - of_tables["along_m"]["mean"]) < 1e-6, "the truth is not judged by")
     for words, says in ((["--poses", "poses.csv"], "track: --poses is 'poses.csv', expected auto, true, tf or odom"),
-                        (["--format", "form.yaml"], "track: --format goes with CSV only")):
+                        (["--format", "form.yaml"], "track: --format can only be used with CSV")):
         result = context.run("track", "run.mcap", *words, "--out", "bad")
         check_equal(result.code, 2, f"exit code with {words}")
         check_in(says, result.err, "complaint")
@@ -419,7 +419,7 @@ def broken_files_are_told_of(context):
             data[draw.randrange(len(data))] = draw.randrange(256)
         result = context.run("localize", context.write("odd.mcap", bytes(data)), "--out", "odd")
         check(result.code in (0, 2), f"exit code {result.code}: {result.err[-300:]}")
-    for text, says in ((b"", "is no MCAP file"), (whole[:8], "no reads"), (b"hello", "is no MCAP file")):
+    for text, says in ((b"", "is not an MCAP file"), (whole[:8], "no reads"), (b"hello", "is not an MCAP file")):
         result = context.run("localize", context.write("bad.mcap", text), "--out", "bad")
         check_equal(result.code, 2, "exit code")
         check_in(says, result.err, "complaint")

@@ -160,7 +160,7 @@ def refusals_are_one_line(context):
         check_in(says, result.err, "complaint")
         check(not (context.folder / "out/reads.csv").exists(), "reads.csv is there")
 
-    refused(context.write("text.db3", b"hello" * 3000), "is no database of rosbag2")
+    refused(context.write("text.db3", b"hello" * 3000), "is not a database of rosbag2")
     refused(context.folder / "gone.db3", "no such file")
     refused(write_database(context.folder / "empty.db3", {"/tf": "tf2_msgs/msg/TFMessage"}, []),
             "has no reads: no topic of type tagfield_msgs/msg/TagReads")

@@ -148,7 +148,7 @@ TEST_F(Archives, LinksAreRefused) {
   EXPECT_EQ(complaint_of(packed("hard.tar", {{"a.csv", "", AE_IFREG, "/etc/passwd"}})),
             "hard.tar: holds the link 'a.csv': it is not unpacked");
   EXPECT_EQ(complaint_of(packed("pipe.tar", {{"a.csv", "", AE_IFIFO, ""}})),
-            "pipe.tar: holds 'a.csv', which is no file: it is not unpacked");
+            "pipe.tar: holds 'a.csv', which is not a file: it is not unpacked");
   EXPECT_FALSE(fs::exists(folder_ / "outside.csv"));
 }
 

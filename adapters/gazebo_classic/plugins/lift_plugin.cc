@@ -72,7 +72,7 @@ class LiftOfModel {
   void obey() {
     const std::optional<double> position = publisher_.take_command();
     if (!position || run_->guide.go_to(*position - parameters_.lower_m) || warned_) return;
-    gzwarn << place_ << ": a height that is not finite is not obeyed\n";
+    gzwarn << place_ << ": a height that is not finite is ignored\n";
     warned_ = true;
   }
 

@@ -186,7 +186,7 @@ class Robot {
   void drive(Time now) {
     if (const std::optional<BodyVelocity> command = publisher_.take_command()) {
       if (!run_->driver.command(*command, now) && !warned_) {
-        gzwarn << place_ << ": a cmd_vel that is not finite is not obeyed\n";
+        gzwarn << place_ << ": a cmd_vel that is not finite is ignored\n";
         warned_ = true;
       }
     }

@@ -88,8 +88,8 @@ void require_xml_text(const std::string& text, const char* what, const Location&
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
   const bool trimmed = text.empty() || text.front() == ' ' || text.back() == ' ';
   if (trimmed || std::any_of(text.begin(), text.end(), is_control)) {
-    fail(location, fmt::format("{} '{}' can't stand in a world file: expected no control "
-                               "characters, and no spaces at its ends",
+    fail(location, fmt::format("{} '{}' can't be used in a world file: expected no control "
+                               "characters and no spaces at its ends",
                                what, text));
   }
 }

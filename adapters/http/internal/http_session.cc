@@ -36,8 +36,8 @@ constexpr const char* kPagePolicy =
 
 constexpr const char* kNoPage =
     "<!doctype html><meta charset=utf-8><title>Tagfield</title><p>This tagfield was built without "
-    "its page, for lack of Node.js' npm. The world is at <a href=/api/status>/api/status</a>, all "
-    "of the API in <a href=/api/openapi.json>/api/openapi.json</a>.";
+    "its page, as npm (Node.js) was missing. The world is at <a href=/api/status>/api/status</a>, "
+    "all of the API in <a href=/api/openapi.json>/api/openapi.json</a>.";
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
@@ -95,7 +95,7 @@ void HttpSession::on_read(beast::error_code error) {
              error == asio::error::operation_aborted || error == asio::error::connection_reset) {
     close();
   } else if (error) {
-    respond(api_error(400, "this is no HTTP request"));
+    respond(api_error(400, "this is not an HTTP request"));
   } else {
     handle(parser_->release());
   }
@@ -109,7 +109,7 @@ std::optional<ApiResponse> HttpSession::refusal(const Request& request) const {
   };
   const std::string_view host = field(http::field::host);
   if (!is_own_host(host, context_.own_name)) {
-    return api_error(403, "the Host header names another machine than this one");
+    return api_error(403, "the Host header names a machine other than this one");
   }
   const bool is_get = request.method() == http::verb::get;
   const bool is_upgrade = beast::websocket::is_upgrade(request);

@@ -36,7 +36,7 @@ TEST(JsonArguments, FaultsNameTheKey) {
   const auto number = [](JsonArguments& body) { body.number("n", 0.0, 1.0); };
   const auto numbers = [](JsonArguments& body) { body.numbers("n", 2, 1.0); };
   const auto text = [](JsonArguments& body) { body.text("n"); };
-  EXPECT_EQ(fault("{", nothing), "the body is no JSON");
+  EXPECT_EQ(fault("{", nothing), "the body is not JSON");
   EXPECT_EQ(fault("[1]", nothing), "the body must be a JSON object");
   EXPECT_EQ(fault(R"({"n": 1})", nothing), "'n' is not known here");
   EXPECT_EQ(fault("{}", number), "'n' is missing");

@@ -40,7 +40,7 @@ struct FreeLz4 {
 const char* decompress_lz4(std::string_view bytes, std::string& out) {
   LZ4F_dctx* made = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) {
-    return "LZ4 can't have the memory";
+    return "there is not enough memory for LZ4";
   }
   const std::unique_ptr<LZ4F_dctx, FreeLz4> context(made);
   std::size_t filled = 0;
@@ -49,7 +49,7 @@ const char* decompress_lz4(std::string_view bytes, std::string& out) {
     std::size_t taken = bytes.size();
     std::size_t given = out.size() - filled;
     awaited = LZ4F_decompress(made, out.data() + filled, &given, bytes.data(), &taken, nullptr);
-    if (LZ4F_isError(awaited) != 0) return "it is no LZ4";
+    if (LZ4F_isError(awaited) != 0) return "it is not LZ4";
     if (taken == 0 && given == 0) return kWrongSize;  // More would come than there is room for.
     bytes.remove_prefix(taken);
     filled += given;
@@ -59,7 +59,7 @@ const char* decompress_lz4(std::string_view bytes, std::string& out) {
 
 const char* decompress_zstd(std::string_view bytes, std::string& out) {
   const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(size) != 0) return "it is no Zstandard of its size";
+  if (ZSTD_isError(size) != 0) return "it is not Zstandard of the stated size";
   return size == out.size() ? nullptr : kWrongSize;
 }
 
@@ -81,10 +81,10 @@ const char* decompress(std::string_view compression, std::string_view bytes, std
   const bool is_lz4 = compression == "lz4";
   if (compression.empty()) {
     out = bytes;
-    return bytes.size() == size ? nullptr : "it has a wrong size";
+    return bytes.size() == size ? nullptr : "its size is wrong";
   }
   if (!is_lz4 && compression != "zstd") {
-    return "its compression is not known here, expected none, lz4 or zstd";
+    return "its compression is unknown, expected none, lz4 or zstd";
   }
   out.resize(size);
   return is_lz4 ? decompress_lz4(bytes, out) : decompress_zstd(bytes, out);

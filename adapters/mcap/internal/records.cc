@@ -15,7 +15,7 @@ std::uint32_t crc_of(std::string_view bytes, std::uint32_t before) {
 
 void put_text(std::string& out, std::string_view text) {
   if (text.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(fmt::format("MCAP takes no text of {} bytes, 4 GB at most", text.size()));
+    throw Error(fmt::format("MCAP can't hold a text of {} bytes, 4 GB at most", text.size()));
   }
   put(out, static_cast<std::uint32_t>(text.size()));
   out += text;

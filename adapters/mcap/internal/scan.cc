@@ -30,7 +30,7 @@ class Complaints {
   void say(const std::string& what) {
     if (left_ < 0) return;
     const bool is_last = left_-- == 0;
-    diagnostics_.warn({path_, 0}, is_last ? "more is wrong, of which nothing is said" : what);
+    diagnostics_.warn({path_, 0}, is_last ? "further faults are not listed" : what);
   }
   void say(std::uint64_t at, const std::string& what) { say(fmt::format("byte {}: {}", at, what)); }
 
@@ -93,7 +93,7 @@ void Scanner::read_summary(std::uint64_t start, std::uint64_t footer, std::uint3
   }
   if (crc == 0) return;
   if (file_.crc(start, checked - start) != crc) {
-    return complaints_.say(start, "the summary's CRC is wrong, and it is not used");
+    return complaints_.say(start, "the summary's CRC is wrong, so it is not used");
   }
   end_ = start;
   std::string_view summary = file_.view(start, footer - start);
@@ -147,7 +147,7 @@ void Scanner::walk() {
                                  : fmt::format("the file is broken from here to byte {}", limit));
     at = limit;
   }
-  if (!is_over_) complaints_.say(at, "the file ends without the end of its data");
+  if (!is_over_) complaints_.say(at, "the file ends without a DataEnd record");
 }
 
 void Scanner::take(Op op, std::uint64_t at, std::uint64_t length) {
@@ -156,7 +156,7 @@ void Scanner::take(Op op, std::uint64_t at, std::uint64_t length) {
   if (op == Op::kFooter && at + kTailBytes == file_.size()) is_over_ = true;
   if (!is_wanted) return;  // Indexes, attachments, and what later versions may add.
   if (length > kMostRecordBytes) {
-    return complaints_.say(at, fmt::format("a record of {} bytes is left out, {} are the limit",
+    return complaints_.say(at, fmt::format("a record of {} bytes is left out, the limit is {}",
                                            length, kMostRecordBytes));
   }
   if (op == Op::kChunk) return take_chunk(at, length);
@@ -228,7 +228,7 @@ void Scanner::take_data_end(std::uint64_t at, std::uint64_t length) {
 void Scanner::judge_loose_messages() {
   if (loose_counts_.empty()) return;
   if ((has_chunks_ || !chunk_starts_.empty()) && !is_data_right_) {
-    complaints_.say("messages outside of chunks are left out, as no CRC says that they are right");
+    complaints_.say("messages outside of chunks are left out, as no CRC covers them");
     auto& pieces = found_.pieces;
     pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
                                 [](const Piece& piece) { return !piece.is_chunk; }),
@@ -247,7 +247,7 @@ void Scanner::resolve() {
       ++entry;
       continue;
     }
-    complaints_.say(fmt::format("{} messages are of a channel {} that the file lacks, and left out",
+    complaints_.say(fmt::format("{} messages of channel {}, which the file lacks, are left out",
                                 entry->second, entry->first));
     entry = found_.counts.erase(entry);
   }
@@ -255,7 +255,7 @@ void Scanner::resolve() {
 
 void Scanner::read_header() {
   if (file_.view(0, std::min<std::uint64_t>(kMagic.size(), file_.size())) != kMagic) {
-    fail({file_.path(), 0}, "is no MCAP file: it does not begin with the bytes of one");
+    fail({file_.path(), 0}, "is not an MCAP file: it does not begin with MCAP's magic bytes");
   }
   const std::uint64_t most = std::min<std::uint64_t>(file_.size() - kMagic.size(), kRunBytes);
   std::string_view begin = file_.view(kMagic.size(), most);

@@ -96,12 +96,12 @@ TEST(McapReader, LeavesOutChunksThatAreWrong) {
   const std::uint32_t right = crc(records);
   const std::vector<std::pair<std::string, std::string>> cases = {
       {chunk("", records, size, right + 1), "its CRC is wrong"},
-      {chunk("", records, size + 1, right), "it has a wrong size"},
-      {chunk("bz2", records, size, right), "its compression is not known here"},
-      {chunk("zstd", records, size, right), "it is no Zstandard of its size"},
-      {chunk("zstd", zstd(records), size - 1, right), "it is no Zstandard of its size"},
+      {chunk("", records, size + 1, right), "its size is wrong"},
+      {chunk("bz2", records, size, right), "its compression is unknown"},
+      {chunk("zstd", records, size, right), "it is not Zstandard of the stated size"},
+      {chunk("zstd", zstd(records), size - 1, right), "it is not Zstandard of the stated size"},
       {chunk("zstd", zstd(records), size + 1, right), "it does not decompress to its size"},
-      {chunk("lz4", records, size, right), "it is no LZ4"},
+      {chunk("lz4", records, size, right), "it is not LZ4"},
       {chunk("lz4", lz4(records), size - 1, right), "it does not decompress to its size"},
       {chunk("lz4", lz4(records), size + 1, right), "it does not decompress to its size"},
       {chunk("lz4", lz4(records).substr(0, 20), size, right), "it does not decompress to its size"},
@@ -150,7 +150,7 @@ TEST(McapReader, WarnsOfDefinitionsThatAreWrong) {
   const Read found = read(file_of(good + message(9, 2, "y") + message(9, 3, "z")));
   EXPECT_EQ(found.bytes, Texts{"x"});
   ASSERT_EQ(found.warnings.size(), 1U);
-  EXPECT_TRUE(contains(found.warnings[0], "2 messages are of a channel 9 that the file lacks"));
+  EXPECT_TRUE(contains(found.warnings[0], "2 messages of channel 9, which the file lacks"));
 }
 
 TEST(McapReader, SaysOnlySoMuchOfOneFile) {
@@ -158,7 +158,7 @@ TEST(McapReader, SaysOnlySoMuchOfOneFile) {
   for (int i = 0; i < 1000; ++i) records += record(5, "?");
   const Read found = read(file_of(records));
   ASSERT_EQ(found.warnings.size(), 21U);
-  EXPECT_TRUE(contains(found.warnings.back(), "more is wrong, of which nothing is said"));
+  EXPECT_TRUE(contains(found.warnings.back(), "further faults are not listed"));
 }
 
 TEST(McapReader, WarnsOfAWrongCrcOfTheData) {
@@ -179,8 +179,8 @@ TEST(McapReader, WarnsOfAWrongCrcOfTheData) {
 // A chunk of zeros says that it is small, and a length says that it is huge.
 TEST(McapReader, BelievesNoSizes) {
   const std::string bomb = zstd(std::string(300'000'000, '\0'));
-  EXPECT_TRUE(
-      contains(warning_of(file_of(chunk("zstd", bomb, 100, 0))), "no Zstandard of its size"));
+  EXPECT_TRUE(contains(warning_of(file_of(chunk("zstd", bomb, 100, 0))),
+                       "not Zstandard of the stated size"));
   EXPECT_TRUE(
       contains(warning_of(file_of(chunk("zstd", bomb, 300'000'000, 0))), "longer than 256 MB"));
   for (const std::uint64_t length : {std::uint64_t{1} << 20U, std::uint64_t{1} << 40U,
@@ -223,8 +223,8 @@ TEST(McapReader, RefusesWhatIsNoMcapFile) {
   EXPECT_TRUE(contains(error(folder.file("no")), "no: no such file"));
   EXPECT_TRUE(contains(error(folder.path().string()), "is a folder"));
   EXPECT_TRUE(contains(error("/dev/zero"), "a device"));
-  EXPECT_TRUE(contains(error(folder.with("empty", "")), "is no MCAP file"));
-  EXPECT_TRUE(contains(error(folder.with("bag", "#ROSBAG V2.0\n")), "is no MCAP file"));
+  EXPECT_TRUE(contains(error(folder.with("empty", "")), "is not an MCAP file"));
+  EXPECT_TRUE(contains(error(folder.with("bag", "#ROSBAG V2.0\n")), "is not an MCAP file"));
   const std::string pipe = folder.file("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_TRUE(contains(error(pipe), "a pipe"));

@@ -128,7 +128,7 @@ void DrivingNode::on_map(const nav_msgs::OccupancyGrid& message) {
     map_ = with_occupied(grid_of(message), keep_out_);
     if (driver_) driver_->set_map(*map_);
   } catch (const Error& error) {
-    ROS_ERROR("%s; not taken", error.what());
+    ROS_ERROR("%s; ignored", error.what());
   }
 }
 
@@ -138,7 +138,7 @@ void DrivingNode::on_frames() {
 }
 
 void DrivingNode::begin_anew() {
-  ROS_WARN("time went back: driving begins anew");
+  ROS_WARN("time went back: driving starts again");
   frames_.forget();
   scans_.forget();
   if (is_under_way_) end_goal(GoalStatus::ABORTED, "time went back");
@@ -179,7 +179,7 @@ void DrivingNode::begin_goal(const geometry_msgs::PoseStamped& message) {
   if (!map_) throw Error("there is no map yet");
   if (!driver_) throw Error("there is no scan yet");
   const std::optional<PlanarPose> pose_M = believed_.now();
-  if (!pose_M) throw Error("the robot's place is not known: " + believed_.trouble());
+  if (!pose_M) throw Error("the robot's pose is not known: " + believed_.trouble());
   driver_->set_goal(goal_M, *pose_M, time_of(ros::Time::now()));
   if (driver_->state() == DriveState::kRefused) throw Error(driver_->reason());
   ROS_INFO("drives to (%.2f, %.2f, %.2f rad)", goal_M.x, goal_M.y, goal_M.yaw);

@@ -105,7 +105,7 @@ void ExploringNode::on_map(const nav_msgs::OccupancyGrid& message) {
   try {
     map_ = grid_of(message);
   } catch (const Error& error) {
-    ROS_ERROR("%s; not taken", error.what());
+    ROS_ERROR("%s; ignored", error.what());
   }
 }
 
@@ -121,7 +121,7 @@ void ExploringNode::on_status(const actionlib_msgs::GoalStatusArray& message) {
 }
 
 void ExploringNode::begin_anew() {
-  ROS_WARN("time went back: exploring begins anew");
+  ROS_WARN("time went back: exploring starts again");
   frames_.forget();
   map_.reset();
   explorer_.reset();
@@ -145,7 +145,7 @@ void ExploringNode::wait() {
   const std::optional<PlanarPose> pose_M = believed_.now();
   const std::optional<PlanarPose> odometry = believed_.odometry();
   if (!pose_M || !odometry || !map_) {
-    ROS_INFO_THROTTLE(5.0, "exploring: waits for a map and the robot's place on it");
+    ROS_INFO_THROTTLE(5.0, "exploring: waits for a map and the robot's pose on it");
     return;
   }
   explorer_.emplace(options_, *pose_M);
@@ -180,7 +180,7 @@ void ExploringNode::think(const PlanarPose& pose_M) {
   if (is_left_) goal_M_.reset();
   is_left_ = false;
   if (explorer_->is_going_home() && !was_going_home) {
-    ROS_INFO("exploring: nothing is left to see, goes back to its start");
+    ROS_INFO("exploring: nothing is left to explore, returns to its start");
   }
   if (goal_M) send_goal(*goal_M);
   if (explorer_->finished()) finish();

@@ -131,7 +131,7 @@ void LocalizationNode::on_frames() {
 }
 
 void LocalizationNode::begin_anew() {
-  ROS_WARN("time went back: localization begins anew");
+  ROS_WARN("time went back: localization starts again");
   frames_.forget();
   scans_.forget();
   localizer_.reset();
@@ -141,7 +141,7 @@ void LocalizationNode::begin_anew() {
 void LocalizationNode::on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& message) {
   const std::string frame = frame_of_message(message.header.frame_id);
   if (!frame.empty() && frame != names_.map) {
-    ROS_ERROR("initialpose is in frame '%s', expected '%s'; not taken", frame.c_str(),
+    ROS_ERROR("initialpose is in frame '%s', expected '%s'; ignored", frame.c_str(),
               names_.map.c_str());
     return;
   }
@@ -149,7 +149,7 @@ void LocalizationNode::on_initial_pose(const geometry_msgs::PoseWithCovarianceSt
     start_ = PoseEstimate{to_planar(transform_of(message.pose.pose)), covariance_of(message.pose)};
     if (localizer_) localizer_->start_at(*start_);
   } catch (const Error& error) {
-    ROS_ERROR("initialpose: %s; not taken", error.what());
+    ROS_ERROR("initialpose: %s; ignored", error.what());
   }
 }
 
@@ -185,8 +185,7 @@ void LocalizationNode::on_scan(const LocatedScan& located) {
   const PoseEstimate estimate = localizer_->estimate_at(located.odometry);
   const bool is_searching = localizer_->state() == Localization::kSearching;
   if (is_searching != was_searching_) {
-    ROS_INFO(is_searching ? "localization: searches for its place"
-                          : "localization: knows its place");
+    ROS_INFO(is_searching ? "localization: searches for its pose" : "localization: knows its pose");
     was_searching_ = is_searching;
   }
   // A frame that is wrong by the width of a hall would be worse than none.

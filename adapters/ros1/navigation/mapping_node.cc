@@ -75,7 +75,7 @@ MapperSettings MappingNode::mapper_settings(const NodeParameters& parameters) {
 }
 
 void MappingNode::begin_anew() {
-  ROS_WARN("time went back: mapping begins anew");
+  ROS_WARN("time went back: mapping starts again");
   frames_.forget();
   scans_.forget();
   mapper_.reset();

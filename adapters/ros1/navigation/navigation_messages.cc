@@ -106,7 +106,7 @@ OccupancyGrid grid_of(const nav_msgs::OccupancyGrid& message) {
     throw Error(fmt::format("map: its origin's {}", error.what()));
   }
   if (std::abs(yaw_of(X_MO.rotation)) > kStraight) {
-    throw Error(fmt::format("map: is turned by {} rad, expected 0", yaw_of(X_MO.rotation)));
+    throw Error(fmt::format("map: is rotated by {} rad, expected 0", yaw_of(X_MO.rotation)));
   }
   OccupancyGrid grid;
   grid.resolution_m = resolution;

@@ -442,7 +442,7 @@ TEST(ReadBag, RefusesWhatIsNoBag) {
   EXPECT_TRUE(contains(complaint(folder.file("none.bag")), "none.bag: no such file"));
   EXPECT_TRUE(contains(complaint(folder.path().string()), "is a folder"));
   EXPECT_TRUE(contains(complaint(folder.with("e.bag", "")), "e.bag: is empty"));
-  EXPECT_TRUE(contains(complaint(folder.with("t.bag", "a,b\n1,2\n")), "is no rosbag of ROS 1"));
+  EXPECT_TRUE(contains(complaint(folder.with("t.bag", "a,b\n1,2\n")), "is not a rosbag of ROS 1"));
   EXPECT_TRUE(contains(complaint(folder.with("v.bag", "#ROSBAG V9.9\n")), "v.bag: "));
 }
 
@@ -596,8 +596,8 @@ TEST(ReadBag, FollowsNoSizeOrPlaceInTheFileThatCannotBe) {
   };
   // The size before the last field of the file's header: rosbag would read what is beyond it.
   EXPECT_TRUE(contains(with_byte("chunk_count=", -15, 0x7f), "a record goes beyond its end"));
-  EXPECT_TRUE(contains(with_byte("index_pos=", 0, 1), "the index is not where it is said to be"));
-  EXPECT_TRUE(contains(with_byte("chunk_pos=", 0, 1), "a chunk is not where it is said to be"));
+  EXPECT_TRUE(contains(with_byte("index_pos=", 0, 1), "the index is not at its stated position"));
+  EXPECT_TRUE(contains(with_byte("chunk_pos=", 0, 1), "a chunk is not at its stated position"));
   EXPECT_TRUE(contains(with_byte("start_tim", 0, '_'), "a record has no field 'start_time'"));
   EXPECT_TRUE(contains(with_byte("topi", 0, '_'), "a record has no field 'topic'"));
 }

@@ -96,7 +96,7 @@ bool Database::has_table(const std::string& name) const {
 Rows Database::rows(const std::string& query) const {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(database_.get(), query.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
-    fail({path_, 0}, fmt::format("is no database of rosbag2, or a broken one: {}", complaint()));
+    fail({path_, 0}, fmt::format("is not a database of rosbag2, or a broken one: {}", complaint()));
   }
   return Rows(statement);
 }

@@ -164,7 +164,7 @@ TEST(RecordedDatabase, WhatIsNoneIsRefused) {
   EXPECT_TRUE(contains(complaint(folder.path().string()), "is a folder or no file"));
   EXPECT_TRUE(contains(complaint(folder.with("empty.db3", "")), "no table 'topics'"));
   EXPECT_TRUE(contains(complaint(folder.with("text.db3", std::string(9000, 'x'))),
-                       "is no database of rosbag2, or a broken one"));
+                       "is not a database of rosbag2, or a broken one"));
   const std::string other = folder.file("other.db3");
   Writing(other).run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name); CREATE TABLE messages(a)");
   EXPECT_TRUE(contains(complaint(other), "no such column: type"));

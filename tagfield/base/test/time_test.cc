@@ -69,8 +69,9 @@ TEST(ParseStamp, RefusesWhatNoStampHolds) {
     EXPECT_THROW(parse_stamp(text), Error) << text;
   }
   EXPECT_EQ(parse_stamp("4599999999.999999999"), at(kMost - 1));
-  EXPECT_EQ(error_of([] { parse_stamp("-9199999999.5"); }),
-            "stamp -9199999999.5 s is no time: expected less than 4.6e+09 s (146 years) from 0");
+  EXPECT_EQ(
+      error_of([] { parse_stamp("-9199999999.5"); }),
+      "stamp -9199999999.5 s is not a valid time: expected less than 4.6e+09 s (146 years) from 0");
 }
 
 TEST(ParseStamp, TakesOnlyStampsWhoseDifferencesAreDurations) {

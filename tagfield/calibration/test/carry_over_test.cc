@@ -48,7 +48,8 @@ TEST(CarryOver, WhatDiffersBetweenExperimentsIsLeftAsItWasAndSaidSo) {
   EXPECT_EQ(antenna.place_m[1].value, 0.0);
   EXPECT_GT(antenna.place_m[1].sigma, 0.05);
   ASSERT_FALSE(diagnostics.warnings().empty());
-  EXPECT_NE(diagnostics.warnings().front().find("place y does not carry over"), std::string::npos);
+  EXPECT_NE(diagnostics.warnings().front().find("position y does not carry over"),
+            std::string::npos);
 }
 
 TEST(CarryOver, OffsetsCarryOverWhereAllAgree) {

@@ -74,8 +74,8 @@ TEST(EpcPattern, SaysWhatIsWrong) {
   says("", "must be urn:epc:pat:");
   says("pallet*", "hexadecimal digits");
   says("3*0", "hexadecimal digits");
-  says("urn:epc:pat:sgtin:3.0614141.*.*", "'sgtin' is no scheme of 96 bits");
-  says("urn:epc:idpat:sgtin-96:0614141.*.*", "'sgtin-96' is no scheme");
+  says("urn:epc:pat:sgtin:3.0614141.*.*", "'sgtin' is not a scheme of 96 bits");
+  says("urn:epc:idpat:sgtin-96:0614141.*.*", "'sgtin-96' is not a scheme");
   says("urn:epc:pat:sgtin-96:0614141.*.*", "needs 4 fields between dots, has 3");
   says("urn:epc:pat:sgtin-96:3.0614141.[9-1].*", "must be a range [LEAST-MOST]");
   says("urn:epc:pat:sgtin-96:3.0614141.[1-a].*", "must be a range [LEAST-MOST]");

@@ -88,10 +88,10 @@ TEST(Epc, SaysWhatIsWrongWithAUri) {
   says("urn:epc:id:cpi:000000000001.1000.1", "does not fit into 11 bits and 3 digits");
   says("urn:epc:tag:sgtin-96:8.0614141.812345.6789", "filter 8 must be 0 to 7");
   says("urn:epc:tag:usdod-96:16.CAGEY.1", "filter");
-  says("urn:epc:id:usdod:CAGIY.1", "but I and O");
-  says("urn:epc:tag:sgtin-198:3.0614141.812345.6789", "'sgtin-198' is no scheme of 96 bits");
-  says("urn:epc:id:sgtin-96:3.0614141.812345.6789", "'sgtin-96' is no scheme");
-  says("urn:epc:id:sgtin", "'sgtin' is no scheme");
+  says("urn:epc:id:usdod:CAGIY.1", "except I and O");
+  says("urn:epc:tag:sgtin-198:3.0614141.812345.6789", "'sgtin-198' is not a scheme of 96 bits");
+  says("urn:epc:id:sgtin-96:3.0614141.812345.6789", "'sgtin-96' is not a scheme");
+  says("urn:epc:id:sgtin", "'sgtin' is not a scheme");
   says("urn:epc:raw:96.x3074257BF7194E4000001A85", "must begin with urn:epc:id:");
 }
 
@@ -101,7 +101,7 @@ TEST(Epc, SaysWhatIsWrongWithBits) {
     EXPECT_TRUE(contains(message, part)) << message;
     EXPECT_TRUE(contains(message, hex)) << message;
   };
-  says("E2801160600002054CC2096F", "header E2 is no scheme's");
+  says("E2801160600002054CC2096F", "header E2 is not that of a scheme");
   says("307C257BF7194E4000001A85", "partition 7 must be 0 to 6");
   says("3174257BF4499602D2000001", "last bits must be zero");
   says("3077FFFFFFFFFE4000001A85", "company prefix 16777215 has more than 7 digits");

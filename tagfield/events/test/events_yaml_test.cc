@@ -102,7 +102,7 @@ TEST(ReadEventsSpec, SaysWhatIsWrongAndWhere) {
        "6: events.logical_readers[0].read_point is 'the gate', must be a URI");
   says("readers: [r2]", "biz_step: storing",
        "8: events.logical_readers[1] ('belt') has neither antennas nor readers");
-  says("name: belt", "name: gate", "8: events.logical_readers[1] is called 'gate', as another");
+  says("name: belt", "name: gate", "8: events.logical_readers[1] has the name 'gate', as another");
   says("[gate]", "[gaet]", "12: events.cycles[0].logical_readers[0] is 'gaet', which is not known");
   says("repeat_s: 5", "repeat_s: 1", "16: events.cycles[0].repeat_s must be at least duration_s");
   says("stop_s: 60", "stop_s: 0.5", "14: events.cycles[0].stop_s must be later than start_s");

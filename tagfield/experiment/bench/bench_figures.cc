@@ -165,7 +165,7 @@ Figure errors_figure(const Bench& bench, std::size_t condition) {
     for (const double error : errors_of(*entry)) all_mm.push_back(millimetres(error));
   }
   if (all_mm.empty()) {
-    figure.missing = "no tag was located whose true place is known.";
+    figure.missing = "no tag with a known true position was located.";
     return figure;
   }
   Svg& svg = figure.svg;
@@ -209,10 +209,9 @@ Figure nees_figure(const Bench& bench) {
   draw_groups(figure.svg, bench, groups, "mean NEES / degrees of freedom");
   figure.data = "condition,method,nees_over_dof,band_low,band_high\n" + groups_data(groups, true);
   figure.caption =
-      "Squared errors over the covariances that the methods state. 1 is right; within the "
-      "grey band, chance explains the rest (95 %). Right of it a method is too bold, left of it "
-      "too "
-      "cautious.";
+      "Squared errors over the covariances that the methods state. 1 is right; within the grey "
+      "band, chance explains the rest (95 %). Right of it a method is overconfident (too bold), "
+      "left of it conservative (too cautious).";
   return figure;
 }
 

@@ -179,8 +179,7 @@ std::string bound_notes(const Bench& bench) {
       items += name + "no bound, as " + escaped(condition.no_bound) + "</li>\n";
     } else if (!condition.bound_knows_pose_error) {
       items +=
-          name +
-          "the bound takes the poses for exact, as nobody knows the law of their errors</li>\n";
+          name + "the bound takes the poses as exact, as the law of their errors is unknown</li>\n";
     }
   }
   return items.empty() ? "" : "<ul class=\"muted\">\n" + items + "</ul>\n";
@@ -189,19 +188,16 @@ std::string bound_notes(const Bench& bench) {
 std::string legend(const Columns& columns) {
   std::string html =
       "<p class=\"muted\">Errors are horizontal, of the tags that were located; wrong are those "
-      "over 0.3 m off. False claims: located where no place is right, or off by over five times "
-      "the "
-      "expected error. In brackets: ambiguous tags with a candidate within 0.1 m. Times expected: "
-      "root mean square of "
-      "error over the error that the method expected. Times bound: the "
-      "mean error over that of an efficient estimator (the "
-      "Cramér-Rao "
-      "bound). NEES/dof: squared errors over the stated covariances; 1 is right, ▲ "
-      "beyond chance too bold, ▼ too cautious.";
+      "over 0.3 m off. False claims: located where no position is right, or off by over five times "
+      "the expected error. In brackets: ambiguous tags with a candidate within 0.1 m. Times "
+      "expected: root mean square of error over the error that the method expected. Times bound: "
+      "the mean error over that of an efficient estimator (the Cramér-Rao bound). NEES/dof: "
+      "squared errors over the stated covariances; 1 is right, ▲ overconfident beyond chance (too "
+      "bold), ▼ conservative (too cautious).";
   if (columns.aligned) {
     html +=
-        " Aligned: mean error after the shift and turn that brings a run’s tags closest to their "
-        "places, as a map may be off as a whole.";
+        " Aligned: mean error after the shift and rotation that bring a run’s tags closest to "
+        "their true positions, as a map may be off as a whole.";
   }
   return html + "</p>\n";
 }
@@ -226,9 +222,8 @@ std::string bench_page(const Bench& bench, const std::vector<Figure>& figures, T
          "<h2>All numbers</h2>\n" + tables(bench, timing) + legend(columns_of(bench, timing)) +
          bound_notes(bench) + "<h2>Errors by condition</h2>\n" + kErrorsText +
          figures_html(figures, true) +
-         "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv lie beside "
-         "this "
-         "page, the figures in figures/ as SVG files.</p>\n</footer>\n" +
+         "</main>\n<footer>\n<p>Made by Tagfield; bench.json, bench.csv and tags.csv are beside "
+         "this page, the figures in figures/ as SVG files.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";
 }

@@ -204,7 +204,7 @@ void load_recorded(const Suite& suite, const std::vector<Method>& methods,
   for (const TagRead& of : prepared.recording->reads) antennas.insert(of.antenna);
   require_faults_possible(condition, {antennas.begin(), antennas.end()},
                           count_by_tag(prepared.recording->reads).size());
-  prepared.no_bound = "nobody knows the phase noise of a recording";
+  prepared.no_bound = "the phase noise of a recording is unknown";
 }
 
 PreparedCondition prepare_condition(const Suite& suite, const Condition& condition,

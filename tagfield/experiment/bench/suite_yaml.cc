@@ -129,7 +129,7 @@ Faults faults_in(YamlMap map) {
   const std::array<bool, 3> of_phase = {faults.random_phases, faults.constant_phases,
                                         faults.wrong_phase_sign};
   if (std::count(of_phase.begin(), of_phase.end(), true) > 1) {
-    map.self().fail("can have one of random_phases, constant_phases and wrong_phase_sign only");
+    map.self().fail("can have only one of random_phases, constant_phases and wrong_phase_sign");
   }
   return faults;
 }
@@ -164,7 +164,7 @@ SuiteRecording recording_of(YamlMap map) {
   if (map.has("format")) recording.format = format_of(map.at("format"));
   recording.poses = path_of(map, "poses");
   if (recording.format.empty() && recording.poses.empty()) {
-    map.self().fail("has no 'poses', which tables in our own form need, and no 'format'");
+    map.self().fail("has no 'poses', which tables in Tagfield's own form require, and no 'format'");
   }
   recording.experiment = map.text("experiment", "");
   recording.heights = path_of(map, "tag_heights");

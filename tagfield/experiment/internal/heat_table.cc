@@ -161,14 +161,14 @@ std::string heat_table(const Bench& bench) {
   return html + "</tbody></table></div>\n" + heat_legend(scale) +
          "<p class=\"muted\">Mean error of the located tags [mm]; a fraction says how many were, "
          "where not all. The winner has the least mean error of the methods that got at least 95 % "
-         "as many tags right (located, within 0.3 m) as the best; ≈ counts the others "
-         "whose errors don’t differ from its beyond chance, which the folds below name. " +
+         "as many tags right (located, within 0.3 m) as the best; ≈ counts the others whose errors "
+         "don’t differ significantly from it; the folds below name them. " +
          data_link("heatmap.csv", "Data as CSV", heat_data(bench)) + "</p>\n";
 }
 
 std::string winner_words(const Bench& bench, const BenchCondition& condition) {
   const std::optional<Winner> winner = winner_of(entries_of(bench, condition.name));
-  if (!winner) return "none: no tag was located right";
+  if (!winner) return "none: no tag was located correctly";
   std::string words = clean_text(winner->entry->name);
   const auto errors = statistics_of(*winner->entry).error_m;
   if (errors) words += ", " + spoken_length(errors->mean);
@@ -176,7 +176,7 @@ std::string winner_words(const Bench& bench, const BenchCondition& condition) {
   for (const BenchEntry* entry : winner->alike) {
     alike += (alike.empty() ? "" : ", ") + clean_text(entry->name);
   }
-  return alike.empty() ? words : words + "; not told apart from it: " + alike;
+  return alike.empty() ? words : words + "; not significantly different from it: " + alike;
 }
 
 }  // namespace tagfield

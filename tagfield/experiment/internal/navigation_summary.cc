@@ -36,7 +36,7 @@ std::string fault_of(const GoalOutcome& goal) {
   if (goal.state != DriveState::kReached) return goal.reason;
   const double off_m = (position_of(goal.truth_W) - position_of(goal.goal_M)).norm();
   if (off_m <= kTrulyThere_m) return "";
-  return fmt::format("it believed to be there and was {:.2f} m away", off_m);
+  return fmt::format("it believed it was there, but was {:.2f} m away", off_m);
 }
 
 void add_goals(const SeedRun& run, NavigationSummary& summary) {

@@ -109,10 +109,10 @@ void warn_of_strangers(const SuiteRecording& recording, const Recording& run,
     if (known.count(read.tag) == 0) strangers.insert(read.tag);
   }
   if (strangers.empty()) return;
-  diagnostics.warn({recording.truth, 0},
-                   fmt::format("has not the places of {} in the reads ('{}', for one), which do "
-                               "not count",
-                               counted(strangers.size(), "tag"), *strangers.begin()));
+  diagnostics.warn(
+      {recording.truth, 0},
+      fmt::format("lacks the positions of {} in the reads (such as '{}'), which do not count",
+                  counted(strangers.size(), "tag"), *strangers.begin()));
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ std::map<std::string, Eigen::Vector3d> read_tag_truth(const SuiteRecording& reco
   for (const CsvRow& row : table.rows) {
     if (experiment && row.fields[*experiment] != recording.experiment) continue;
     if (!places.emplace(table.text(row, tag), columns.read(row)).second) {
-      fail({recording.truth, row.line}, fmt::format("tag '{}' stands here twice", row.fields[tag]));
+      fail({recording.truth, row.line}, fmt::format("tag '{}' is here twice", row.fields[tag]));
     }
   }
   if (!places.empty()) return places;

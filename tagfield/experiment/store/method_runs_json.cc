@@ -92,9 +92,9 @@ ConditionRun condition_run_in(std::string_view json, const Location& location) {
     run.warnings = parsed.at("warnings").get<std::vector<std::string>>();
     return run;
   } catch (const Line::exception&) {
-    fail(location, "is no run's result");
+    fail(location, "is not a run's result");
   } catch (const Error& error) {
-    fail(location, fmt::format("is no run's result: {}", error.what()));
+    fail(location, fmt::format("is not a run's result: {}", error.what()));
   }
 }
 

@@ -81,7 +81,7 @@ std::optional<LoggedRun> parsed(std::string_view line) {
 /// Throws Error unless a log that begins with `line` is of this work.
 void require_head(const std::string& path, std::string_view line, const LogHead& expected) {
   std::string_view rest = line;
-  if (next_word(rest) != kHeadWord) fail({path, 1}, "is no log of results");
+  if (next_word(rest) != kHeadWord) fail({path, 1}, "is not a log of results");
   const LogHead head{std::string(next_word(rest)), std::string(rest)};
   if (head == expected) return;
   if (head.program != expected.program) {

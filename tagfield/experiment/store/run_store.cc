@@ -20,11 +20,9 @@ LogStart start_of(Resume resume) {
 RunStore::RunStore(std::string path, const LogHead& head, Resume resume, Diagnostics& diagnostics)
     : path_(std::move(path)), log_(path_, head, kStoreEvery_s, start_of(resume)) {
   if (log_.dropped() > 0) {
-    diagnostics.warn(
-        {path_, 0},
-        fmt::format("held {} bytes of runs that were cut off, which are dropped: --resume would "
-                    "have gone on with them",
-                    log_.dropped()));
+    diagnostics.warn({path_, 0}, fmt::format("held {} bytes of runs that were cut off, which are "
+                                             "dropped: --resume would have continued them",
+                                             log_.dropped()));
   }
   if (resume == Resume::kNo) return;
   read_result_log(path_, head, diagnostics, [&](const LoggedRun& run, const LogPlace&) {

@@ -206,7 +206,7 @@ KeptSeed kept_seed_in(std::string_view json, const Location& location) {
     const Member member = Member::parse(json.begin(), json.end());
     return {run_of_member(member), member.at("warnings").get<std::vector<std::string>>()};
   } catch (const std::exception&) {
-    fail(location, "is no run's result");
+    fail(location, "is not a run's result");
   }
 }
 

@@ -99,7 +99,7 @@ void add_file(const fs::path& path, ContentHash& hash) {
       std::error_code gone;
       if (entry->is_regular_file(gone)) files.insert(entry->path());
     }
-    if (error) fail({path.string(), 0}, "can't be looked through: " + error.message());
+    if (error) fail({path.string(), 0}, "can't be listed: " + error.message());
     for (const fs::path& file : files) add_file(file, hash);
   }
 }

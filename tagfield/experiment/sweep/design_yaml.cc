@@ -45,7 +45,7 @@ std::vector<std::string> values_in(const YamlValue& value) {
     if (one.node().IsNull()) one.fail("is nothing, expected a value");
     values.push_back(yaml_line_of(one.node()));
     if (std::count(values.begin(), values.end(), values.back()) > 1) {
-      one.fail(fmt::format("is {} for the second time", values.back()));
+      one.fail(fmt::format("is {} again, expected different values", values.back()));
     }
   }
   if (values.empty()) value.fail("must have at least one value");
@@ -97,7 +97,7 @@ Halving halving_of(YamlMap map, const std::vector<std::string>& methods, std::ui
   if (map.has("method")) {
     halving.method = map.at("method").text();
     if (std::find(methods.begin(), methods.end(), halving.method) == methods.end()) {
-      map.at("method").fail(fmt::format("is '{}', which is no method of this suite{}",
+      map.at("method").fail(fmt::format("is '{}', which is not a method of this suite{}",
                                         halving.method, suggestion(halving.method, methods)));
     }
   } else if (methods.size() == 1) {
@@ -108,7 +108,7 @@ Halving halving_of(YamlMap map, const std::vector<std::string>& methods, std::ui
   halving.first_seeds = size_in(map.at("first_seeds"), 1, seeds);
   if (map.has("keep_one_in")) halving.keep_one_in = size_in(map.at("keep_one_in"), 2, 1000);
   if (halving.first_seeds == seeds) {
-    map.at("first_seeds").fail("is the suite's number of seeds, so that nothing is left to halve");
+    map.at("first_seeds").fail("is the suite's number of seeds, so nothing is left to halve");
   }
   map.finish();
   return halving;

@@ -128,7 +128,7 @@ void add_run(const LoggedRun& run, const Location& location, std::uint64_t first
     return;
   }
   ConditionRun found = condition_run_in(run.body, location);
-  if (found.methods.size() != results.entries.size()) fail(location, "is no run of this suite");
+  if (found.methods.size() != results.entries.size()) fail(location, "is not a run of this suite");
   for (std::size_t i = 0; i < found.methods.size(); ++i) {
     results.entries[i].runs.push_back(std::move(found.methods[i]));
   }
@@ -151,7 +151,7 @@ std::size_t window_end(const RunIndex& index, std::size_t begin, std::size_t mos
 void require_known_point(const SweepPlan& plan, const RunIndex& index, const FoundRun& run) {
   if (run.key.point < plan.points.size()) return;
   fail({index.logs[run.log], 0},
-       fmt::format("has run {}, which the suite has not", to_string(run.key)));
+       fmt::format("has run {}, which the suite lacks", to_string(run.key)));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void publish(const std::string& path, const std::string& text) {
 
 nlohmann::ordered_json read_json_of(const std::string& path) {
   auto json = nlohmann::ordered_json::parse(read_text_file(path, kMostSourceBytes), nullptr, false);
-  if (!json.is_object()) fail({path, 0}, "is damaged: it is no JSON object");
+  if (!json.is_object()) fail({path, 0}, "is damaged: it is not a JSON object");
   return json;
 }
 
@@ -91,7 +91,7 @@ void claim_sweep_folder(const std::string& folder, const SweepSource& source) {
   if (found == source.head) return;
   if (found.program != source.head.program) {
     fail({folder, 0}, fmt::format("holds a sweep by tagfield {}, and this is {}: give another "
-                                  "--out, or go on with that version",
+                                  "--out, or continue with that version",
                                   found.program, source.head.program));
   }
   fail({folder, 0}, fmt::format("holds the sweep of another suite, or of one whose files were "
@@ -101,7 +101,7 @@ void claim_sweep_folder(const std::string& folder, const SweepSource& source) {
 
 SweepSource read_sweep_source(const std::string& folder) {
   const std::string path = path_in(folder, kSourceFile);
-  if (!is_there(path)) fail({folder, 0}, "is no folder of a sweep: it has no sweep.json");
+  if (!is_there(path)) fail({folder, 0}, "is not the folder of a sweep: it has no sweep.json");
   const nlohmann::ordered_json json = read_json_of(path);
   try {
     return {{json.at("tagfield").get<std::string>(), json.at("work").get<std::string>()},

@@ -27,11 +27,11 @@ const std::optional<Halving>& halving_in(const SweepResults& results) {
 
 std::string incomplete_note(const SweepResults& results) {
   if (results.complete()) return "";
-  const std::string what =
-      results.missing > 0
-          ? fmt::format("{} of {} runs are missing", grouped(results.missing),
-                        grouped(results.planned))
-          : fmt::format("{} of {} rungs are over", results.closed.survivors.size(), results.rungs);
+  const std::string what = results.missing > 0
+                               ? fmt::format("{} of {} runs are missing", grouped(results.missing),
+                                             grouped(results.planned))
+                               : fmt::format("{} of {} rungs are complete",
+                                             results.closed.survivors.size(), results.rungs);
   return "<div class=\"note incomplete\"><p><strong>Incomplete.</strong> " + what + ".</p></div>\n";
 }
 
@@ -156,9 +156,9 @@ std::string sweep_row(const SweepResults& results, const SweepRow& row) {
 
 std::string order_text(const SweepResults& results) {
   const std::optional<Halving>& halving = halving_in(results);
-  if (!halving) return "The least mean error first";
+  if (!halving) return "The smallest mean error first";
   return fmt::format(
-      "Those first that went furthest, and of them the best in <code>{}</code> of {}",
+      "Points that got furthest come first, and of those the best in <code>{}</code> of {}",
       to_string(halving->target), escaped(halving->method));
 }
 
@@ -195,7 +195,7 @@ std::string sweep_page(const SweepResults& results, const std::vector<Figure>& f
          sweep_warnings(results) + sweep_failures(results) + sweep_figures_html(figures) +
          "<h2>Points</h2>\n" + sweep_table(results) +
          "</main>\n<footer>\n<p>Made by Tagfield; results.sqlite (tables points, results, runs, "
-         "tags, failures), results.json, points.csv and runs.csv lie beside this page, the figures "
+         "tags, failures), results.json, points.csv and runs.csv are beside this page, the figures "
          "in figures/ as SVG files.</p>\n</footer>\n" +
          script_html(table_script()) + script_html(figure_script()) + script_html(link_script()) +
          "</body>\n</html>\n";

@@ -139,7 +139,7 @@ void refuse_sweep_of_recordings(const Suite& suite) {
       fail(condition.location, "a recording has no keys of a scenario that could be swept");
     }
     if (suite.sweep && suite.sweep->adaptive && condition.count) {
-      fail(condition.location, "'seeds' of a condition go with no adaptive sweep");
+      fail(condition.location, "'seeds' of a condition can't be used with an adaptive sweep");
     }
   }
 }

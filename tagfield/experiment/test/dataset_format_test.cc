@@ -202,7 +202,7 @@ TEST(DatasetFormat, ComplaintsNameTheLine) {
   EXPECT_EQ(complaint_of_rows("1,a,-50,E2,100,1\n1,a,-50,E2,abc,1\n"),
             ":3: phase_angle is 'abc', expected a finite number");
   EXPECT_EQ(complaint_of_rows("1e30,a,-50,E2,100,1\n"),
-            ":2: timestamp is '1e30', which is no time in this unit");
+            ":2: timestamp is '1e30', which is not a time in this unit");
   EXPECT_EQ(complaint_of_rows("1,a,-50,,100,1\n"), ":2: epc is empty");
   EXPECT_EQ(complaint_of_rows("1,a,-50\n"), ":2: 3 fields where the header has 6");
   const std::string dates =

@@ -40,7 +40,7 @@ TEST(NavigationSummary, CountsWhatIsTrulyReached) {
   EXPECT_EQ(summary.goals_reached, 1U);
   ASSERT_EQ(summary.goals_unreached.size(), 2U);
   EXPECT_EQ(summary.goals_unreached[0].seed, 4U);
-  EXPECT_EQ(summary.goals_unreached[0].reason, "it believed to be there and was 2.00 m away");
+  EXPECT_EQ(summary.goals_unreached[0].reason, "it believed it was there, but was 2.00 m away");
   EXPECT_EQ(summary.goals_unreached[1].seed, 5U);
   EXPECT_EQ(summary.goals_unreached[1].reason, "off the map");
 }

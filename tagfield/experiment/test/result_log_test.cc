@@ -129,7 +129,8 @@ TEST(ResultLog, RefusesOtherWork) {
   const std::string other = complaint_of_opening(file.path(), {kLogHead.program, "f"});
   EXPECT_NE(other.find(":1: has results of another suite"), std::string::npos) << other;
   write_text_file(file.path(), "x,y\n1,2\n");
-  EXPECT_EQ(complaint_of_opening(file.path(), kLogHead), file.path() + ":1: is no log of results");
+  EXPECT_EQ(complaint_of_opening(file.path(), kLogHead),
+            file.path() + ":1: is not a log of results");
   EXPECT_EQ(read_text_file(file.path()), "x,y\n1,2\n");
 }
 

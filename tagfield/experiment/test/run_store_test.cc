@@ -149,7 +149,7 @@ TEST_F(RunStoreTest, SaysWhatIsDroppedWithoutResume) {
   EXPECT_TRUE(diagnostics_.warnings().empty());
   const RunStore store(log, {"1", "other"}, Resume::kNo, diagnostics_);
   ASSERT_EQ(diagnostics_.warnings().size(), 1U);
-  EXPECT_NE(diagnostics_.warnings()[0].find("--resume would have gone on"), std::string::npos);
+  EXPECT_NE(diagnostics_.warnings()[0].find("--resume would have continued"), std::string::npos);
   EXPECT_EQ(store.find({0, 1}), nullptr);
 }
 

@@ -162,8 +162,8 @@ TEST(SuiteYaml, ComplainsOfFaults) {
   EXPECT_EQ(complaint("{swapped_antennas: [a]}"),
             "suite.yaml:4: conditions[0].fault.swapped_antennas must be the names of two antennas");
   EXPECT_EQ(complaint("{random_phases: true, constant_phases: true}"),
-            "suite.yaml:4: conditions[0].fault can have one of random_phases, constant_phases and "
-            "wrong_phase_sign only");
+            "suite.yaml:4: conditions[0].fault can have only one of random_phases, constant_phases "
+            "and wrong_phase_sign");
   EXPECT_EQ(complaint("{swapped_antennas: [mobile, mobil]}", true),
             "suite.yaml:4: condition 'a': fault.swapped_antennas: there is no antenna 'mobil' (did "
             "you mean 'mobile'?)");
@@ -214,8 +214,8 @@ TEST(SuiteYaml, ComplainsOfRecordings) {
   EXPECT_EQ(complaint("recording: {reads: r.csv, poses: p.csv}"),
             "suite.yaml:3: conditions[0].recording has no 'truth'");
   EXPECT_EQ(complaint("recording: {reads: r.csv, truth: t.csv}"),
-            "suite.yaml:3: conditions[0].recording has no 'poses', which tables in our own form "
-            "need, and no 'format'");
+            "suite.yaml:3: conditions[0].recording has no 'poses', which tables in Tagfield's own "
+            "form require, and no 'format'");
   EXPECT_EQ(complaint("recording: {reads: r.csv, truth: t.csv, format: adarf, sid: +y}"),
             "suite.yaml:3: unknown key 'sid' in conditions[0].recording (did you mean 'side'?)");
 }

@@ -52,7 +52,7 @@ OwnFiles files_below(const fs::path& folder) {
       files.insert(entry->path().lexically_relative(folder));
     }
   }
-  if (error) fail({folder.string(), 0}, "can't be looked through: " + error.message());
+  if (error) fail({folder.string(), 0}, "can't be listed: " + error.message());
   return files;
 }
 

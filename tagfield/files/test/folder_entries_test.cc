@@ -31,7 +31,7 @@ TEST(FolderEntries, AreNotNoneWhereTheFolderCannotBeOpened) {
   } catch (const Error& error) {
     complaint = error.what();
   }
-  EXPECT_EQ(complaint, folder.path().string() + ": can't be looked through: Too many open files");
+  EXPECT_EQ(complaint, folder.path().string() + ": can't be listed: Too many open files");
 }
 
 TEST(FolderEntries, AreNotNoneWhereTheWayThereIsBarred) {

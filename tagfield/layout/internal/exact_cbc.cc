@@ -285,7 +285,7 @@ bool has_exact_solver() { return true; }
 void require_exact_solver(Worth worth) {
   if (worth != Worth::kPlace) return;
   throw Error(
-      "plan.aim.position_error_m has no exact solution, as it is no integer program: leave out "
+      "plan.aim.position_error_m has no exact solution, as it is not an integer program: leave out "
       "--exact");
 }
 

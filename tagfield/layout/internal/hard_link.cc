@@ -61,16 +61,16 @@ BestLink best_link(const PlanSpec& plan, const LinkMatrix& matrix, const PlanPro
 
 std::string why_hard(const BestLink& link) {
   if (!link.arrives) {
-    return "nothing of any antenna arrives there: something opaque stands between";
+    return "no antenna's signal arrives there: something opaque is in between";
   }
   if (link.worst_turn_db < 0.0 && link.best_turn_db >= 0.0) {
-    return fmt::format("turned away: {:+.0f} dB as it lies best, {:+.0f} dB as it lies worst",
+    return fmt::format("turned away: {:+.0f} dB in its best orientation, {:+.0f} dB in its worst",
                        link.best_turn_db, link.worst_turn_db);
   }
   if (link.median_db < 0.0) {
     return fmt::format("too weak by {:.1f} dB in the median", -link.median_db);
   }
-  return fmt::format("fading: {:.1f} dB to spare in the median, which notches take",
+  return fmt::format("fading: {:.1f} dB to spare in the median, which fades exceed",
                      link.median_db);
 }
 

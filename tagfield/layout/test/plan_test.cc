@@ -114,7 +114,7 @@ TEST(AntennaPlan, SaysWhichLimitIsAtFault) {
     const std::string before = "{antennas: 4, readers: 1, ports: 4}";
     return text.replace(text.find(before), before.size(), limits);
   };
-  EXPECT_NE(complaint_of(with_limits("{cost: 50}")).find("plan.limits.cost lets no antenna in"),
+  EXPECT_NE(complaint_of(with_limits("{cost: 50}")).find("plan.limits.cost allows no antenna"),
             std::string::npos);
   // A tag that no power reaches.
   std::string far = small_store();
@@ -197,7 +197,7 @@ TEST(AntennaPlan, AimsAtPlaces) {
 
 TEST(AntennaPlan, BadAimsAreErrors) {
   EXPECT_NE(complaint_of(small_store("  aim: {dwell_reads: 2, read_probability: 0.9}\n"))
-                .find("stands beside 'read_probability', expected one of them"),
+                .find("is given beside 'read_probability', expected one of them"),
             std::string::npos);
   EXPECT_NE(complaint_of(small_store("  aim: {dwell_reads: 0.5}\n")).find("must be at least 1"),
             std::string::npos);
@@ -236,8 +236,9 @@ TEST(AntennaPlan, CountsCrossReadsWithoutTheMarginToSpare) {
   EXPECT_EQ(check.read, std::vector<double>(3, 6.0));
   EXPECT_EQ(check.cross, std::vector<double>(3, 6.0));
   EXPECT_EQ(check.cross_inside, 3U);
-  EXPECT_NE(complaint_of(two_zones(", cross_reads: 0.05")).find("plan.limits.cross_reads lets no"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint_of(two_zones(", cross_reads: 0.05")).find("plan.limits.cross_reads allows no"),
+      std::string::npos);
 }
 
 TEST(AntennaPlan, IsWrittenAsAScenarioThatRuns) {

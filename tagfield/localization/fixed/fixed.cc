@@ -28,8 +28,7 @@ Candidate candidate_of(const PosteriorPart& part, double height) {
 }
 
 constexpr const char* kHelp =
-    "another antenna, a tag at a known place, or the area where tags can "
-    "be (--box) would help";
+    "another antenna, a tag at a known position, or the area where tags can be (--box) would help";
 
 TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene, std::size_t number,
                     const FixedOptions& options) {
@@ -38,15 +37,14 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
   if (!tag.why_not.empty()) return not_located(std::move(estimate), tag.why_not);
   if (!scene.swapped.empty()) {
     return not_located(std::move(estimate),
-                       fmt::format("the strengths fit far better with the places of antennas {} "
+                       fmt::format("RSSI fits far better with the positions of antennas {} "
                                    "exchanged: are ports or poses mixed up?",
                                    scene.swapped));
   }
   if (scene.law.evidence < kLeastLogEvidence) {
-    return not_located(std::move(estimate),
-                       fmt::format("the strengths of all tags go by no law of distance that chance "
-                                   "would not make as well; {}",
-                                   kHelp));
+    return not_located(
+        std::move(estimate),
+        fmt::format("RSSI of all tags shows no significant dependence on distance; {}", kHelp));
   }
   const StrengthLaw& law = scene.law.of_tag[number];
   const AreaCells cells{tag.grid.cells, tag.cell_m};
@@ -67,8 +65,8 @@ TagEstimate located(const LocalizationProblem& problem, const FixedScene& scene,
   limits.max_rms_m = std::numeric_limits<double>::infinity();
   judge(limits, estimate);
   if (estimate.verdict == Verdict::kAmbiguous) {
-    estimate.reason = fmt::format("{} places explain the strengths and phases; {}",
-                                  estimate.candidates.size(), kHelp);
+    estimate.reason =
+        fmt::format("{} positions explain RSSI and phases; {}", estimate.candidates.size(), kHelp);
   }
   return estimate;
 }
@@ -78,13 +76,13 @@ LocalizationResult locate_from_fixed(const LocalizationProblem& problem, int thr
   const FixedScene scene = fixed_scene(problem, threads, options);
   if (scene.out_of_order) {
     diagnostics.warn(
-        "the phases are not used: they show that the channels' carriers are not those that were "
-        "told. The reader's own hop table has their order; places are by strength alone");
+        "the phases are not used: they contradict the given order of the channels. The reader's "
+        "own hop table has the right one; positions use RSSI only");
   } else if (problem.has_phases && scene.offsets.empty()) {
     diagnostics.warn(
-        "the phases are not used: every channel of every port has an offset of its own, which "
-        "only a tag at a known place that all antennas read (--reference) or a calibration "
-        "(--calibration) would give; places are by strength alone");
+        "the phases are not used: every channel of every port has its own offset, which only a tag "
+        "at a known position that all antennas read (--reference) or a calibration (--calibration) "
+        "would give; positions use RSSI only");
   }
   LocalizationResult result;
   result.method = "fixed";
@@ -104,17 +102,18 @@ const OptionTable<FixedOptions>& fixed_options() {
   static const OptionTable<O> of{with_lobe<O>(
       {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
                   kOverZero),
-       setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
-                  &O::slope_sigma_db, kAtLeastZero),
-       setting<O>("tag_sigma_db", "dB", "how tags of one kind differ", &O::tag_sigma_db,
+       setting<O>("slope_sigma_db", "dB", "prior standard deviation of that", &O::slope_sigma_db,
                   kAtLeastZero),
-       setting<O>("antenna_sigma_db", "dB", "how antennas differ, cables included",
+       setting<O>("tag_sigma_db", "dB", "standard deviation between tags of one kind",
+                  &O::tag_sigma_db, kAtLeastZero),
+       setting<O>("antenna_sigma_db", "dB", "standard deviation between antennas, cables included",
                   &O::antenna_sigma_db, kAtLeastZero),
-       setting<O>("fading_db", "dB", "by which reflections scatter RSSI, before the data are seen",
-                  &O::fading_db, kOverZero),
-       setting<O>("max_range_m", "m", "no tag is read from further away", &O::max_range_m,
+       setting<O>("fading_db", "dB", "prior scatter of RSSI by reflections", &O::fading_db,
                   kOverZero),
-       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+       setting<O>("max_range_m", "m", "greatest distance from which a tag is read", &O::max_range_m,
+                  kOverZero),
+       setting<O>("rssi_max_error_m", "m",
+                  "with a larger expected error a tag is not given as located",
                   &O::max_expected_error_m, kOverZero)})};
   return of;
 }
@@ -123,7 +122,7 @@ const OptionTable<FixedOptions>& fixed_options() {
 
 Method fixed_method(const FixedOptions& options) {
   return method_with("fixed",
-                     "antennas at rest: strengths by a law that tags share, phases over channels",
+                     "antennas at rest: RSSI by a law that tags share, phases over channels",
                      fixed_options(), options, locate_from_fixed);
 }
 

@@ -315,16 +315,15 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                          const EstimateLimits& limits, TagEstimate estimate) {
   const std::vector<Maximum> maxima = maxima_near(phases, height, places, judgement.climb);
   if (maxima.empty()) {
-    return not_located(std::move(estimate), "no place is in reach of most reads");
+    return not_located(std::move(estimate), "no position is within range of most reads");
   }
   const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
   const double share = coherent_share(phases, height, maxima.front().place);
   if (share < judgement.min_share) {
-    return not_located(
-        std::move(estimate),
-        fmt::format("the phase does not fit a tag at rest: {:.0f} % of its waves add up, at least "
-                    "{:.0f} % should",
-                    100.0 * share, 100.0 * judgement.min_share));
+    return not_located(std::move(estimate),
+                       fmt::format("the phase does not fit a tag at rest: coherence {:.0f} %, at "
+                                   "least {:.0f} % is expected",
+                                   100.0 * share, 100.0 * judgement.min_share));
   }
   const bool bent = judgement.at_maxima && share < kBentShare;
   const Unlikelihood unlikely = unlikelihood(phases, maxima.front(), best);

@@ -169,9 +169,9 @@ const OptionTable<DahOptions>& dah_options() {
   using O = DahOptions;
   static const OptionTable<O> of = [] {
     OptionTable<O> table{
-        {setting<O>("least_noise_rad", "rad", "standard deviation of a phase, if not more is seen",
+        {setting<O>("least_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
                     &O::least_noise_rad, kOverZero),
-         setting<O>("min_share", "", "of the waves that add up; less is no tag at rest",
+         setting<O>("min_share", "", "minimum coherence; below it a tag is not taken to be at rest",
                     &O::min_share, kShareRange)}};
     add_search_options(table);
     return table;

@@ -81,16 +81,17 @@ void check_cells(const SearchOptions& options);
 template <class Options>
 void add_search_options(OptionTable<Options>& of) {
   using O = SearchOptions;
-  of.table.push_back(setting<Options>("max_range_m", "m", "half of the reads are from nearer",
+  of.table.push_back(setting<Options>("max_range_m", "m",
+                                      "half of the reads are from within this range",
                                       &O::max_range_m, kOverZero));
   of.table.push_back(
       setting<Options>("cell_m", "m", "of the coarsest grid", &O::cell_m, kOverZero));
-  of.table.push_back(setting<Options>("maxima", "", "brightest places that are looked at",
+  of.table.push_back(setting<Options>("maxima", "", "brightest positions that are examined",
                                       &O::maxima, {1.0, false, 1e6}));
-  of.table.push_back(
-      setting<Options>("search_reads", "", "coarse grids take so many", &O::reads, kAtLeastOne));
+  of.table.push_back(setting<Options>("search_reads", "", "reads that coarse grids use at most",
+                                      &O::reads, kAtLeastOne));
   of.table.push_back(setting<Options>(
-      "thorough", "whole apertures on all of the area at once, some 20 times the work",
+      "thorough", "whole apertures over the whole area at once, some 20 times the work",
       &O::thorough));
   of.check = [](const Options& options) { check_cells(options); };
 }

@@ -251,14 +251,14 @@ TagEstimate locate_by_particles(const LocalizationProblem& problem, const std::s
 const OptionTable<ParticleOptions>& particle_options() {
   using O = ParticleOptions;
   static const OptionTable<O> of{
-      {setting<O>("particles", "", "places that are drawn", &O::particles, {100.0, false, 1e6}),
-       setting<O>("max_range_m", "m", "half of the reads are from nearer", &O::max_range_m,
-                  kOverZero),
+      {setting<O>("particles", "", "positions that are drawn", &O::particles, {100.0, false, 1e6}),
+       setting<O>("max_range_m", "m", "half of the reads are from within this range",
+                  &O::max_range_m, kOverZero),
        setting<O>("max_height_m", "m", "above or below the antennas, where the height is unknown",
                   &O::max_height_m, kOverZero),
-       setting<O>("least_noise_rad", "rad", "standard deviation of a phase, if not more is seen",
+       setting<O>("least_noise_rad", "rad", "lower bound on the phase noise (standard deviation)",
                   &O::least_noise_rad, kOverZero),
-       setting<O>("min_share", "", "of the waves that add up; less is no tag at rest",
+       setting<O>("min_share", "", "minimum coherence; below it a tag is not taken to be at rest",
                   &O::min_share, kShareRange),
        setting<O>("seed", "", "of the draws", &O::seed, kAtLeastZero)}};
   return of;

@@ -185,7 +185,7 @@ Candidate candidate_of(const RobustSearch& search, const LikelihoodSpread& sprea
 TagEstimate judged(const LocalizationProblem& problem, const RobustSearch& search,
                    const std::vector<LikelihoodSpread>& spreads, TagEstimate estimate) {
   if (spreads.empty()) {
-    return not_located(std::move(estimate), "no place is in reach of most reads");
+    return not_located(std::move(estimate), "no position is within range of most reads");
   }
   for (const LikelihoodSpread& spread : spreads) {
     const double less = spread.log_mass - spreads.front().log_mass;
@@ -218,9 +218,10 @@ TagEstimate locate_robustly(const LocalizationProblem& problem, const std::strin
 const OptionTable<RobustOptions>& robust_options() {
   using O = RobustOptions;
   static const OptionTable<O> of{
-      {setting<O>("max_range_m", "m", "half of the reads are from nearer", &O::max_range_m,
-                  {0.0, true, 100.0}),
-       setting<O>("search_reads", "", "the search takes so many", &O::search_reads, kAtLeastOne)}};
+      {setting<O>("max_range_m", "m", "half of the reads are from within this range",
+                  &O::max_range_m, {0.0, true, 100.0}),
+       setting<O>("search_reads", "", "reads that the search uses at most", &O::search_reads,
+                  kAtLeastOne)}};
   return of;
 }
 
@@ -228,7 +229,7 @@ const OptionTable<RobustOptions>& robust_options() {
 
 Method robust_method(const RobustOptions& options) {
   return one_by_one("robust",
-                    "for reflections: stretches of the path, each as far as its waves add up",
+                    "for reflections: sections of the path, each as long as its phasors add up",
                     robust_options(), options, locate_robustly);
 }
 

@@ -36,9 +36,9 @@ TagEstimate locate_by_hologram(const LocalizationProblem& problem, const std::st
 /// The keys of its options.
 const OptionTable<SarOptions>& sar_options() {
   static const OptionTable<SarOptions> of = [] {
-    OptionTable<SarOptions> table{
-        {setting<SarOptions>("min_share", "", "of the waves that add up; less is no tag at rest",
-                             &SarOptions::min_share, kShareRange)}};
+    OptionTable<SarOptions> table{{setting<SarOptions>(
+        "min_share", "", "minimum coherence; below it a tag is not taken to be at rest",
+        &SarOptions::min_share, kShareRange)}};
     add_search_options(table);
     return table;
   }();
@@ -48,7 +48,7 @@ const OptionTable<SarOptions>& sar_options() {
 }  // namespace
 
 Method sar_method(const SarOptions& options) {
-  return one_by_one("sar", "hologram of a synthetic aperture: waves added up over a grid",
+  return one_by_one("sar", "hologram of a synthetic aperture: phasors added up over a grid",
                     sar_options(), options, locate_by_hologram);
 }
 

@@ -75,14 +75,14 @@ std::string why_other_poses(const PoseCheck& check, double lambda) {
   constexpr double kLeast = 0.02;  // [m]
   if (check.rms_m > 0.5 * lambda) {
     return fmt::format(
-        "the poses seem to be off by {:.2f} m, over half a wavelength, which reads "
-        "can't put right: are they of this run?",
+        "the poses seem to be off by {:.2f} m, over half a wavelength, which reads can't correct: "
+        "do they belong to this run?",
         check.rms_m);
   }
   if (check.explained > kExplained && check.rms_m > kLeast) {
     return fmt::format(
-        "the poses' error goes along the path, as if stamps of reads were {:.2f} s "
-        "{} against those of poses",
+        "the poses' error is along the path, as if stamps of reads were {:.2f} s {} relative to "
+        "those of poses",
         std::abs(check.late_s), check.late_s > 0.0 ? "late" : "early");
   }
   return "";

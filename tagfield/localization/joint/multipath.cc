@@ -63,7 +63,7 @@ void take_estimates(const WorldFit& fit, const std::vector<std::size_t>& numbers
     result.corrected_poses = corrected_poses(problem, state.system.knots, state.system.u);
   } else {
     diagnostics.warn(
-        "the phases of most tags don't fit the known world: their reflections are not taken out");
+        "the phases of most tags don't fit the known world: their reflections are not removed");
   }
   const std::vector<bool> claimed = claimed_tags(fit, options, is_right, weights, threads);
   const bool any = std::find(claimed.begin(), claimed.end(), true) != claimed.end();
@@ -116,12 +116,11 @@ LocalizationResult without_world(const LocalizationProblem& problem) {
   result.estimates.reserve(problem.samples.size());
   for (const auto& [tag, samples] : problem.samples) {
     const auto known = problem.reference_tags.find(tag);
-    result.estimates.push_back(
-        known != problem.reference_tags.end()
-            ? reference_estimate(tag, known->second)
-            : not_located(begun(tag, samples),
-                          "no world is known whose paths could be traced (a scenario with "
-                          "model: multipath tells it)"));
+    result.estimates.push_back(known != problem.reference_tags.end()
+                                   ? reference_estimate(tag, known->second)
+                                   : not_located(begun(tag, samples),
+                                                 "no world is known whose paths could be traced "
+                                                 "(give a scenario with model: multipath)"));
   }
   return result;
 }
@@ -146,7 +145,8 @@ LocalizationResult locate_through_world(const LocalizationProblem& problem, int 
 const OptionTable<MultipathOptions>& multipath_options() {
   using O = MultipathOptions;
   static const OptionTable<O> of{
-      {setting<O>("least_directness", "", "share of the direct path's amplitude in replies in use",
+      {setting<O>("least_directness", "",
+                  "least share of the direct path in the amplitude of replies that are used",
                   &O::least_directness, {0.0, true, 1.0}),
        setting<O>("rounds", "", "of tracing and fitting", &O::rounds, kAtLeastOne)}};
   return of;
@@ -156,7 +156,7 @@ const OptionTable<MultipathOptions>& multipath_options() {
 
 Method multipath_method(const MultipathOptions& options) {
   return method_with("multipath",
-                     "all tags and the pose error, less the traced reflections of a known world",
+                     "all tags and the pose error, without the traced reflections of a known world",
                      multipath_options(), options, locate_through_world);
 }
 

@@ -70,7 +70,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
   search_places(search, kStride, kMostHyperbolae);
   if (search.minima.empty()) search.minima = by_waves(search, height);
   if (search.minima.empty()) {
-    result.why_not = "no place explains the phase";
+    result.why_not = "no position explains the phase";
     return result;
   }
   result.phases = std::move(search.phases);
@@ -87,7 +87,7 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
 }
 
 Method least_squares_method() {
-  return one_by_one("least_squares", "least squares on unwrapped phase, an offset for each stretch",
+  return one_by_one("least_squares", "least squares on unwrapped phase, an offset for each section",
                     locate);
 }
 

@@ -46,7 +46,7 @@ void look_at(const LocalizationProblem& problem, const ScanOptions& options, Sca
   tag.grid = scan_grid(tag.scan, options.max_range_m);
   tag.one_path = one_path_share(tag.scan, tag.grid);
   if (chance(tag.scan, tag.one_path) > kMostChance) {
-    tag.why_not = "the phases say nothing: chance fits them as well";
+    tag.why_not = "the phases carry no information: random ones fit as well";
     return;
   }
   tag.likelihood = two_path_likelihood(tag.scan, tag.grid);
@@ -149,8 +149,8 @@ void judge(const ScanOptions& options, TagEstimate& estimate) {
   estimate.verdict = estimate.candidates.size() == 1 ? Verdict::kLocated : Verdict::kAmbiguous;
   if (estimate.verdict == Verdict::kAmbiguous) {
     estimate.reason =
-        "the tag may be on either side of the straight path; a known side, or a turn of the "
-        "path, would distinguish them";
+        "the tag may be on either side of the straight path; a known side, or a turn in the path, "
+        "would distinguish them";
   }
 }
 
@@ -172,7 +172,7 @@ TagEstimate estimate_of(const LocalizationProblem& problem, const ScannedTag& ta
     estimate.candidates.back().rms_m = misfit_of(tag);
   }
   if (estimate.candidates.empty()) {
-    return not_located(std::move(estimate), "no place explains the phase where tags can be");
+    return not_located(std::move(estimate), "no position explains the phase where tags can be");
   }
   judge(options, estimate);
   return estimate;
@@ -234,12 +234,12 @@ std::vector<TagEstimate> locate_by_scan(const LocalizationProblem& problem, int 
 const OptionTable<ScanOptions>& scan_options() {
   using O = ScanOptions;
   static const OptionTable<O> of{
-      {setting<O>("max_range_m", "m", "no tag is further from the scan", &O::max_range_m,
+      {setting<O>("max_range_m", "m", "greatest distance of a tag from the scan", &O::max_range_m,
                   {0.5, true, 1e3}),
-       setting<O>("max_error_m", "m", "a place expected to be worse is not given as located",
+       setting<O>("max_error_m", "m", "with a larger expected error a tag is not given as located",
                   &O::max_error_m, kOverZero),
-       setting<O>("min_share", "", "of the field's power that two paths explain", &O::min_share,
-                  {0.0, true, 1.0})}};
+       setting<O>("min_share", "", "least share of the field's power that two paths explain",
+                  &O::min_share, {0.0, true, 1.0})}};
   return of;
 }
 

@@ -197,7 +197,7 @@ ScanField scan_field(const LocalizationProblem& problem, const std::string& tag,
   scan.wavenumber = kTwoPi / lambda;
   scan.up_m = plane_height(problem, tag) - series.front().p_WA.z();
   if (extent_of(series) > kLongestScan) {
-    scan.why_not = fmt::format("the scan is {:.1f} m long, at most {:.1f} m are looked at as one",
+    scan.why_not = fmt::format("the scan is {:.1f} m long, at most {:.1f} m are processed as one",
                                extent_of(series), kLongestScan);
     return scan;
   }

@@ -167,8 +167,8 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
   }
   if (!references.go_by_place) {
     return not_located(std::move(estimate),
-                       fmt::format("the strengths of the {} reference tags do not go by their "
-                                   "places, or these are too few to judge (five at least)",
+                       fmt::format("RSSI of the {} reference tags does not depend on their "
+                                   "positions, or they are too few to judge (at least five)",
                                    references.tags.size()));
   }
   if (estimate.reads == 0)
@@ -200,10 +200,11 @@ const OptionTable<LandmarcOptions>& landmarc_options() {
   static const OptionTable<O> of{
       {setting<O>("neighbours", "", "nearest reference tags whose mean is taken", &O::neighbours,
                   kAtLeastOne),
-       setting<O>("bin_s", "s", "RSSI is averaged over so long", &O::bin_s, kOverZero),
-       setting<O>("unread_margin_db", "dB", "by which a read missing is below the weakest of all",
+       setting<O>("bin_s", "s", "RSSI is averaged over this time", &O::bin_s, kOverZero),
+       setting<O>("unread_margin_db", "dB", "by which a missing read is below the weakest of all",
                   &O::unread_margin_db, kAtLeastZero),
-       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+       setting<O>("rssi_max_error_m", "m",
+                  "with a larger expected error a tag is not given as located",
                   &O::max_expected_error_m, kOverZero)}};
   return of;
 }

@@ -27,8 +27,9 @@ std::vector<Setting<Options>> with_lobe(std::vector<Setting<Options>> table) {
       "beam_width_deg", "deg",
       "half-power width of antennas that look along the x axes of their poses; 0: not known",
       &Lobe::beam_width_deg, ValueRange{0.0, false, 179.0}));
-  table.push_back(setting<Options>("front_to_back_db", "dB", "how much weaker their backs are",
-                                   &Lobe::front_to_back_db, kAtLeastZero));
+  table.push_back(setting<Options>("front_to_back_db", "dB",
+                                   "front-to-back ratio of these antennas", &Lobe::front_to_back_db,
+                                   kAtLeastZero));
   return table;
 }
 

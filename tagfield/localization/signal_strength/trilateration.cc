@@ -437,7 +437,7 @@ std::string why_not(const SamplesOfTag& samples, const Bins& bins) {
   if (count_reads(samples) == 0) return "no reads that have an antenna pose";
   if (bins.rssi.size() == 0) return "no read has an RSSI";
   if (bins.rssi.size() < kFewestBins) {
-    return fmt::format("RSSI from {} places only, at least {} are needed", bins.rssi.size(),
+    return fmt::format("RSSI from only {} positions, at least {} are needed", bins.rssi.size(),
                        kFewestBins);
   }
   return "";
@@ -452,7 +452,8 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
   if (!why.empty()) return not_located(std::move(estimate), why);
   const std::vector<Fit> cells =
       cells_of(bins, law, plane_height(problem, tag), options.max_range_m);
-  if (cells.empty()) return not_located(std::move(estimate), "no place is in reach of all reads");
+  if (cells.empty())
+    return not_located(std::move(estimate), "no position is within range of all reads");
   const std::vector<Fit> fits = minima_of(bins, law, cells);
   const Eigen::ArrayXd best = misfit_at(bins, law, fits.front().p_WT).residuals;
   const double misfit_db = std::sqrt(best.square().mean());
@@ -463,8 +464,7 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
                                    misfit_db, options.max_misfit_db));
   }
   if (log_evidence(bins, cells, best) < kLeastLogEvidence) {
-    return not_located(std::move(estimate),
-                       "RSSI goes by no law of distance that chance would not make as well");
+    return not_located(std::move(estimate), "RSSI shows no significant dependence on distance");
   }
   for (const Fit& fit : fits) {
     const bool first = estimate.candidates.empty();
@@ -480,7 +480,7 @@ TagEstimate locate_by_strength(const LocalizationProblem& problem, const Law& la
   judge(limits, estimate);
   if (estimate.verdict == Verdict::kAmbiguous) {
     estimate.reason =
-        fmt::format("{} places explain the RSSI equally well", estimate.candidates.size());
+        fmt::format("{} positions explain the RSSI equally well", estimate.candidates.size());
   }
   return estimate;
 }
@@ -499,17 +499,19 @@ const OptionTable<TrilaterationOptions>& trilateration_options() {
   static const OptionTable<O> of{with_lobe<O>(
       {setting<O>("slope_db", "dB", "by which RSSI falls for ten times the distance", &O::slope_db,
                   kOverZero),
-       setting<O>("slope_sigma_db", "dB", "how uncertain that is before the data are seen",
-                  &O::slope_sigma_db, kAtLeastZero),
-       setting<O>("tag_sigma_db", "dB", "how tags of one kind differ", &O::tag_sigma_db,
+       setting<O>("slope_sigma_db", "dB", "prior standard deviation of that", &O::slope_sigma_db,
                   kAtLeastZero),
-       setting<O>("bin_m", "m", "reads over so much travel are averaged", &O::bin_m, kOverZero),
-       setting<O>("max_range_m", "m", "no tag is read from further away", &O::max_range_m,
+       setting<O>("tag_sigma_db", "dB", "standard deviation between tags of one kind",
+                  &O::tag_sigma_db, kAtLeastZero),
+       setting<O>("bin_m", "m", "reads over this distance of travel are averaged", &O::bin_m,
                   kOverZero),
-       setting<O>("rssi_max_error_m", "m", "a place expected to be worse is not given as located",
+       setting<O>("max_range_m", "m", "greatest distance from which a tag is read", &O::max_range_m,
+                  kOverZero),
+       setting<O>("rssi_max_error_m", "m",
+                  "with a larger expected error a tag is not given as located",
                   &O::max_expected_error_m, kOverZero),
-       setting<O>("max_misfit_db", "dB", "a worse rms is no law of distance", &O::max_misfit_db,
-                  kOverZero)})};
+       setting<O>("max_misfit_db", "dB", "with a larger rms, RSSI follows no law of distance",
+                  &O::max_misfit_db, kOverZero)})};
   return of;
 }
 

@@ -149,7 +149,7 @@ TEST(Locate, WarnsOfMethodsThatTakePosesOfUnknownErrorAsExact) {
   Scenario scenario = make_scenario(2);
   LocalizationOptions unknown = at_height(0.9);
   unknown.known.pose_error.reset();
-  const std::string nothing = "nothing is said of the poses' error, and ";
+  const std::string nothing = "the poses' error is not stated, and ";
   for (const char* method : {"hyperbola", "ml", "sar"}) {
     EXPECT_TRUE(warns(scenario, unknown, method, nothing + "'" + method + "' takes them as exact"));
     EXPECT_FALSE(warns(scenario, at_height(0.9), method, "as exact"));

@@ -112,9 +112,9 @@ TEST(Join, TheFirstOfTwoReadsOrPosesAtOneStampCounts) {
   EXPECT_DOUBLE_EQ(samples[0].p_WA.x(), 3.0);
   ASSERT_EQ(diagnostics.warnings().size(), 2u);
   EXPECT_EQ(diagnostics.warnings()[0],
-            "antenna 'a': 1 poses repeat the stamp of another, of which the first counts");
+            "antenna 'a': 1 poses repeat the stamp of another; only the first counts");
   EXPECT_EQ(diagnostics.warnings()[1],
-            "antenna 'a': 1 of 2 reads repeat tag and stamp of another, of which the first counts");
+            "antenna 'a': 1 of 2 reads repeat tag and stamp of another; only the first counts");
 }
 
 TEST(Join, KeepsWhatIsNotFiniteOut) {

@@ -172,7 +172,8 @@ TEST(Trilateration, SaysWhatIsMissing) {
   for (PhaseSample& s : samples) s.rssi_dbm = kNoRssi;
   EXPECT_EQ(why({{"a", samples}}), "cannot localize: no read has an RSSI");
   const auto still = read_with_rssi(Path(50, {1.0, 1.0, 0.4}), {2.0, 2.0, 0.4}, {}, rng);
-  EXPECT_EQ(why({{"a", still}}), "cannot localize: RSSI from 1 places only, at least 6 are needed");
+  EXPECT_EQ(why({{"a", still}}),
+            "cannot localize: RSSI from only 1 positions, at least 6 are needed");
 }
 
 TEST(Trilateration, BadOptionsAreErrors) {

@@ -113,7 +113,7 @@ void read_plain(Reader& reader, GreyImage& image) {
     image.greys.push_back(static_cast<std::uint16_t>(reader.number("a grey", 0, image.white)));
   }
   reader.skip_spaces();
-  if (reader.left() > 0) reader.refuse("more greys than the size says");
+  if (reader.left() > 0) reader.refuse("more grey values than the size states");
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ GreyImage read_pgm(const std::string& bytes, const std::string& file) {
   if (bytes.empty()) reader.refuse("the file is empty");
   const std::string_view magic = reader.take(2);
   if (magic != "P5" && magic != "P2") {
-    fail({file, 0}, "byte 0: is no grey PGM image (it would begin with P5 or P2)");
+    fail({file, 0}, "byte 0: is not a grey PGM image (it would begin with P5 or P2)");
   }
   GreyImage image;
   image.width = reader.number("the width", 1, kMostPgmCells);

@@ -162,8 +162,9 @@ TEST(MapFile, WarnsOfUnknownKeys) {
 
 TEST(MapFile, RefusesBadYaml) {
   EXPECT_EQ(refusal(""), "map.yaml: the file is empty");
-  EXPECT_EQ(refusal("\n\n"), "map.yaml:1: is no map's YAML: expected 'image: …' and so on");
-  EXPECT_EQ(refusal("just words"), "map.yaml:1: is no map's YAML: expected 'image: …' and so on");
+  EXPECT_EQ(refusal("\n\n"), "map.yaml:1: is not a map's YAML: expected 'image: …' and so on");
+  EXPECT_EQ(refusal("just words"),
+            "map.yaml:1: is not a map's YAML: expected 'image: …' and so on");
   EXPECT_TRUE(contains(refusal("image: [a\n"), "is not YAML: "));
   EXPECT_TRUE(contains(refusal("image: a\n\tb: 3"), "is not YAML: "));
   EXPECT_EQ(refusal(yaml_with("negate: 1\n")), "map.yaml:7: has 'negate' twice");

@@ -53,7 +53,8 @@ TEST(Pgm, ANewlineAfterTheLastGreyIsLetPass) {
 
 TEST(Pgm, RefusesWhatIsNoImage) {
   EXPECT_EQ(pgm_refusal(""), "map.pgm: byte 0: the file is empty");
-  const std::string no_pgm = "map.pgm: byte 0: is no grey PGM image (it would begin with P5 or P2)";
+  const std::string no_pgm =
+      "map.pgm: byte 0: is not a grey PGM image (it would begin with P5 or P2)";
   for (const char* bytes : {"P", "P6\n1 1 255\nABC", "\x89PNG\r\n", "#P5", " P5 1 1 255\nA"}) {
     EXPECT_EQ(pgm_refusal(bytes), no_pgm) << bytes;
   }
@@ -90,7 +91,8 @@ TEST(Pgm, RefusesGreysThatCannotBe) {
   EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 11"), "map.pgm: byte 11: a grey is not 0 to 9");
   EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 x"), "map.pgm: byte 11: expected a grey");
   EXPECT_EQ(pgm_refusal("P2 2 1 9\n5    "), "map.pgm: byte 14: ends where a grey was expected");
-  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 6 7"), "map.pgm: byte 13: more greys than the size says");
+  EXPECT_EQ(pgm_refusal("P2 2 1 9\n5 6 7"),
+            "map.pgm: byte 13: more grey values than the size states");
 }
 
 RC_GTEST_PROP(Pgm, BothKindsSayTheSame, ()) {

@@ -134,7 +134,7 @@ OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool re
   way.paths = paths_of(view, tag, receiver);
   way.over_edges = diffracted_paths(view, tag, receiver);
   if (way.paths.empty()) {
-    add(way.lines, "both ends are in one place", gain_db);
+    add(way.lines, "both ends are at one position", gain_db);
     return way;
   }
   add_direct(view, tag, receiver, way.paths.front(), way);
@@ -146,7 +146,7 @@ OneWay one_way(const RadioView& view, const TagEnd& tag, double gain_db, bool re
   if (count > 0 || way.blocked || std::abs(others_db) > 1e-6) {
     add(way.lines, others_line(way, count), others_db);
   }
-  if (is_diffuse) add(way.lines, "waves from everywhere", gain_db - singles_db);
+  if (is_diffuse) add(way.lines, "diffuse waves", gain_db - singles_db);
   return way;
 }
 

@@ -56,7 +56,7 @@ std::string remark_on(const TagOutcome& outcome) {
 constexpr const char* kSingleHead =
     "<thead><tr><th scope=\"col\" rowspan=\"2\">Tag</th>"
     "<th scope=\"col\" rowspan=\"2\" class=\"words\">Verdict</th>"
-    "<th scope=\"colgroup\" colspan=\"3\">True place [m]</th>"
+    "<th scope=\"colgroup\" colspan=\"3\">True position [m]</th>"
     "<th scope=\"colgroup\" colspan=\"3\">Estimate [m]</th>"
     "<th scope=\"col\" rowspan=\"2\">Error<br>[mm]</th>"
     "<th scope=\"col\" rowspan=\"2\"><i>E</i> (rms)<br>[mm]</th>"

@@ -60,11 +60,10 @@ TEST(RunComparison, PairsErrorsTagByTag) {
   EXPECT_NEAR((*comparison.error->interval_m)[0], -0.008 / 3.0 - 0.012503, 1e-6);
   EXPECT_NEAR((*comparison.error->interval_m)[1], -0.008 / 3.0 + 0.012503, 1e-6);
   EXPECT_TRUE(comparison.warnings.empty());
-  EXPECT_EQ(
-      comparison_sentence(comparison),
-      "Of 3 tags that both located, the second run has the smaller error for 2 and the larger "
-      "for 1. Its errors differ by −2.7 mm in the mean (−15 mm to +9.8 mm with 95 % "
-      "confidence), which may be chance.");
+  EXPECT_EQ(comparison_sentence(comparison),
+            "Of 3 tags that both located, the second run has the smaller error for 2 and the "
+            "larger for 1. Its errors differ by −2.7 mm on average (−15 mm to +9.8 mm with 95 % "
+            "confidence), which may be chance.");
 }
 
 TEST(RunComparison, TakesTheMeanOverSeeds) {
@@ -87,8 +86,8 @@ TEST(RunComparison, WarnsOfWhatCannotBeCompared) {
   EXPECT_EQ(comparison.tags.back().runs[0].verdict, "not there");
   const std::vector<std::string> expected = {
       "1 tag in the first run alone", "1 tag in the second run alone",
-      "1 tag is really elsewhere in the second run: each run is judged by its own truth",
-      "the runs are of different seeds: a part of what differs is chance",
+      "1 tag is at another true position in the second run: each run is judged by its own truth",
+      "the runs have different seeds: a part of the difference is chance",
       "the second run was interrupted"};
   EXPECT_EQ(comparison.warnings, expected);
   EXPECT_THROW(compared(first, "a", run_of({located("z", 0, 0.1)}), "b"), Error);
@@ -104,11 +103,10 @@ TEST(RunComparison, JudgesARecordingByTheOtherRunsTruth) {
     ASSERT_TRUE(comparison.error);
     EXPECT_NEAR(comparison.error->mean_m, swapped ? -0.015 : 0.015, 1e-12);
     ASSERT_EQ(comparison.warnings.size(), 1U);
-    EXPECT_EQ(comparison.warnings.front(),
-              swapped ? "the first run does not know where 2 tags are truly: judged by the second "
-                        "run's truth"
-                      : "the second run does not know where 2 tags are truly: judged by the first "
-                        "run's truth");
+    EXPECT_EQ(
+        comparison.warnings.front(),
+        swapped ? "the first run does not know where 2 tags are: judged by the second run's truth"
+                : "the second run does not know where 2 tags are: judged by the first run's truth");
   }
 }
 

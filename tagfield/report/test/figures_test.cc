@@ -156,7 +156,7 @@ TEST(AllFigures, AreWellFormed) {
 
 TEST(MapFigure, MarksEachTagAndEstimate) {
   const Figure figure = find(make({}), "fig09_map");
-  EXPECT_EQ(count_of(figure.svg.body, "true place:"), 3U);
+  EXPECT_EQ(count_of(figure.svg.body, "true position:"), 3U);
   EXPECT_EQ(count_of(figure.svg.body, "estimate: "), 3U);
   EXPECT_EQ(count_of(figure.svg.body, "class=\"wall\""), 1U);
   EXPECT_EQ(count_of(figure.svg.body, "class=\"believed\""), 0U);

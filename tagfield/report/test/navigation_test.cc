@@ -88,7 +88,7 @@ TEST(RobotMapFigure, ShowsCellsAndWays) {
       << figure.svg.body;
   EXPECT_TRUE(holds(figure.svg.body, "class=\"mapping\""));
   EXPECT_TRUE(holds(figure.svg.body, "class=\"mapping-true\""));
-  EXPECT_TRUE(holds(figure.caption, "20 mm apart in the mean")) << figure.caption;
+  EXPECT_TRUE(holds(figure.caption, "20 mm apart on average")) << figure.caption;
   EXPECT_EQ(unbalanced_tag(standalone_svg(figure.svg, "a", "b")), "");
 }
 
@@ -154,8 +154,8 @@ TEST(NavigationTable, SaysInWords) {
   EXPECT_TRUE(holds(table, "Collisions</th><td>0</td>"));
   EXPECT_TRUE(holds(table, "Carried away</th><td>18 of 20</td>"));
   EXPECT_TRUE(holds(table,
-                    "4.0 m and 20 s in the mean, 6.0 m and 30 s at most; took another place"
-                    " for its own 1 time"));
+                    "4.0 m and 20 s on average, 6.0 m and 30 s at most; mistook another place for "
+                    "its own 1 time"));
   EXPECT_FALSE(holds(table, "Unknown starts"));
 }
 

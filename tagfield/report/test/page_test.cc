@@ -178,16 +178,16 @@ TEST(PoseErrorText, SaysPlainlyWhatSetsTheError) {
   EXPECT_EQ(pose_error_text(summary), "");
   summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.0, 0.0141, statistics({0.004})};
   EXPECT_EQ(pose_error_text(summary),
-            "The robot believed its antenna 14 mm (rms) off its true place. With the true pose the"
-            " same reads give 4.0 mm in the mean; with the believed one 10 mm: pose error, not"
-            " phase noise, sets this figure.");
+            "The robot believed its antenna 14 mm (rms) off its true position. With the true pose "
+            "the same reads give 4.0 mm on average; with the believed one 10 mm: pose error, not "
+            "phase noise, sets this figure.");
 }
 
 TEST(PoseErrorText, DoesWithoutAComparison) {
   Summary summary = summary_of({});
   summary.pose_error = PoseErrorSummary{0.01, 5.0, 0.0, 0.0141, std::nullopt};
   EXPECT_EQ(pose_error_text(summary),
-            "The robot believed its antenna 14 mm (rms) off its true place.");
+            "The robot believed its antenna 14 mm (rms) off its true position.");
 }
 
 TEST(ComparedPoseText, SaysWhatOtherPosesGive) {
@@ -195,8 +195,8 @@ TEST(ComparedPoseText, SaysWhatOtherPosesGive) {
   EXPECT_EQ(compared_pose_text(summary), "");
   summary.compared_pose = ComparedPose{"odometry", 0.25, statistics({0.2, 0.4}), 2};
   EXPECT_EQ(compared_pose_text(summary),
-            "The same reads with other antenna poses, wheel odometry, 250 mm (rms) off these: 2 of"
-            " 3 tags located, off by 300 mm in the mean and by 400 mm at most.");
+            "The same reads with other antenna poses, wheel odometry, 250 mm (rms) off these: 2 of "
+            "3 tags located, off by 300 mm on average and by 400 mm at most.");
   EXPECT_TRUE(holds(run_facts(summary), "wheel odometry, 250 mm"));
 }
 

@@ -46,7 +46,7 @@ StartBelief start_of(const YamlValue& value) {
 Carrying carrying_of(const YamlValue& row) {
   const std::vector<double> n = row.numbers(1, 4);
   if (n.size() != 1 && n.size() != 4) {
-    row.fail("must be [t, x, y, yaw], or [t] for a place that is drawn");
+    row.fail("must be [t, x, y, yaw], or [t] for a random place");
   }
   Carrying carrying;
   carrying.location = row.location();
@@ -149,7 +149,7 @@ void read_self_driving(YamlMap& map, RobotSpec& robot) {
   const int kinds = static_cast<int>(!robot.waypoints.empty()) +
                     static_cast<int>(!robot.goals_W.empty()) +
                     static_cast<int>(robot.random_goals > 0);
-  if (kinds > 1) map.self().fail("must have one of 'waypoints', 'goals' and 'random_goals' only");
+  if (kinds > 1) map.self().fail("must have only one of 'waypoints', 'goals' and 'random_goals'");
 }
 
 void forbid_self_driving(YamlMap map) {
@@ -195,7 +195,7 @@ ObstacleSpec obstacle_of(YamlMap map, const RadioWorldOptions& world) {
     body.height_m = map.number("height_m", body.height_m, kPositive);
     obstacle.body = body;
   } else if (map.has("height_m")) {
-    map.at("height_m").fail("is for waves, and needs a 'material' beside it");
+    map.at("height_m").fail("is for propagation, and needs a 'material' beside it");
   }
   map.finish();
   return obstacle;

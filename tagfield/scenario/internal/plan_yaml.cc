@@ -33,7 +33,7 @@ Eigen::Vector3d spacing_of(YamlMap& map, double otherwise_m) {
 std::vector<double> spread(double low, double high, double spacing) {
   const double gaps = std::ceil((high - low) / spacing - 1e-9);
   if (!(gaps < static_cast<double>(kMostPlaces)))
-    throw Error("has too many places: expected a greater spacing_m");
+    throw Error("has too many positions: expected a greater spacing_m");
   const auto count = static_cast<std::size_t>(std::max(gaps, 0.0)) + 1;
   std::vector<double> places;
   for (std::size_t i = 0; i < count; ++i) {
@@ -51,7 +51,8 @@ std::vector<Eigen::Vector3d> places_in(const Eigen::AlignedBox3d& box,
   if (static_cast<double>(x.size()) * static_cast<double>(y.size()) *
           static_cast<double>(z.size()) >
       static_cast<double>(kMostPlaces)) {
-    throw Error(fmt::format("has more than {} places: expected a greater spacing_m", kMostPlaces));
+    throw Error(
+        fmt::format("has more than {} positions: expected a greater spacing_m", kMostPlaces));
   }
   std::vector<Eigen::Vector3d> places;
   for (const double h : z) {
@@ -70,7 +71,7 @@ std::vector<Eigen::Vector3d> tag_places(YamlMap& map) {
     return places;
   }
   const YamlValue box = map.at("box");
-  if (!places.empty()) box.fail("stands beside 'points', expected one of them");
+  if (!places.empty()) box.fail("is given beside 'points', expected one of them");
   if (box.lengths(4, 6).size() != 6) box.fail("must have 6 numbers: x0, y0, z0, x1, y1, z1");
   try {
     return places_in(box_of(box), spacing_of(map, 0.5));
@@ -302,7 +303,7 @@ PlanAim aim_of(YamlMap map) {
   for (const char* const key : {"read_probability", "dwell_reads", "position_error_m"}) {
     if (!map.has(key)) continue;
     if (!of_tags.empty()) {
-      map.at(key).fail(fmt::format("stands beside '{}', expected one of them", of_tags));
+      map.at(key).fail(fmt::format("is given beside '{}', expected one of them", of_tags));
     }
     of_tags = key;
   }
@@ -349,7 +350,7 @@ PlanSpec plan_of(YamlMap map, const RadioDefaults& radio, double duration_s,
                  Diagnostics& diagnostics) {
   PlanSpec plan;
   plan.dwell_s = map.number("dwell_s", duration_s, kPositive);
-  if (plan.dwell_s > 86'400.0) map.at("dwell_s").fail("must be a day at most");
+  if (plan.dwell_s > 86'400.0) map.at("dwell_s").fail("must be at most a day");
   plan.margin_db = map.number("margin_db", 0.0, kNotNegative);
   for (const YamlValue& tags : map.list("tags")) {
     plan.tags.push_back(tags_of(YamlMap(tags), radio, diagnostics));
@@ -357,7 +358,7 @@ PlanSpec plan_of(YamlMap map, const RadioDefaults& radio, double duration_s,
   for (const YamlValue& mount : map.list("mounts")) {
     add_mounts(YamlMap(mount), radio, diagnostics, plan.mounts);
   }
-  if (plan.mounts.empty()) map.self().fail("has no 'mounts': places where antennas can be");
+  if (plan.mounts.empty()) map.self().fail("has no 'mounts': positions where antennas can be");
   leave_out_forbidden(map, plan.mounts);
   require_unique_names(plan.mounts);
   if (map.has("limits")) plan.limits = limits_of(YamlMap(map.at("limits")));

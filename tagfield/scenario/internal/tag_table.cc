@@ -36,7 +36,7 @@ Eigen::Quaterniond rotation_of(const CsvTable& table, const CsvRow& row,
   for (std::size_t i = 0; i < 3; ++i) {
     rpy[static_cast<Eigen::Index>(i)] = table.number(row, columns[i]);
     if (std::abs(rpy[static_cast<Eigen::Index>(i)]) > kMostAngle_rad) {
-      fail({table.file, row.line}, fmt::format("{} is no angle [rad]", kAngles[i]));
+      fail({table.file, row.line}, fmt::format("{} is not an angle [rad]", kAngles[i]));
     }
   }
   return from_xyz_rpy({0, 0, 0}, rpy).rotation;

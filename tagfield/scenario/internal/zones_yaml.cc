@@ -39,7 +39,7 @@ std::vector<ZoneSpec> zones_of(YamlMap& scenario) {
   for (const YamlValue& value : scenario.list("zones")) {
     zones.push_back(zone_of(YamlMap(value)));
     if (!names.insert(zones.back().name).second) {
-      value.fail(fmt::format("is the second zone '{}'", zones.back().name));
+      value.fail(fmt::format("is a second zone '{}'", zones.back().name));
     }
   }
   return zones;

@@ -71,7 +71,7 @@ TEST(ReadProfile, WantsASourceForEachFigure) {
 TEST(ReadProfile, NamesAKeyThatIsNone) {
   EXPECT_EQ(
       profile_complaint("name: x\nkind: tag\nfigures:\n  gain_db: {value: 2, source: s}\n"),
-      ":4: figures.gain_db is no setting of a profile of this kind (did you mean 'gain_dbi'?)");
+      ":4: figures.gain_db is not a setting of a profile of this kind (did you mean 'gain_dbi'?)");
   EXPECT_NE(profile_complaint("name: x\nkind: boat\nfigures: {}\n"), "");
 }
 

@@ -17,7 +17,7 @@ constexpr int kOldestVersion = 1002;
 void require_sdf(Context& context, const XMLElement& root) {
   const std::string_view name = root.Name();
   if (name == "robot") {
-    fail(location_of(root), "a URDF, not an SDF file (gz sdf -p FILE.urdf makes one of it)");
+    fail(location_of(root), "a URDF, not an SDF file (gz sdf -p FILE.urdf converts it)");
   }
   if (name != "sdf" && name != "gazebo") {
     fail(location_of(root),

@@ -77,7 +77,7 @@ RigidTransform pose_in(const Scope& scope, const Frame& frame, const RigidTransf
   diagnostics.warn(
       location_of(pose == nullptr ? *frame.element : *pose),
       fmt::format("there is no frame '{}' here that <{}> '{}' could be relative to; its pose is "
-                  "taken as relative to what it stands in",
+                  "taken as relative to its parent",
                   frame.relative_to, frame.element->Name(), attribute_of(*frame.element, "name")));
   return X_SI * frame.X_RF;
 }

@@ -33,7 +33,7 @@ RedChannel read_png(const std::string& path) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-    fail({path, 0}, fmt::format("not a PNG image that a heightmap can be read of ({})",
+    fail({path, 0}, fmt::format("not a PNG image that a heightmap can be read from ({})",
                                 static_cast<const char*>(image.message)));
   }
   if (image.width > kMostPixels || image.height > kMostPixels) {

@@ -203,10 +203,10 @@ template <typename Rows>
 Rows take(std::string_view& bytes) {
   using Row = typename Rows::value_type;
   std::uint64_t count = 0;
-  if (bytes.size() < sizeof(count)) throw Error("a mesh came cut off");
+  if (bytes.size() < sizeof(count)) throw Error("a mesh is cut off");
   std::memcpy(&count, bytes.data(), sizeof(count));
   bytes.remove_prefix(sizeof(count));
-  if (count > bytes.size() / sizeof(Row)) throw Error("a mesh came cut off");
+  if (count > bytes.size() / sizeof(Row)) throw Error("a mesh is cut off");
   Rows rows;
   rows.resize(count);
   std::memcpy(static_cast<void*>(rows.data()), bytes.data(), count * sizeof(Row));

@@ -37,7 +37,7 @@ std::vector<double> sizes_of(const Asked& asked, const char* name,
   }
   asked.context.diagnostics.warn(
       location_of(asked.element),
-      fmt::format("<{}> without <{}>: {:g} m is taken, as by Gazebo", asked.element.Name(), name,
+      fmt::format("<{}> without <{}>: {:g} m is assumed, as in Gazebo", asked.element.Name(), name,
                   fmt::join(otherwise, " ")));
   return otherwise;
 }

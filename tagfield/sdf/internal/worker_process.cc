@@ -115,7 +115,8 @@ rlimit limit_of(__rlimit_resource resource) {
 }
 
 [[noreturn]] void throw_system_error(const std::string& what, int error) {
-  throw Error(fmt::format("{}: no process of its own to read it: {}", what, std::strerror(error)));
+  throw Error(fmt::format("{}: a separate process to read it can't be started: {}", what,
+                          std::strerror(error)));
 }
 
 }  // namespace
@@ -200,7 +201,7 @@ std::string WorkerProcess::how_it_ended(const WorkLimits& limits) {
   if (WTERMSIG(status) == SIGXCPU) {
     return fmt::format("takes more than {} s of processor time", limits.seconds);
   }
-  return fmt::format("the library that reads it broke down ({})", ::strsignal(WTERMSIG(status)));
+  return fmt::format("the library that reads it crashed ({})", ::strsignal(WTERMSIG(status)));
 }
 
 std::string WorkerProcess::ask(const std::string& what, const WorkLimits& limits,

@@ -27,9 +27,7 @@ TEST_F(LoadWorldErrors, FilesThatAreNotSdf) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", ":1: not an XML file"},
       {"hello\n", ":1: not an XML file"},
-      {"\n<robot name='r'/>",
-       ":2: a URDF, not an SDF file (gz sdf -p FILE.urdf makes "
-       "one of it)"},
+      {"\n<robot name='r'/>", ":2: a URDF, not an SDF file (gz sdf -p FILE.urdf converts it)"},
       {"<a/>", ":1: not an SDF file: its root element is <a>, not <sdf>"},
       {"<sdf version='1.0'/>", ":1: SDF of version 1.0 is not read (1.2 and later are)"},
       {"<sdf version='1.6'>\n</sdf>", ":1: holds no world"},

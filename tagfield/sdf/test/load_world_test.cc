@@ -225,7 +225,7 @@ TEST_F(LoadWorld, SizesThatAreLeftOutAreGazebos) {
   EXPECT_EQ(std::get<Sphere>(scene.collisions[0].shape).radius, 1.0);
   EXPECT_EQ(std::get<Box>(scene.collisions[1].shape).size, Eigen::Vector3d(1, 1, 1));
   ASSERT_EQ(warnings().size(), 2U);
-  EXPECT_NE(warnings()[0].find("world.sdf:6: <sphere> without <radius>: 1 m is taken"),
+  EXPECT_NE(warnings()[0].find("world.sdf:6: <sphere> without <radius>: 1 m is assumed"),
             std::string::npos)
       << warnings()[0];
 }

@@ -111,7 +111,7 @@ TEST_F(ResourcePath, NamesInAnotherCaseAreFoundWithAWord) {
   const ResourcePaths paths{{path_of("models")}};
   const FoundResource found = find_resource("model://crate/Meshes/a.dae", path_of("w.sdf"), paths);
   EXPECT_EQ(found.path, mesh);
-  EXPECT_EQ(found.oddity, "found in another case, as '" + mesh + "'");
+  EXPECT_EQ(found.oddity, "found with a different case, as '" + mesh + "'");
 }
 
 TEST_F(ResourcePath, FuelsModelsAreFoundInItsCachesAndByTheirNames) {

@@ -52,7 +52,7 @@ TEST(WorkerProcess, BeginsAgainAfterASignal) {
   WorkerProcess process(work);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(error_of(process, "crash"),
-              "mesh.dae: the library that reads it broke down (Segmentation fault)");
+              "mesh.dae: the library that reads it crashed (Segmentation fault)");
     EXPECT_EQ(process.ask("it", {}, "on"), "onon");
   }
 }

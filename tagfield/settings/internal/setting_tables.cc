@@ -33,7 +33,7 @@ void add_pattern_settings(std::vector<Setting<T>>& all) {
   all.push_back(word<T>(
       "pattern", {"isotropic", "patch", "dipole", "table"}, "shape of the gain over direction",
       [](T& t, std::size_t i) { pattern_of(t).shape = static_cast<PatternShape>(i); }));
-  all.push_back(number<T>("gain_dbi", "dBi", "greatest gain",
+  all.push_back(number<T>("gain_dbi", "dBi", "maximum gain",
                           [](T& t) -> double& { return pattern_of(t).gain_dbi; }));
   all.push_back({{"beam_width_deg", "deg", "half-power width of a patch's lobe, in both planes"},
                  [](T& t, const std::string& text) {
@@ -42,9 +42,9 @@ void add_pattern_settings(std::vector<Setting<T>>& all) {
                    pattern_of(t).vertical_beam_width_rad = width;
                  }});
   all.push_back(number<T>(
-      "vertical_beam_width_deg", "deg", "likewise in the vertical plane, where it is another",
+      "vertical_beam_width_deg", "deg", "likewise in the vertical plane, if it is different",
       [](T& t) -> double& { return pattern_of(t).vertical_beam_width_rad; }, kDegree));
-  all.push_back(number<T>("front_to_back_db", "dB", "how much weaker a patch's back is",
+  all.push_back(number<T>("front_to_back_db", "dB", "front-to-back ratio of a patch",
                           [](T& t) -> double& { return pattern_of(t).front_to_back_db; }));
   all.push_back({{"pattern_table", "deg dBi dBi",
                   "triples: angle off the boresight, gain in the "
@@ -96,14 +96,14 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
   all.push_back(word<D>("diffraction", {"off", "on"}, "whether waves bend around edges",
                         [](D& d, std::size_t i) { d.model.diffraction = i == 1; }));
   all.push_back(word<D>("tag_coupling", {"off", "on"},
-                        "whether tags near one another change what each takes in",
+                        "whether nearby tags couple and change the power that each receives",
                         [](D& d, std::size_t i) { d.model.tag_coupling = i == 1; }));
   all.push_back(word<D>("interference", {"off", "on"},
-                        "whether what other readers send at the same time disturbs its links",
+                        "whether simultaneous transmissions of other readers disturb its links",
                         [](D& d, std::size_t i) { d.model.interference = i == 1; }));
   all.push_back(
       word<D>("spectrum_mask", {"multiple", "dense"},
-              "of Gen2, that bounds what it sends beside its channel",
+              "of Gen2, that limits its emissions outside its channel",
               [](D& d, std::size_t i) { d.model.spectrum_mask = static_cast<SpectrumMask>(i); }));
   all.push_back({{"diffuse_k_db", "dB",
                   "power of all single paths over that of diffuse waves "
@@ -118,9 +118,9 @@ void add_power_settings(std::vector<Setting<AntennaDraft>>& all) {
 
 void add_plan_settings(std::vector<Setting<AntennaDraft>>& all) {
   using D = AntennaDraft;
-  all.push_back({{"frequency_hz", "Hz", "one carrier for good"}, [](D& d, const std::string& text) {
-                   d.model.plan = fixed_plan(number_in(text));
-                 }});
+  all.push_back(
+      {{"frequency_hz", "Hz", "a single fixed carrier"},
+       [](D& d, const std::string& text) { d.model.plan = fixed_plan(number_in(text)); }});
   all.push_back(
       {{"channel_plan", "etsi_low | etsi_high | fcc | china | fixed", "carriers to hop on"},
        [](D& d, const std::string& text) {
@@ -151,7 +151,7 @@ void add_receiver_settings(std::vector<Setting<AntennaDraft>>& all) {
               &ReaderHardware::averaged_bits);
   of_hardware("phase_floor_rad", "rad", "phase noise of the strongest replies",
               &ReaderHardware::phase_floor_rad);
-  of_hardware("phase_steps", "", "steps of a turn, 0 for none", &ReaderHardware::phase_steps);
+  of_hardware("phase_steps", "", "steps per cycle, 0 for none", &ReaderHardware::phase_steps);
   of_hardware("rssi_step_db", "dB", "0 for none", &ReaderHardware::rssi_step_db);
   of_hardware("doppler_step_hz", "Hz", "0 for none", &ReaderHardware::doppler_step_hz);
   of_hardware("reply_s", "s", "length of the reply that Doppler is measured in",
@@ -186,8 +186,7 @@ void add_link_settings(std::vector<Setting<AntennaDraft>>& all) {
 void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
   using D = AntennaDraft;
   all.push_back(word<D>("inventory", {"none", "gen2"},
-                        "one read an update of all that is heard, "
-                        "or slots of EPC Gen2",
+                        "one read per update of every tag that is heard, or slots of EPC Gen2",
                         [](D& d, std::size_t i) { d.takes_inventory = i == 1; }));
   all.push_back(
       word<D>("session", {"s0", "s1", "s2", "s3"}, "flags that tags keep it in",
@@ -196,7 +195,7 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
       word<D>("target", {"a", "b", "alternate"}, "tags to ask for",
               [](D& d, std::size_t i) { d.gen2.inventory.target = static_cast<Target>(i); }));
   all.push_back(
-      {{"adaptive_q", "true | false", "whether Q follows the tags' number"},
+      {{"adaptive_q", "true | false", "whether Q adapts to the number of tags"},
        [](D& d, const std::string& text) { d.gen2.inventory.adaptive_q = truth_in(text); }});
   const auto whole = [&](const char* key, const char* meaning, int InventorySettings::*member) {
     all.push_back({{key, "", meaning}, [member](D& d, const std::string& text) {
@@ -214,8 +213,7 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
   real("q_step", "", "C of the adaptive Q", &InventorySettings::q_step);
   all.push_back(
       {{"capture_db", "dB",
-        "how much stronger than all others together a reply is made "
-        "out; never where not given"},
+        "by how much a reply must exceed all others together to be decoded; never where not given"},
        [](D& d, const std::string& text) { d.gen2.inventory.capture_db = number_in(text); }});
   real("power_up_s", "s", "carrier before the first Query", &InventorySettings::power_up_s);
   real("round_overhead_s", "s", "lost before each Query", &InventorySettings::round_overhead_s);
@@ -223,7 +221,7 @@ void add_inventory_settings(std::vector<Setting<AntennaDraft>>& all) {
   real("read_overhead_s", "s", "lost after each read", &InventorySettings::read_overhead_s);
   all.push_back(number<D>("port_dwell_s", "s", "time at one antenna before the next one's turn",
                           [](D& d) -> double& { return d.gen2.port_dwell_s; }));
-  all.push_back(word<D>("sharing", {"channel", "time"}, "how readers keep apart",
+  all.push_back(word<D>("sharing", {"channel", "time"}, "how readers share the air",
                         [](D& d, std::size_t i) { d.model.sharing = static_cast<AirSharing>(i); }));
 }
 
@@ -247,7 +245,7 @@ const std::vector<Setting<TagModel>>& tag_table() {
   static const std::vector<Setting<TagModel>> all = [] {
     std::vector<Setting<TagModel>> table;
     add_pattern_settings(table);
-    table.push_back(number<TagModel>("sensitivity_dbm", "dBm", "least power that makes it answer",
+    table.push_back(number<TagModel>("sensitivity_dbm", "dBm", "least power at which it replies",
                                      [](TagModel& t) -> double& { return t.sensitivity_dbm; }));
     table.push_back(number<TagModel>("modulation_db", "dB", "backscattered over absorbed power",
                                      [](TagModel& t) -> double& { return t.modulation_db; }));

@@ -89,7 +89,7 @@ TEST(AntennaFrom, MissesOnlyWhatItsModelNeeds) {
   EXPECT_TRUE(physical(antenna.parameters));
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
   EXPECT_EQ(diagnostics.warnings()[0],
-            "antenna 'gate' leaves to their defaults: <frequency> 8.657e+08, <update_rate> 15");
+            "antenna 'gate' uses the defaults of: <frequency> 8.657e+08, <update_rate> 15");
 }
 
 TEST(SensorRadio, RefusesASettingBesideThePapersModel) {

@@ -75,7 +75,7 @@ TEST(NavigationWorld, RefusesRobotsInWalls) {
   EXPECT_TRUE(holds(complaint(scenario), "robots[0].carried[0]"));
   scenario.obstacles.clear();
   scenario.robots[0].carried[0].to_W = PlanarPose{0.0, 9.0, 0.0};
-  EXPECT_TRUE(holds(complaint(scenario), "robots[0].carried[0] (0.00, 9.00) is on no floor"));
+  EXPECT_TRUE(holds(complaint(scenario), "robots[0].carried[0] (0.00, 9.00) is not on a floor"));
 }
 
 TEST(NavigationWorld, NeedsAWorldAndSomewhereToGo) {

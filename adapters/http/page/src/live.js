@@ -16,7 +16,7 @@ async function json(response) {
   }
   if (!response.ok)
     throw new Error(value?.error ?? `the server answers ${response.status} ${response.statusText}`);
-  if (value === null) throw new Error("the server's answer is no JSON");
+  if (value === null) throw new Error("the server's answer is not JSON");
   return value;
 }
 

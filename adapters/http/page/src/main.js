@@ -22,8 +22,8 @@ const CLICK_PX = 5;  // A press that moves further turns the view.
 const PANEL_MS = 200;
 const AGAIN_MS = 2000;
 const NO_WEBGL =
-  "This browser does not draw in three dimensions here: it has no WebGL, or it is switched off. " +
-  "The lists of tags and antennas work all the same.";
+  "This browser can't draw in three dimensions here: it has no WebGL, or it is switched off. " +
+  "The lists of tags and antennas still work.";
 
 class View {
   constructor(host) {
@@ -231,11 +231,11 @@ class View {
   // The next click's place in the world, or null where there is none or Escape was pressed.
   pickPlace(word) {
     if (!this.stage) {
-      this.say("refused", "A place can be clicked only where the world is drawn");
+      this.say("refused", "A position can be picked only where the world is drawn");
       return Promise.resolve(null);
     }
     this.picked?.(null);
-    setText(this.at.pick, `${word} (Escape: never mind)`);
+    setText(this.at.pick, `${word} (Escape: cancel)`);
     this.at.pick.hidden = false;
     return new Promise((resolve) => {
       const end = (place) => {

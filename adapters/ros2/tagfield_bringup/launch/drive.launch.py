@@ -25,7 +25,7 @@ def generate_launch_description():
         parameters=[{"use_sim_time": True}], condition=IfCondition(LaunchConfiguration("rviz")))
     return LaunchDescription([
         DeclareLaunchArgument("scenario", description="Scenario file (YAML)"),
-        DeclareLaunchArgument("robot", default_value="p3at", description="The robot that is driven"),
+        DeclareLaunchArgument("robot", default_value="p3at", description="Robot that is driven"),
         DeclareLaunchArgument("tagfield", default_value="tagfield", description="The program"),
         DeclareLaunchArgument("out", default_value="runs/ros2", description="Folder for results"),
         DeclareLaunchArgument("rviz", default_value="true", description="Whether RViz is started"),

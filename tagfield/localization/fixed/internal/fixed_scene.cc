@@ -85,14 +85,14 @@ FixedTag fixed_tag(const LocalizationProblem& problem, const std::vector<std::st
   const std::size_t count = with_strength(tag.reads);
   if (count < kFewestAntennas) {
     tag.why_not = fmt::format(
-        "RSSI by {} antenna{} at rest, at least {} are needed: a tag read by more would be "
-        "located, by one that moves too",
+        "RSSI by {} antenna{} at rest, at least {} are needed: more antennas, or one that moves, "
+        "would locate the tag",
         count, count == 1 ? "" : "s", kFewestAntennas);
     return tag;
   }
   std::vector<Eigen::Vector3d> cells = cells_of(problem, tag, options, tag.cell_m);
   if (cells.empty()) {
-    tag.why_not = "no place is in reach of all antennas that read it";
+    tag.why_not = "no position is within range of all antennas that read it";
     return tag;
   }
   tag.spread_m = spread_of(cells);

@@ -122,7 +122,7 @@ function physical(link) {
                              null,
     pathTable(link.paths), h("p", {
       class: "note",
-      text: "Lines in the world are the free paths, the stronger the darker, and the direct path; " +
+      text: "Lines are the unblocked paths, the stronger the darker, and the direct path; " +
         "it is dashed where it is blocked."
     })
   ];

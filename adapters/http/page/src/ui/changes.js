@@ -59,7 +59,7 @@ export class Changes {
         id.value = `new_tag_${++this.next}`;
       });
     return this.#form("Add a tag", [["ID", id], ["x [m]", x], ["y [m]", y], ["z [m]", z]], submit, [
-      h("button", {type: "button", text: "Click a place", onclick: pick}),
+      h("button", {type: "button", text: "Click a position", onclick: pick}),
       h("button", {type: "submit", text: "Add tag"})
     ]);
   }
@@ -96,7 +96,7 @@ export class Changes {
         ["height [m]", height], ["material", material]
       ],
       submit, [
-        h("button", {type: "button", text: "Click a place", onclick: pick}),
+        h("button", {type: "button", text: "Click a position", onclick: pick}),
         h("button", {type: "submit", text: "Put it there"})
       ]);
   }

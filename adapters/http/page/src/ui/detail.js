@@ -88,7 +88,7 @@ export class Detail {
     });
     this.chosen = "";
     const parts = [
-      this.#head("Tag", id), this.#facts(["EPC", "place", "reads", "RSSI now", "estimate"]),
+      this.#head("Tag", id), this.#facts(["EPC", "position", "reads", "RSSI now", "estimate"]),
       this.hooks.actions("tag", id), h("h3", {text: "Reads of the last half minute"}),
       ...this.charts, this.keys, h("h3", {text: "Why it is read, or not"})
     ];
@@ -104,7 +104,7 @@ export class Detail {
   #offline(id) {
     return h(
       "p", {class: "note"},
-      "A recorded run holds reads, not the link. This says it, for any moment: ", h("code", {
+      "A recorded run holds reads, not the link. This explains it, at any moment: ", h("code", {
         text:
           `tagfield explain SCENARIO --tag ${id} --antenna NAME --time ${fixed(this.world.time, 1)}`
       }));
@@ -114,7 +114,7 @@ export class Detail {
     const antenna = this.world.antennas[index];
     const parts = [
       this.#head("Antenna", antenna.name),
-      this.#facts(["reader", "place", "reads", "tags in sight", "model", "carrier", "power"]),
+      this.#facts(["reader", "position", "reads", "tags in sight", "model", "carrier", "power"]),
       (this.actions = this.hooks.actions("antenna", antenna.name))
     ];
     setText(
@@ -164,7 +164,7 @@ export class Detail {
           word,
           `Read on ${fixed(read * coverage.cell ** 2, 0)} m² of ${
             fixed(known.length * coverage.cell ** 2, 0)} m²; ` +
-            "drawn as the antenna stood just now.");
+            "drawn for the antenna's pose just now.");
         legend.hidden = false;
       } catch (error) {
         if (request === this.request) setText(word, error.message);
@@ -226,7 +226,7 @@ export class Detail {
 
   #refreshAntenna(index) {
     const antenna = this.world.antennas[index];
-    setText(this.values.place, antenna.pose ? place(antenna.pose) : "–");
+    setText(this.values.position, antenna.pose ? place(antenna.pose) : "–");
     setText(this.values.reads, antenna.present ? `${fixed(antenna.rate)} a second` : "removed");
     setText(this.values["tags in sight"], String(antenna.inSight));
     this.actions?.refresh();
@@ -236,13 +236,13 @@ export class Detail {
     const {world} = this;
     const p = world.position.subarray(3 * index, 3 * index + 3);
     const strength = world.strength[index];
-    setText(this.values.place, place(p));
+    setText(this.values.position, place(p));
     setText(
       this.values.reads,
       world.tags[index].present ? `${fixed(world.tagRate[index])} a second` : "removed");
     setText(
       this.values["RSSI now"],
-      Number.isNaN(strength) ? "not read of late" : `${fixed(strength)} dBm`);
+      Number.isNaN(strength) ? "not read recently" : `${fixed(strength)} dBm`);
     setText(this.values.estimate, this.#estimate(index, p));
     this.#drawCharts(index);
   }

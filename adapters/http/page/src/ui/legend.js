@@ -34,7 +34,7 @@ export class Legend {
     };
     this.at.legend.replaceChildren(
       h("div", {text: "RSSI [dBm]"}), h("div", {class: "ramp-back"}, ramp), ticks,
-      key(`2px solid ${rssiCss(0.5)}`, "read before, not of late"),
+      key(`2px solid ${rssiCss(0.5)}`, "read before, not recently"),
       key("3px solid gray", "never read"),
       ...(
         located ? [h(

@@ -117,7 +117,7 @@ export class Lists {
     setText(
       this.count,
       `${found.length} ${what}${found.length === 1 ? "" : "s"}` +
-        (found.length > MOST ? `, the first ${MOST} are listed; a search finds the others` : ""));
+        (found.length > MOST ? `, the first ${MOST} are listed; search for the others` : ""));
     while (this.rows.length > Math.min(found.length, MOST)) this.rows.pop().item.remove();
     found.slice(0, MOST).forEach((index, i) => {
       if (!this.rows[i]) this.#addRow(i);
@@ -162,7 +162,7 @@ export class Lists {
     setText(
       row.now,
       lately ? `${fixed(strength, 0)} dBm · ${fixed(world.tagRate[row.index], 0)}/s` :
-        before ? "not of late" :
+        before ? "not recently" :
                  "not read");
     row.swatch.className = "swatch";
     row.swatch.style.background = lately ? rssiCss(scale.share(strength)) : "transparent";

@@ -54,7 +54,7 @@ export class PlanPanel {
       "div", {},
       h("p", {
         class: "note",
-        text: `Cubes are places of tags, coloured by how many there are ${
+        text: `Cubes are positions of tags, coloured by how many are ${
           this.plan.counts}, over orientations and fading; frames are antennas.`
       }),
       h("div", {class: "keys"}, ...colors.map(key)));

@@ -30,7 +30,7 @@ export class TimeBar {
     this.step = h("button", {
       type: "button",
       text: "Step",
-      title: `Go on by ${STEP_S} s (.)`,
+      title: `Step by ${STEP_S} s (.)`,
       onclick: () => this.stepOn()
     });
     return [
