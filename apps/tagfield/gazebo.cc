@@ -12,6 +12,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
+#include "apps/tagfield/speed_option.h"
 #include "tagfield/files/files.h"
 #include "tagfield/map/map_file.h"
 #include "tagfield/scenario/scenario_yaml.h"
@@ -124,11 +125,8 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()
       ->allow_extra_args(false);
-  command
-      ->add_option("--real-time", arguments->real_time,
-                   "Multiple of real time to run at, 0 for as fast as it can (default: as the "
-                   "scenario or its world says)")
-      ->check(CLI::Range(0.0, 1e6));
+  add_speed_option(*command, arguments->real_time, "as the scenario or its world says",
+                   "--speed,--real-time");
   command->add_option(
       "--keep-out", arguments->keep_out,
       "Also write a map (YAML, image beside) of what robots can hit but their laser "

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "adapters/http/run_json.h"
 #include "adapters/ros1/bag_recording.h"
@@ -55,7 +56,10 @@ const Scenario* scenario_in(const std::optional<ScenarioWithWorld>& loaded) {
 MethodSettings settings_of(const LocalizeArguments& arguments) {
   MethodSettings settings;
   for (const std::string& argument : arguments.settings) {
-    const auto [key, value] = parse_override(argument);
+    auto [key, value] = parse_override(argument);
+    // As the same setting is called in a scenario, for which the other commands' --set is.
+    constexpr std::string_view kSection = "localization.";
+    if (key.rfind(kSection, 0) == 0) key.erase(0, kSection.size());
     settings.push_back({key, value, {"--set", 0}});
   }
   return settings;
@@ -419,7 +423,8 @@ void add_localize_command(CLI::App& app, Action& chosen) {
   command
       ->add_option(
           "--set", arguments->settings,
-          "A setting of the method: KEY=VALUE, with a key from below. Can be given several times")
+          "A setting of the method: KEY=VALUE, with a key from below, or localization.KEY=VALUE as "
+          "in 'run'. Can be given several times")
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--out", arguments->out,

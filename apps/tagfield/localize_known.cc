@@ -116,6 +116,7 @@ void add_known_options(CLI::App& command, LocalizeArguments& arguments) {
       .add_option("--box", arguments.box,
                   "Box in which tags are, seen from above: X0 Y0 X1 Y1 [m, world]")
       ->expected(4)
+      ->delimiter(',')
       ->check(CLI::Range(-kMostLength_m, kMostLength_m));
   command.add_option("--reference", arguments.references_file,
                      "Tags at known positions (CSV: tag,x_m,y_m,z_m)");

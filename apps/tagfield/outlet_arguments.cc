@@ -10,6 +10,7 @@
 #include "adapters/ros2/ros2_outlet.h"
 #include "adapters/ros2/ros2_robot.h"
 #include "adapters/ros2/tee_sink.h"
+#include "apps/tagfield/speed_option.h"
 #include "tagfield/base/error.h"
 
 namespace tagfield {
@@ -81,11 +82,7 @@ void add_outlet_options(CLI::App& command, OutletArguments& arguments) {
       ->needs(ros2)
       ->excludes("--seeds")
       ->excludes("--breakdown");
-  command
-      .add_option("--speed", arguments.speed,
-                  "Multiple of real time to run at, 0 for as fast as it can (default: as the "
-                  "scenario says; with --ros2 1)")
-      ->check(CLI::Range(0.0, 1e6));
+  add_speed_option(command, arguments.speed, "as the scenario says; with --ros2 1");
 }
 
 void apply(const OutletArguments& arguments, Scenario& scenario) {

@@ -16,6 +16,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/speed_option.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/live/live_estimates.h"
@@ -37,19 +38,9 @@ struct ServeArguments {
   std::string plan;  ///< Folder; "" for the scenario's, if it is the layout of a plan.
   std::string listen = "127.0.0.1";
   std::string token;
-  std::string speed = "1";
+  std::optional<double> speed;
   bool is_paused = false;
 };
-
-double speed_of(const std::string& word) {
-  if (word == "max") return 0.0;
-  double speed = 0.0;
-  if (!CLI::detail::lexical_cast(word, speed) || !(speed > 0.0 && speed <= 1e6)) {
-    throw Error(
-        fmt::format("--speed {}: expected a multiple of real time up to 1e6, or max", word));
-  }
-  return speed;
-}
 
 bool is_loopback(const std::string& address) {
   return address == "::1" || address.rfind("127.", 0) == 0;
@@ -155,7 +146,7 @@ void print_addresses(const llrp::LlrpServer& server) {
 
 int serve(ServeArguments arguments) {
   LiveOptions options;
-  options.speed = speed_of(arguments.speed);
+  options.speed = arguments.speed.value_or(1.0);
   options.is_paused = arguments.is_paused;
   // Readers that wait for a client read when it tells them to.
   options.readers_start = !arguments.llrp;
@@ -250,7 +241,7 @@ void add_serve_command(CLI::App& app, Action& chosen) {
                       "machine alone)");
   command->add_option("--token", arguments->token,
                       "Token required for commands from other machines (default: random)");
-  command->add_option("--speed", arguments->speed, "Multiple of real time, or max (default 1)");
+  add_speed_option(*command, arguments->speed, "1");
   command->add_flag("--paused", arguments->is_paused, "Start paused, until resumed");
   command->footer(
       "Then open the page that it names, or ask the API (docs/live.md):\n"

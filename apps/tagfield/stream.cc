@@ -11,6 +11,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/speed_option.h"
 #include "apps/tagfield/start_time.h"
 #include "tagfield/experiment/experiment.h"
 #include "tagfield/files/read_json.h"
@@ -105,11 +106,7 @@ void add_stream_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "stream", "Simulate a scenario and print each read as a line of JSON, as it comes");
   add_scenario_options(*command, arguments->scenario);
-  command
-      ->add_option("--speed", arguments->speed,
-                   "Multiple of real time; 0 for as fast as it can. Default: what the scenario "
-                   "says by real_time, or else 1")
-      ->check(CLI::Range(0.0, 1e6));
+  add_speed_option(*command, arguments->speed, "what the scenario says by real_time, or else 1");
   add_start_option(*command, arguments->start);
   add_middleware_options(*command, arguments->middleware);
   command->add_option("--threads", arguments->threads, "Threads; the results do not depend on it")

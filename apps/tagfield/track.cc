@@ -133,6 +133,7 @@ void stage(const TrackArguments& arguments, const TrackResult& result, StagedFol
 
 int track_command(const TrackArguments& arguments) {
   Diagnostics diagnostics;
+  if (!arguments.old_speeds.empty()) diagnostics.warn("--speed MIN MAX is now --speed-range");
   TrackResult result = is_scenario(arguments.input)
                            ? track_scenario(arguments, diagnostics)
                            : track_reads(arguments, folder_of(arguments, {}), diagnostics);
@@ -157,15 +158,25 @@ void add_knowledge(CLI::App& command, TrackArguments& arguments) {
       .add_option("--lane", arguments.lane,
                   "Lane along which tags move: X Y of a point [m], HEADING [deg from x towards y], "
                   "and how far to the side they may be (one sigma, default 0.1 m)")
-      ->expected(3, 4);
+      ->expected(3, 4)
+      ->delimiter(',');
   command.add_flag("--both-ways", arguments.both_ways, "Tags may also move backwards on the lane");
   command
       .add_option(
           "--line", arguments.line,
           "Line across which the tags' order is reported: X Y of a point [m], HEADING [deg]")
-      ->expected(3);
-  command.add_option("--speed", arguments.speed, "Least and greatest speed [m/s] (default 0.05 3)")
-      ->expected(2);
+      ->expected(3)
+      ->delimiter(',');
+  command
+      .add_option("--speed-range", arguments.speeds,
+                  "Least and greatest speed of the tags [m/s] (default 0.05 3)")
+      ->expected(2)
+      ->delimiter(',');
+  // In all other commands it is how fast time goes.
+  command.add_option("--speed", arguments.old_speeds)
+      ->expected(2)
+      ->excludes("--speed-range")
+      ->group("");
   command
       .add_option(
           "--acceleration-noise", arguments.acceleration_noise,
@@ -201,9 +212,11 @@ void apply(const TrackArguments& arguments, TrackingSpec& spec) {
   if (!arguments.line.empty()) {
     spec.line = PassingLine{{arguments.line[0], arguments.line[1]}, radians(arguments.line[2])};
   }
-  if (!arguments.speed.empty()) {
-    options.min_speed_m_s = arguments.speed[0];
-    options.max_speed_m_s = arguments.speed[1];
+  const std::vector<double>& speeds =
+      arguments.speeds.empty() ? arguments.old_speeds : arguments.speeds;
+  if (!speeds.empty()) {
+    options.min_speed_m_s = speeds[0];
+    options.max_speed_m_s = speeds[1];
   }
   options.acceleration_noise = arguments.acceleration_noise.value_or(options.acceleration_noise);
   check(options);

@@ -24,9 +24,10 @@ struct TrackArguments {
   std::string scenario;  ///< Besides reads, or "".
   std::vector<std::string> settings;
   std::optional<std::string> method;
-  std::vector<double> lane;   ///< X Y HEADING_DEG [SIGMA_M].
-  std::vector<double> line;   ///< X Y HEADING_DEG.
-  std::vector<double> speed;  ///< MIN MAX.
+  std::vector<double> lane;        ///< X Y HEADING_DEG [SIGMA_M].
+  std::vector<double> line;        ///< X Y HEADING_DEG.
+  std::vector<double> speeds;      ///< MIN MAX.
+  std::vector<double> old_speeds;  ///< Likewise, by the option's old name.
   bool both_ways = false;
   std::optional<double> acceleration_noise;
   std::optional<double> tag_height_m;

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Dynamic;
 
-/// Up to 6 by 6 on the stack. All fixed sizes go through it: Eigen unrolls each that it is asked for,
-/// which takes four times as long to compile and saves little.
+/// Up to 6 by 6 on the stack. All fixed sizes go through it: Eigen unrolls each that it is asked
+/// for, which takes four times as long to compile and saves little.
 using Small = Eigen::Matrix<double, Dynamic, Dynamic, Eigen::ColMajor, 6, 6>;
 using SmallVector = Eigen::Matrix<double, Dynamic, 1, Eigen::ColMajor, 6, 1>;
 

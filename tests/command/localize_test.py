@@ -593,6 +593,9 @@ def sides_and_boxes_choose_between_mirror_images(context):
     for more, verdict in (((), "ambiguous"), (("--side", "left"), "located"),
                           (("--side=-y",), "located"),
                           (("--box", "0", "1.7", "1", "3"), "located"),
+                          (("--box", "0,1.7,1,3"), "located"),
+                          (("--side", "left", "--set", "max_error_m=0.0001"), "not_located"),
+                          (("--side", "left", "--set", "localization.max_error_m=0.0001"), "not_located"),
                           (("--box", "5", "5", "6", "6"), "not_located")):
         context.run_well(*both, *more)
         rows = read_csv(context.folder / "out/estimates.csv")

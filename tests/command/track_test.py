@@ -160,7 +160,7 @@ def bad_input_is_told_in_one_line(context):
             ((reads,), "track: reads as CSV need --poses FILE"),
             ((reads, "--poses", poses, "--seeds", 2), "--seeds can only be used with a scenario"),
             ((reads, "--poses", poses, "--both-ways"), "--both-ways can only be used with a lane"),
-            ((reads, "--poses", poses, "--speed", 3, 1), "min_speed_m_s, 3 m/s, is over"),
+            ((reads, "--poses", poses, "--speed-range", 3, 1), "min_speed_m_s, 3 m/s, is over"),
             ((reads, "--poses", poses, "--method", "kalman"), "kalman"),
             ((context.shipped("conveyor"), "--poses", poses), "can only be used with reads"),
             ((context.shipped("conveyor"), "--set", "tracking.lane.width=1"), "width"),
@@ -177,9 +177,22 @@ def bad_input_is_told_in_one_line(context):
 
 
 @case
+def options_under_their_old_names(context):
+    run = track(context, context.shipped("conveyor"), name="run")
+    reads = (run / "reads.csv", "--poses", run / "antenna_poses.csv")
+    words = {"new": ("--speed-range", "0.5,2"), "old": ("--speed", 0.5, 2)}
+    warned = {name: context.run_well("track", *reads, *word, "--out", context.folder / name).err
+              for name, word in words.items()}
+    check_equal((context.folder / "new/tracks.csv").read_bytes(),
+                (context.folder / "old/tracks.csv").read_bytes(), "tracks by either name")
+    check_in("--speed MIN MAX is now --speed-range", warned["old"], "what the old name is warned of")
+    check("--speed" not in warned["new"], f"warned of the new name: {warned['new']}")
+
+
+@case
 def help_teaches(context):
     result = context.run_well("track", "--help")
-    for word in ("READS", "--lane", "--line", "--speed", "--method", "ekf", "particle", "--seeds",
+    for word in ("READS", "--lane", "--line", "--speed-range", "--method", "ekf", "particle", "--seeds",
                  "tracks.csv", "order.csv", "tracks.html", "--no-page", "mirror image", "--acceleration-noise"):
         check_in(word, result.out, "track --help")
 

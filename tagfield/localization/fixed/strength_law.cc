@@ -143,9 +143,8 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
   std::vector<Told> told;
   for (const TagOnGrid& tag : tags) {
     const Eigen::MatrixXd rows = design(tag, 0, size);
-    const Eigen::MatrixXd weighted =
-        product(rows.transpose(),
-                invert_symmetric(scatter(rows.rows(), flat.fading_db, tag_sigma_db)));
+    const Eigen::MatrixXd weighted = product(
+        rows.transpose(), invert_symmetric(scatter(rows.rows(), flat.fading_db, tag_sigma_db)));
     told.push_back({product(weighted, rows), weighted * tag.rssi_dbm, 0.0, 0.0});
   }
   const Told sum = sum_of(told, size);
@@ -154,8 +153,8 @@ double log_of_chance(const std::vector<TagOnGrid>& tags, const StrengthLaw& flat
     const Eigen::MatrixXd rows = design(tags[i], 0, size);
     const StrengthLaw law = law_by(flat, sum, &told[i]);
     Eigen::VectorXd misfit = tags[i].rssi_dbm - rows * law.mean;
-    Eigen::MatrixXd covariance = transformed(rows, law.covariance) +
-                                 scatter(rows.rows(), flat.fading_db, tag_sigma_db);
+    Eigen::MatrixXd covariance =
+        transformed(rows, law.covariance) + scatter(rows.rows(), flat.fading_db, tag_sigma_db);
     log += log_normal_density(misfit, covariance);
   }
   return log;
@@ -210,9 +209,8 @@ Eigen::ArrayXd log_strength(const TagOnGrid& tag, const StrengthLaw& law,
   const Eigen::Index slope = law.mean.size() - 1;
   // design() of every cell differs only in its last column, less the distances' logarithms.
   const Eigen::MatrixXd levels = design(tag, 0, law.mean.size()).leftCols(slope);
-  const Eigen::MatrixXd of_levels =
-      scatter(count, law.fading_db, prior.tag_sigma_db) +
-      transformed(levels, law.covariance.topLeftCorner(slope, slope));
+  const Eigen::MatrixXd of_levels = scatter(count, law.fading_db, prior.tag_sigma_db) +
+                                    transformed(levels, law.covariance.topLeftCorner(slope, slope));
   const Eigen::VectorXd with_slope = levels * law.covariance.col(slope).head(slope);
   const Eigen::VectorXd over_level = tag.rssi_dbm - levels * law.mean.head(slope);
   Eigen::ArrayXd logs(static_cast<Eigen::Index>(tag.cells.size()));

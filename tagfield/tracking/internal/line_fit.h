@@ -25,7 +25,7 @@ std::vector<SubAperture> sub_apertures(const Pass& pass, double length_s);
 
 /// Gaussian knowledge of a motion, as rows of A θ = b with weights: height, climb, lane.
 struct MotionPrior {
-  Eigen::Matrix<double, 10, 6> rows;     ///< Each divided by its sigma; 0 where nothing is known.
+  Eigen::Matrix<double, 10, 6> rows;    ///< Each divided by its sigma; 0 where nothing is known.
   Eigen::Matrix<double, 10, 1> values;  ///< Likewise.
 };
 

@@ -193,9 +193,9 @@ Gaussian joined(const Gaussian& forward, const Gaussian& backward, const Gaussia
   const Matrix6d information = a + b - c;
   // Where chance makes a cloud wider than what it began with, the forward filter has to do.
   if (!cholesky_factor(information)) return forward;
-  return {solve_symmetric(information,
-                          Vector6d(a * forward.mean + b * backward.mean - c * prior.mean)),
-          invert_symmetric(information)};
+  return {
+      solve_symmetric(information, Vector6d(a * forward.mean + b * backward.mean - c * prior.mean)),
+      invert_symmetric(information)};
 }
 
 /// Residuals of each antenna's reads about their own circular mean.

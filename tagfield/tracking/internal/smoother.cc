@@ -163,8 +163,8 @@ Innovation innovation_of(const Input& input, const PassRead& read, Eigen::Index 
   Innovation innovation;
   const Eigen::Vector3d slope = linear.slope.transpose();  // In the place; in the offset it is 1.
   innovation.residual = wrap_to_pi(read.phase_rad - linear.value - about(slot));
-  innovation.value = innovation.residual + slope.dot((about - mean).head<3>()) + about(slot) -
-                     mean(slot);
+  innovation.value =
+      innovation.residual + slope.dot((about - mean).head<3>()) + about(slot) - mean(slot);
   innovation.with_state = covariance.leftCols<3>() * slope + covariance.col(slot);
   innovation.variance = slope.dot(innovation.with_state.head<3>()) + innovation.with_state(slot) +
                         noise_rad * noise_rad + linear.variance;
