@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One thing that Tagfield can use, and whether it is there.
-struct Finding {
+struct Ability {
   std::string key;         ///< "gazebo".
   bool works = false;      ///< It was tried, and it does.
   std::string what;        ///< What was found, or what was not.
@@ -85,7 +85,7 @@ std::optional<double> memory_gb(const std::string& key) {
 // --- What there is
 // --------------------------------------------------------------------------------
 
-Finding machine() {
+Ability machine() {
   const char* const kNames[] = {"the baseline only", "AVX2", "AVX-512"};
   const std::optional<double> total = memory_gb("MemTotal");
   const std::optional<double> left = memory_gb("MemAvailable");
@@ -98,7 +98,7 @@ Finding machine() {
       ""};
 }
 
-Finding shared_files() {
+Ability shared_files() {
   std::error_code error;
   std::string missing;
   for (const char* name : {"profiles", "scenarios", "worlds", "models", "templates"}) {
@@ -110,7 +110,7 @@ Finding shared_files() {
           "install Tagfield again"};
 }
 
-Finding gazebo() {
+Ability gazebo() {
   const std::optional<std::string> version = output_of("gzserver --version");
   const std::string number = first_match(version.value_or(""), "version (11\\.[0-9.]*[0-9])");
   if (!number.empty()) return {"gazebo", true, "Gazebo " + number, ""};
@@ -126,7 +126,7 @@ Finding gazebo() {
           "in a source tree: scripts/gazebo-root (docs/gazebo.md)"};
 }
 
-Finding gz_sim() {
+Ability gz_sim() {
   for (const char* command : {"gz sim --versions", "ign gazebo --versions"}) {
     const std::string number =
         first_match(output_of(command).value_or(""), "([0-9]+\\.[0-9.]*[0-9])");
@@ -136,7 +136,7 @@ Finding gz_sim() {
           "https://gazebosim.org/docs, then docs/gz.md"};
 }
 
-Finding ros1() {
+Ability ros1() {
   if (!is_on_path("roscore")) {
     return {"roscore", false, "no ROS 1 to run nodes with (roscore); rosbags need none",
             "apt-get install python3-roslaunch, where the system has ROS 1"};
@@ -175,7 +175,7 @@ std::string dds_interfaces() {
   return first_match(text, "selected interfaces?:? *([^\\n]*)");
 }
 
-Finding ros2_messages() {
+Ability ros2_messages() {
   if (!ros2::kHasDds) {
     return {"ros2", false, "built without ROS 2",
             "build with -DTAGFIELD_ROS2=ON and cyclonedds-dev"};
@@ -195,7 +195,7 @@ Finding ros2_messages() {
 }
 
 /// Draws a triangle's worth of WebGL in a browser without a window.
-Finding browser() {
+Ability browser() {
   std::string program;
   for (const char* name :
        {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"}) {
@@ -226,7 +226,7 @@ Finding browser() {
   return {"browser", true, fmt::format("{} draws {}", program, version), ""};
 }
 
-Finding mpi(const BuildInfo& build) {
+Ability mpi(const BuildInfo& build) {
   bool built = false;
   for (const OptionalPart& part : build.parts) built = built || (part.key == "mpi" && part.present);
   if (!built) return {"mpi", false, "built without MPI", "libopenmpi-dev, then build again"};
@@ -235,7 +235,7 @@ Finding mpi(const BuildInfo& build) {
   return {"mpi", true, version.substr(0, version.find('\n')), ""};
 }
 
-Finding python() {
+Ability python() {
   constexpr const char* kAsk =
       "import importlib, sys\n"
       "sys.path = [path for path in sys.path if path]\n"  // Folders of sources are no modules.
@@ -257,15 +257,15 @@ Finding python() {
           "apt-get install python3-tagfield, or docs/python.md from sources"};
 }
 
-std::vector<Finding> findings(const BuildInfo& build) {
-  std::vector<Finding> all = {machine(), shared_files()};
+std::vector<Ability> findings(const BuildInfo& build) {
+  std::vector<Ability> all = {machine(), shared_files()};
   for (const OptionalPart& part : build.parts) {
     if (part.key == "mpi" || part.key == "ros2") continue;  // More is asked of them below.
     all.push_back({part.key, part.present,
                    part.present ? part.is_for : "built without " + part.is_for,
                    part.present ? "" : part.needs});
   }
-  for (const Finding& finding :
+  for (const Ability& finding :
        {ros2_messages(), mpi(build), python(), ros1(), gazebo(), gz_sim(), browser()}) {
     all.push_back(finding);
   }
@@ -275,14 +275,14 @@ std::vector<Finding> findings(const BuildInfo& build) {
 // --- What is said of it
 // ---------------------------------------------------------------------------
 
-void print_findings(const BuildInfo& build, const std::vector<Finding>& all) {
+void print_findings(const BuildInfo& build, const std::vector<Ability>& all) {
   fmt::print("tagfield {}, commit {}\n\nWorks:\n", build.version,
              build.commit.empty() ? "unknown" : build.commit);
-  for (const Finding& finding : all) {
+  for (const Ability& finding : all) {
     if (finding.works) fmt::print("  {:<9} {}\n", finding.key, finding.what);
   }
   bool first = true;
-  for (const Finding& finding : all) {
+  for (const Ability& finding : all) {
     if (finding.works) continue;
     if (first) fmt::print("\nNot here, and how to get it if it is wanted:\n");
     first = false;
@@ -290,10 +290,10 @@ void print_findings(const BuildInfo& build, const std::vector<Finding>& all) {
   }
 }
 
-void print_findings_json(const BuildInfo& build, const std::vector<Finding>& all) {
+void print_findings_json(const BuildInfo& build, const std::vector<Ability>& all) {
   nlohmann::ordered_json json = {
       {"version", build.version}, {"commit", build.commit}, {"findings", nlohmann::json::array()}};
-  for (const Finding& finding : all) {
+  for (const Ability& finding : all) {
     json["findings"].push_back({{"key", finding.key},
                                 {"works", finding.works},
                                 {"what", finding.what},
@@ -315,7 +315,7 @@ void add_doctor_command(CLI::App& app, Action& chosen) {
   command->callback([as_json, &chosen] {
     chosen = [as_json] {
       const BuildInfo build = build_info();
-      const std::vector<Finding> all = findings(build);
+      const std::vector<Ability> all = findings(build);
       *as_json ? print_findings_json(build, all) : print_findings(build, all);
       return kExitOk;
     };
