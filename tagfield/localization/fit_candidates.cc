@@ -197,8 +197,7 @@ std::vector<PlaceVector> spread_starts(const TagPhases& phases, const HeightMode
   std::vector<PlaceVector> starts{fit.unknowns};
   const SymmetricEigen<3> axes = symmetric_eigen(covariance);
   const PlaceVector direction = axes.vectors.col(2);
-  const double reach =
-      std::min(kDeviations * std::sqrt(std::max(axes.values[2], 0.0)), kFarthest);
+  const double reach = std::min(kDeviations * std::sqrt(std::max(axes.values[2], 0.0)), kFarthest);
   const double eighth = longest_cycle(phases) / 4.0;  // A cycle is half a wavelength.
   const double step = eighth / std::max(range_rate_spread(phases, height, fit, direction), 1e-6);
   const int steps = std::min(kMostSteps, static_cast<int>(std::floor(reach / step)));

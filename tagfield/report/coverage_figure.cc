@@ -115,9 +115,10 @@ Drawn words_of(const Coverage& coverage, const CoverageLayer& layer, CoverageQua
                       100.0 * share_read(layer), 100.0 * kReadProbability)};
     case CoverageQuantity::kMargin:
       return {"margin", "Margin",
-              paper ? "RSSI beyond that at the end of the range: green to yellow is within it."
-                    : "What tag and reader have beyond what they need, the lesser of both: green to "
-                      "yellow is enough. Left blank where nothing arrives."};
+              paper
+                  ? "RSSI beyond that at the end of the range: green to yellow is within it."
+                  : "What tag and reader have beyond what they need, the lesser of both: green to "
+                    "yellow is enough. Left blank where nothing arrives."};
     case CoverageQuantity::kPower:
       return {"power", paper ? "RSSI" : "Power at the chip",
               paper ? "By eq. (5) of the paper, without noise."

@@ -27,8 +27,8 @@ std::string words_of_band(const ColorBands& bands, std::size_t band);
 /// How a band's cells look; pages say `words` where a pointer is over them.
 Look band_look(const std::string& color, const std::string& words);
 
-/// Dark blue to yellow in steps of 5 dB, or more where that would be over 12 bands, around `values`, which
-/// may be empty.
+/// Dark blue to yellow in steps of 5 dB, or more where that would be over 12 bands, around
+/// `values`, which may be empty.
 ColorBands power_bands(const std::string& title, std::vector<double> values);
 /// Dark blue below 0 dB, green to yellow from there on.
 ColorBands margin_bands();
