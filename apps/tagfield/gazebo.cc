@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "adapters/gazebo_world/gz_sim_world.h"
 #include "adapters/gazebo_world/scenario_world.h"
@@ -29,6 +30,7 @@ struct GazeboArguments {
   std::string out;
   std::vector<std::string> settings;
   std::optional<double> real_time;
+  bool as_json = false;
   std::string keep_out;
   bool gz = false;
   GzSimOptions gz_options;
@@ -52,6 +54,20 @@ void write_keep_out(const std::string& path, const Scenario& scenario, const Sce
 fs::path out_of(const GazeboArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return fs::path(arguments.scenario).stem().concat(arguments.gz ? ".sdf" : ".world");
+}
+
+/// The world, and the variable by which its models are found; "" for none.
+void print_written(const fs::path& world, const std::string& variable, const std::string& folders,
+                   bool as_json) {
+  if (as_json) {
+    nlohmann::ordered_json all = {{"world", world.string()},
+                                  {"environment", nlohmann::ordered_json::object()}};
+    if (!variable.empty()) all["environment"][variable] = folders;
+    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("world: {}\n", world.string());
+  if (!variable.empty()) fmt::print("{}={}\n", variable, folders);
 }
 
 int write_gazebo_world(const GazeboArguments& arguments) {
@@ -80,14 +96,14 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   std::vector<std::string> folders = gazebo_model_paths(scenario);
   folders.push_back(shared_folder("models").string());
   const char* const variable = arguments.gz ? "GZ_SIM_RESOURCE_PATH" : "GAZEBO_MODEL_PATH";
-  fmt::print("world: {}\n{}={}\n", out.string(), variable, fmt::join(folders, ":"));
+  print_written(out, variable, fmt::format("{}", fmt::join(folders, ":")), arguments.as_json);
   return kExitOk;
 }
 
 /// A world or a model of somebody's Gazebo 11, for gz-sim.
 int convert_world(const GazeboArguments& arguments) {
   if (!arguments.settings.empty() || arguments.real_time || !arguments.keep_out.empty()) {
-    throw Error("--set, --real-time and --keep-out are for scenarios, not for worlds");
+    throw Error("--set, --speed and --keep-out are for scenarios, not for worlds");
   }
   Diagnostics diagnostics;
   const std::string text = gz_sim_world(read_text_file(arguments.scenario), arguments.scenario,
@@ -96,7 +112,7 @@ int convert_world(const GazeboArguments& arguments) {
   const fs::path out = out_of(arguments);
   catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
   write_text_file(out.string(), text);
-  fmt::print("world: {}\n", out.string());
+  print_written(out, "", "", arguments.as_json);
   return kExitOk;
 }
 
@@ -121,6 +137,9 @@ void add_gazebo_command(CLI::App& app, Action& chosen) {
                    "Scenario file (YAML); with --gz also a .world or .sdf of Gazebo 11")
       ->required();
   command->add_option("--out", arguments->out, "File to write (default NAME.world, or NAME.sdf)");
+  command->add_flag("--json", arguments->as_json,
+                    "Print JSON for machines instead of text: {\"world\": FILE, \"environment\": "
+                    "{VARIABLE: FOLDERS}}");
   add_world_options(*command, arguments->world);
   command->add_option("--set", arguments->settings, "Replace a value of the scenario, as in 'run'")
       ->take_all()

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
@@ -37,7 +38,7 @@ void check_name(const std::string& name) {
   }
 }
 
-int make_new(const std::string& path) {
+int make_new(const std::string& path, bool as_json) {
   const fs::path folder = fs::path(path).lexically_normal();
   const std::string name =
       (folder.has_filename() ? folder : folder.parent_path()).filename().string();
@@ -58,6 +59,12 @@ int make_new(const std::string& path) {
     throw Error(fmt::format("new: can't make the folder {}: {}", folder.string(), error.message()));
   }
   write_text_files(files);
+  if (as_json) {
+    nlohmann::ordered_json all = {{"folder", folder.string()}};
+    for (const auto& [file, text] : files) all["files"].push_back(file);
+    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return kExitOk;
+  }
   const std::string scenario = (folder / (name + ".yaml")).string();
   fmt::print(
       "{}: a cart drives past two racks and finds four tags\n\n"
@@ -83,7 +90,11 @@ void add_new_command(CLI::App& app, Action& chosen) {
       "  tagfield new my_hall\n"
       "  tagfield run my_hall/my_hall.yaml\n"
       "docs/scenario.md lists all keys of a scenario.");
-  command->callback([name, &chosen] { chosen = [name] { return make_new(*name); }; });
+  const auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json,
+                    "Print JSON for machines instead of text: {\"folder\": …, \"files\": […]}");
+  command->callback(
+      [name, as_json, &chosen] { chosen = [name, as_json] { return make_new(*name, *as_json); }; });
 }
 
 }  // namespace tagfield

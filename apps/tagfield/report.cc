@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "adapters/http/run_json.h"
 #include "adapters/ros1/bag_recording.h"
@@ -17,7 +18,13 @@ int report(const LocalizeArguments& arguments) {
   if (is_bag(arguments.recording)) return localize(arguments);
   if (!arguments.out.empty()) throw Error("report: --out can only be used with a bag");
   write_report(arguments.recording, http::view_of(arguments.recording));
-  fmt::print("page: {}/report.html\n", arguments.recording);
+  const std::string page = arguments.recording + "/report.html";
+  if (arguments.as_json) {
+    fmt::print("{}\n", nlohmann::json{{"page", page}}.dump(
+                           -1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("page: {}\n", page);
+  }
   return kExitOk;
 }
 
@@ -33,6 +40,9 @@ void add_report_command(CLI::App& app, Action& chosen) {
       ->required();
   command->add_option("--out", arguments->out,
                       "Folder for the results of a bag (default runs/NAME)");
+  command->add_flag("--json", arguments->as_json,
+                    "Print JSON for machines instead of text: {\"page\": FILE}, of a bag as "
+                    "summary.json");
   command->callback([arguments, &chosen] { chosen = [arguments] { return report(*arguments); }; });
 }
 

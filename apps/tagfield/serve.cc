@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "adapters/http/admission.h"
@@ -40,6 +41,7 @@ struct ServeArguments {
   std::string token;
   std::optional<double> speed;
   bool is_paused = false;
+  bool as_json = false;
 };
 
 bool is_loopback(const std::string& address) {
@@ -135,13 +137,24 @@ std::string plan_of(const ServeArguments& arguments, Diagnostics& diagnostics) {
   }
 }
 
-void print_addresses(const llrp::LlrpServer& server) {
-  for (const llrp::LlrpAddress& reader : server.addresses()) {
-    fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
+void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::string& page,
+                     bool as_json) {
+  if (as_json) {
+    nlohmann::ordered_json all = {{"http", nullptr}, {"llrp", nlohmann::ordered_json::array()}};
+    if (!page.empty()) all["http"] = page;
+    for (const llrp::LlrpAddress& reader : readers) {
+      all["llrp"].push_back(
+          {{"reader", reader.reader}, {"address", reader.address}, {"port", reader.port}});
+    }
+    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    for (const llrp::LlrpAddress& reader : readers) {
+      fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);
+    }
+    if (!readers.empty()) fmt::print("Readers are silent until LLRP clients start them.\n");
+    if (!page.empty()) fmt::print("http: {}\n", page);
   }
-  if (!server.addresses().empty()) {
-    fmt::print("Readers are silent until LLRP clients start them.\n");
-  }
+  std::fflush(stdout);
 }
 
 int serve(ServeArguments arguments) {
@@ -174,7 +187,6 @@ int serve(ServeArguments arguments) {
   if (llrp) {
     world.attach(llrp);
     llrp->open(world);
-    print_addresses(*llrp);
   }
   http::Api api(loaded.scene, scenario, seed);
   if (estimates) {
@@ -190,9 +202,9 @@ int serve(ServeArguments arguments) {
   if (arguments.http) {
     server.emplace(answerer, feed,
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
-    fmt::print("http: {}\n", server->url());
   }
-  std::fflush(stdout);
+  print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
+                  server ? server->url() : std::string(), arguments.as_json);
   catch_interrupts();
   world.run(interrupted());
   finish(middleware, world.now());
@@ -242,6 +254,10 @@ void add_serve_command(CLI::App& app, Action& chosen) {
   command->add_option("--token", arguments->token,
                       "Token required for commands from other machines (default: random)");
   add_speed_option(*command, arguments->speed, "1");
+  command->add_flag(
+      "--json", arguments->as_json,
+      "Print the addresses as a line of JSON: {\"http\": URL, \"llrp\": [{\"reader\", "
+      "\"address\", \"port\"}]}");
   command->add_flag("--paused", arguments->is_paused, "Start paused, until resumed");
   command->footer(
       "Then open the page that it names, or ask the API (docs/live.md):\n"

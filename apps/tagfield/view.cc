@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "adapters/http/http_server.h"
@@ -23,6 +24,7 @@ struct ViewArguments {
   std::string scenario;
   std::uint16_t port = 8080;
   std::string listen = "127.0.0.1";
+  bool as_json = false;
 };
 
 /// A run that is over: it is looked at, and nothing changes it.
@@ -85,7 +87,11 @@ int view(const ViewArguments& arguments) {
                                     : run_in_folder(arguments));
   print_warnings(diagnostics);
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
-  fmt::print("http: {}\n", server.url());
+  if (arguments.as_json) {
+    fmt::print("{}\n", nlohmann::json{{"http", server.url()}}.dump());
+  } else {
+    fmt::print("http: {}\n", server.url());
+  }
   std::fflush(stdout);
   catch_interrupts();
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -107,6 +113,8 @@ void add_view_command(CLI::App& app, Action& chosen) {
       "Scenario that a recording was made from: its world and its antennas' beams are drawn");
   command->add_option("--http", arguments->port, "Port of the page; 0 for any (default 8080)")
       ->check(CLI::Range(std::uint16_t{0}, std::uint16_t{65535}));
+  command->add_flag("--json", arguments->as_json,
+                    "Print the address as a line of JSON: {\"http\": URL}");
   command->add_option("--listen", arguments->listen,
                       "IP address to be reached at (default 127.0.0.1, by this machine alone)");
   command->footer(

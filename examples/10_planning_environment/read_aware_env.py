@@ -4,9 +4,9 @@
 
     PYTHONPATH=build/release/lib/python python3 examples/10_planning_environment/read_aware_env.py
 
-An action is a velocity and a turn rate, held for a second; an observation is where the robot believes to
-be and how often it has read each tag; a reward is each read that a tag still needs, less what time and
-walls cost. It needs no Gymnasium: reset() and step() give what its Env does.
+An action is a velocity and a turn rate, held for a second. An observation is where the robot believes it
+is and how often it has read each tag. The reward counts each read that a tag still needs, less a cost for
+time and walls. Where Gymnasium is installed, it is one of its environments; without, it works alone.
 """
 
 import math
@@ -15,10 +15,16 @@ import numpy as np
 
 import tagfield
 
+try:
+    from gymnasium import Env
+    from gymnasium.spaces import Box
+except ImportError:
+    Env = Box = None
+
 HALF_WIDTH_M, HALF_LENGTH_M = 1.9, 5.8  # Free floor between the racks.
 
 
-class ReadAwareEnv:
+class ReadAwareEnv(Env or object):
     """observation: float32 (3 + tags,): x, y [m], yaw [rad], then the share of the wanted reads a tag.
 
     action: (forward [m/s] in 0 … 0.5, turn [rad/s] in -1 … 1). Truncated after `limit_s`, terminated when
@@ -30,6 +36,9 @@ class ReadAwareEnv:
         self.scenario = tagfield.load(tagfield.share("scenarios/paper_warehouse.yaml")).with_(
             {"duration_s": limit_s, "antennas.mobile.range_m": 4})
         self.tags = list(self.scenario.tags)
+        if Box:
+            self.action_space = Box(np.float32([0.0, -1.0]), np.float32([0.5, 1.0]))
+            self.observation_space = Box(-np.inf, np.inf, (3 + len(self.tags),), np.float32)
 
     def reset(self, *, seed=None, options=None):
         self.sim = self.scenario.simulation(seed=seed, robot="p3at")

@@ -6,11 +6,14 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 
 from . import _core
 from ._scenario import Scenario, _flat, _value_text, load, threads_of
 from ._tables import frame_of
+
+if TYPE_CHECKING:
+    import pandas
 
 __all__ = ["Bench", "bench"]
 
@@ -29,11 +32,11 @@ class Bench:
     def __str__(self) -> str:
         return self._parts["text"]
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """A row for each condition and method: located, mean_m, ratio_rms, nees_mean, …"""
         return frame_of(self._parts["csv"])
 
-    def tags(self):
+    def tags(self) -> pandas.DataFrame:
         """A row for each condition, method, seed and tag, as a pandas.DataFrame."""
         return frame_of(self._parts["tags_csv"])
 

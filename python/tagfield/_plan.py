@@ -6,11 +6,14 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Mapping
+from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _core
 from ._scenario import Scenario, _changes, _Source, threads_of
 from ._tables import frame_of
+
+if TYPE_CHECKING:
+    import pandas
 
 __all__ = ["Plan", "plan"]
 
@@ -48,15 +51,15 @@ class Plan:
         return Scenario._from(_Source(text=self.layout, name=self.data["scenario"] + "_layout",
                                       allow_outside=True))
 
-    def layouts(self):
+    def layouts(self) -> pandas.DataFrame:
         """A row for each number of antennas, as a pandas.DataFrame."""
         return frame_of(self._parts["layouts_csv"])
 
-    def antennas(self):
+    def antennas(self) -> pandas.DataFrame:
         """A row for each antenna of each layout, as a pandas.DataFrame."""
         return frame_of(self._parts["antennas_csv"])
 
-    def places(self):
+    def places(self) -> pandas.DataFrame:
         """A row for each place of tags, p_N by number of antennas, as a pandas.DataFrame."""
         return frame_of(self._parts["places_csv"])
 

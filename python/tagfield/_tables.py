@@ -4,8 +4,12 @@
 from __future__ import annotations
 
 import io
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
 
 __all__ = ["Table"]
 
@@ -75,7 +79,7 @@ class Table(np.ndarray):
             rows &= np.isin(self[column], [self.number(column, name) for name in wanted])
         return self[rows]
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas.DataFrame.
 
         Columns of names become categories; a position (3,) becomes three columns ``x_m``, ``y_m``,
@@ -120,7 +124,7 @@ def _split(column: str, values: np.ndarray) -> dict[str, np.ndarray]:
             for i, index in enumerate(np.ndindex(*values.shape[1:]))}
 
 
-def frame_of(csv: str):
+def frame_of(csv: str) -> pandas.DataFrame:
     """A table of the command's, as CSV text, as a pandas.DataFrame."""
     import pandas
 

@@ -2,9 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """`--json` of each command that has results: what it prints is what it writes."""
 
+import contextlib
 import json
+import signal
+import subprocess
+import urllib.request
 
-from common import case, check_equal, check_in, main, read_csv, read_json, words
+from common import case, check, check_equal, check_in, clean_environment, main, read_csv, read_json, words
 
 
 @case
@@ -41,6 +45,52 @@ def json_is_what_the_files_hold(context):
     for arguments in (("run", warehouse, "--record-only", "--json"), ("track", run / "reads.csv", "--poses",
                       run / "antenna_poses.csv", "--allow-outside"), ("localize", run, "--skip-missing")):
         check_equal(context.run(*arguments).code, 2, words(arguments))
+
+
+@case
+def written_files_are_named(context):
+    made = json.loads(context.run_well("new", context.folder / "hall", "--json").out)
+    check_equal(made, {"folder": str(context.folder / "hall"), "files": [
+        str(context.folder / "hall" / name) for name in ("hall.yaml", "hall.sdf", "analyse.py")]}, "new")
+    run = context.folder / "run"
+    context.run_well("run", context.folder / "hall/hall.yaml", "--out", run)
+    (run / "report.html").unlink()
+    drawn = json.loads(context.run_well("report", run, "--json").out)
+    check_equal(drawn, {"page": f"{run}/report.html"}, "report")
+    check((run / "report.html").is_file(), "there is no page")
+    world = context.folder / "hall.world"
+    written = json.loads(context.run_well("gazebo", context.folder / "hall/hall.yaml", "--out", world, "--json").out)
+    check_equal(written["world"], str(world), "gazebo")
+    check_equal(list(written["environment"]), ["GAZEBO_MODEL_PATH"], "environment of gazebo")
+    converted = json.loads(context.run_well("gazebo", world, "--gz", "--out", context.folder / "hall.sdf", "--json").out)
+    check_equal(converted, {"world": str(context.folder / "hall.sdf"), "environment": {}}, "gazebo --gz of a world")
+
+
+@contextlib.contextmanager
+def started(context, *arguments):
+    """What a server prints first, as JSON."""
+    command = [str(word) for word in (context.tagfield, *arguments, "--http", "0", "--json")]
+    with subprocess.Popen(command, cwd=context.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, env=clean_environment()) as process:
+        try:
+            yield json.loads(process.stdout.readline())
+        finally:
+            process.send_signal(signal.SIGTERM)
+            check_equal(process.wait(timeout=30), 0, f"exit code of {words(arguments)}")
+
+
+@case
+def servers_say_where_they_are(context):
+    portal = context.shipped("portal")
+    with started(context, "serve", portal, "--llrp", "0") as told:
+        with urllib.request.urlopen(f"{told['http']}/api/status", timeout=20) as answer:
+            check_equal(json.load(answer)["mode"], "live", "what answers at the address")
+        check_equal([sorted(reader) for reader in told["llrp"]], [["address", "port", "reader"]], "llrp")
+        check(told["llrp"][0]["port"] > 0, f"port {told['llrp'][0]['port']}")
+    run = context.simulate("portal", "--no-page")
+    with started(context, "view", run) as told:
+        with urllib.request.urlopen(f"{told['http']}/api/status", timeout=20) as answer:
+            check_equal(json.load(answer), {"mode": "recorded"}, "what answers at the address of a run")
 
 
 if __name__ == "__main__":

@@ -67,6 +67,22 @@ def unfiltered(kind, line, above, size):
     return line
 
 
+# Of axe's violations those that it calls serious or critical.
+AXE = """
+const done = arguments[arguments.length - 1];
+axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violations
+  .filter(one => one.impact === 'serious' || one.impact === 'critical')
+  .map(one => one.id + ': ' + one.help + ': ' + one.nodes.map(node => node.target.flat().join(' ')).slice(0, 3).join(', '))),
+  error => done(['axe failed: ' + error]));
+"""
+
+
+def serious_barriers(driver, axe):
+    """What axe-core, whose source is `axe`, finds wrong with the page that is open: a line each."""
+    driver.execute_script(axe)
+    return driver.execute_async_script(AXE)
+
+
 class Browser:
     """One tab. Points are CSS pixels of the window."""
 

@@ -22,13 +22,15 @@ import tempfile
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "command"))
-from browser import (NO_WEBGL, Bundle, browser, mock, webgl_or_skip)  # noqa: E402
+from browser import (NO_WEBGL, Bundle, browser, mock, serious_barriers, webgl_or_skip)  # noqa: E402
 from common import (Skip, case, check, check_between, check_equal, check_in, check_near,
                      # noqa: E402
                     main, position, read_csv)
+from npm import npm_packages  # noqa: E402
 from served import served  # noqa: E402
 
 SCENARIO = "warehouse_physics"
+PAGE_TESTS = pathlib.Path(__file__).parent.parent / "page"  # Whose packages have axe.
 LEAST_CONTRAST = 4.5  # WCAG 2.1, success criterion 1.4.3, for text.
 LARGEST_PAGE = 900_000
 _shared = {}
@@ -446,6 +448,19 @@ def light_and_dark_are_legible(context, one, address, shared):
     one.press_button("view", "Light")
     check_equal(one.ask("at.view.dataset.theme"), "light", "the theme after the switch")
     one.do("localStorage.clear()")
+
+
+@with_page()
+def no_barrier_is_serious(context, one, address, shared):
+    packages = npm_packages(context.build, PAGE_TESTS, "page")
+    axe = (packages / "node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
+    for theme in ("light", "dark"):
+        one.screen(theme=theme)
+        for what in ("view.deselect()", "view.select('tag', 0)", "view.select('antenna', 0)",
+                     "view.deselect(); view.lists.show('changes')"):
+            one.do(what)
+            one.driver.execute_async_script("setTimeout(arguments[0], 700)")
+            check_equal(serious_barriers(one.driver, axe), [], f"{theme}, {what}: barriers")
 
 
 @with_page()

@@ -15,7 +15,7 @@ import urllib.parse
 HERE = pathlib.Path(__file__).parent
 sys.path[:0] = [str(HERE.parent / "command"), str(HERE.parent / "live")]
 
-from browser import NO_WEBGL, browser  # noqa: E402
+from browser import NO_WEBGL, browser, serious_barriers  # noqa: E402
 from common import case, check, check_equal, check_in, check_near, main, read_csv  # noqa: E402
 from npm import npm_packages  # noqa: E402
 
@@ -26,22 +26,28 @@ conditions:
   - {{name: true pose}}
   - {{name: noise 0.5 rad, set: {{antennas.mobile.phase_noise_rad: 0.5}}}}
 """
-AXE = """
-const done = arguments[arguments.length - 1];
-axe.run(document, {resultTypes: ['violations']}).then(found => done(found.violations
-  .filter(one => one.impact === 'serious' || one.impact === 'critical')
-  .map(one => one.id + ': ' + one.help + ': ' + one.nodes.map(node => node.target.flat().join(' ')).slice(0, 3).join(', '))),
-  error => done(['axe failed: ' + error]));
+SWEEP = """scenario: {scenario}
+seeds: 2
+methods: [hyperbola, ml]
+sweep:
+  grid: {{antennas.mobile.phase_noise_rad: [0.1, 0.3, 0.5]}}
 """
 
 
 def pages_of(context):
-    """The pages of a run, a bench and of tracks."""
-    suite = context.write("suite.yaml", SUITE.format(scenario=context.shipped("paper_warehouse")))
-    context.run_well("run", context.shipped("paper_warehouse"), "--out", "run")
-    context.run_well("bench", suite, "--out", "bench")
+    """A page of each kind."""
+    hall = context.shipped("paper_warehouse")
+    context.run_well("run", hall, "--out", "run")
+    context.run_well("run", hall, "--out", "noisy", "--set", "pose.source=noisy")
+    context.run_well("compare", "run", "noisy", "--out", "compare")
+    context.run_well("bench", context.write("suite.yaml", SUITE.format(scenario=hall)), "--out", "bench")
+    context.run_well("sweep", context.write("sweep.yaml", SWEEP.format(scenario=hall)), "--out", "sweep")
     context.run_well("track", context.shipped("conveyor"), "--out", "track")
-    return [context.folder / page for page in ("run/report.html", "bench/bench.html", "track/tracks.html")]
+    context.run_well("coverage", context.shipped("portal"), "--out", "coverage")
+    context.run_well("plan", context.shipped("plan/room"), "--samples", "8", "--out", "plan")
+    return [context.folder / page for page in (
+        "run/report.html", "compare/compare.html", "bench/bench.html", "sweep/sweep.html", "track/tracks.html",
+        "coverage/coverage.html", "plan/plan.html")]
 
 
 def open_page(one, page, width=1400, theme="light"):
@@ -75,8 +81,7 @@ def no_barrier_is_serious(context):
             for width, theme in ((1400, "light"), (390, "dark")):
                 open_page(one, page, width, theme)
                 one.driver.execute_script("for (const one of document.querySelectorAll('details')) one.open = true;")
-                one.driver.execute_script(axe)
-                check_equal(one.driver.execute_async_script(AXE), [], f"{page.name}, {width} px, {theme}: barriers")
+                check_equal(serious_barriers(one.driver, axe), [], f"{page.name}, {width} px, {theme}: barriers")
                 check(one.driver.execute_script(
                     "return document.scrollingElement.scrollWidth <= window.innerWidth"),
                     f"{page.name} scrolls sideways at {width} px")
