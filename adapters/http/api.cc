@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "adapters/http/json_arguments.h"
+#include "adapters/http/live_json.h"
 #include "adapters/http/target.h"
-#include "adapters/http/world_json.h"
 #include "tagfield/base/error.h"
 #include "tagfield/base/units.h"
 #include "tagfield/planning/coverage.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "adapters/http/world_json.h"
+#include "adapters/http/live_json.h"
 
 namespace tagfield::http {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tagfield/map/occupancy_grid.h"
-#include "tagfield/planning/link_explanation.h"
 #include "tagfield/poses/trajectory.h"
 #include "tagfield/report/page.h"
 #include "tagfield/report/run_files.h"

@@ -18,8 +18,6 @@ constexpr int kPolarSteps = 36;
 constexpr int kAzimuthSteps = 24;
 constexpr double kLeastGain_db = -40.0;
 
-Json point_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
 Json mesh_json(const TriangleMesh& mesh) {
   Json vertices = Json::array();
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
@@ -82,6 +80,8 @@ std::vector<std::string> materials_of(const Scene& scene, const Scenario& scenar
 std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+Json point_json(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 Json pose_json(const RigidTransform& X) {
   const Eigen::Vector3d& p = X.translation;
@@ -191,32 +191,6 @@ Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size
           {"beam", beam_json(parameters)}};
 }
 
-Json antennas_json(const LiveWorld& world) {
-  Json all = Json::array();
-  for (const LiveAntenna& antenna : world.antennas()) {
-    Json json = antenna_json(antenna.spec, world.antenna_pose(antenna),
-                             static_cast<std::size_t>(antenna.port));
-    json["on"] = antenna.is_on;
-    json["faulty"] = antenna.is_faulty;
-    all.push_back(std::move(json));
-  }
-  return {{"antennas", std::move(all)}};
-}
-
-Json tags_json(const LiveWorld& world) {
-  std::map<std::string, bool> moving;
-  for (const TagSpec& tag : world.scenario().tags) moving[tag.id] = moves(tag);
-  Json all = Json::array();
-  for (const LivePose& tag : world.tags()) {
-    const Eigen::Quaterniond& q = tag.X_W.rotation;
-    all.push_back({{"id", tag.name},
-                   {"position", point_json(tag.X_W.translation)},
-                   {"rotation", {q.x(), q.y(), q.z(), q.w()}},
-                   {"moves", moving[tag.name]}});
-  }
-  return {{"tags", std::move(all)}};
-}
-
 Json covariance_json(const Candidate& place) {
   if (!place.covariance) {
     const double equal = 0.5 * place.expected_error_m * place.expected_error_m;
@@ -224,47 +198,6 @@ Json covariance_json(const Candidate& place) {
   }
   const Eigen::Matrix3d& known = *place.covariance;
   return {known(0, 0), known(0, 1), known(1, 1)};
-}
-
-Json estimate_rows(const std::vector<LiveEstimate>& estimates) {
-  Json all = Json::array();
-  for (const LiveEstimate& one : estimates) {
-    const TagEstimate& estimate = one.estimate;
-    Json row = {estimate.tag};
-    if (estimate.verdict == Verdict::kLocated) {
-      const Candidate& place = estimate.candidates.front();
-      for (const double number : {place.p_WT.x(), place.p_WT.y(), place.p_WT.z()}) {
-        row.push_back(number);
-      }
-      row.push_back(covariance_json(place));
-    } else {
-      row.push_back(nullptr);
-    }
-    all.push_back(std::move(row));
-  }
-  return all;
-}
-
-Json estimates_json(const LiveEstimates& estimates) {
-  Json all = Json::array();
-  for (const LiveEstimate& one : estimates.since(0)) {
-    const TagEstimate& estimate = one.estimate;
-    Json candidates = Json::array();
-    for (const Candidate& place : estimate.candidates) {
-      candidates.push_back({{"position", point_json(place.p_WT)},
-                            {"covariance", covariance_json(place)},
-                            {"expectedError", place.expected_error_m},
-                            {"rms", place.rms_m}});
-    }
-    all.push_back({{"id", estimate.tag},
-                   {"verdict", to_string(estimate.verdict)},
-                   {"reason", estimate.reason},
-                   {"method", one.method},
-                   {"time", to_seconds(one.last_read)},
-                   {"reads", estimate.reads},
-                   {"candidates", std::move(candidates)}});
-  }
-  return {{"estimates", std::move(all)}, {"warnings", estimates.warnings()}};
 }
 
 }  // namespace tagfield::http

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A live world as JSON, for pages and programs: docs/live.md and openapi.json say what is in it.
+/// A world as JSON, for pages and programs: docs/live.md and openapi.json say what is in it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
-#include "tagfield/live/live_estimates.h"
-#include "tagfield/live/live_world.h"
+#include "tagfield/localization/tag_estimate.h"
 #include "tagfield/poses/rigid_transform.h"
+#include "tagfield/scenario/scenario.h"
 #include "tagfield/world/scene.h"
 
 namespace tagfield::http {
@@ -19,6 +18,8 @@ using Json = nlohmann::ordered_json;
 /// On one line; bytes that are no UTF-8 are replaced.
 std::string json_text(const Json& json);
 
+/// [x, y, z].
+Json point_json(const Eigen::Vector3d& p);
 /// [x, y, z, qx, qy, qz, qw].
 Json pose_json(const RigidTransform& X);
 
@@ -34,14 +35,8 @@ Json paths_json(const Scenario& scenario);
 /// azimuth about it; null for the paper's antenna, which has none.
 Json beam_json(const AntennaParameters& antenna);
 Json antenna_json(const AntennaSpec& spec, const RigidTransform& X_WA, std::size_t port);
-Json antennas_json(const LiveWorld& world);
-Json tags_json(const LiveWorld& world);
 
 /// [xx, xy, yy] of the place's covariance [m²]; where it is not told as well known either way.
 Json covariance_json(const Candidate& place);
-/// [tag, x, y, z, [xx, xy, yy]] of each that is located, [tag, null] of the others.
-Json estimate_rows(const std::vector<LiveEstimate>& estimates);
-/// All that is known of them.
-Json estimates_json(const LiveEstimates& estimates);
 
 }  // namespace tagfield::http

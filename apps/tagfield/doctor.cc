@@ -257,7 +257,7 @@ Ability python() {
           "apt-get install python3-tagfield, or docs/python.md from sources"};
 }
 
-std::vector<Ability> findings(const BuildInfo& build) {
+std::vector<Ability> abilities(const BuildInfo& build) {
   std::vector<Ability> all = {machine(), shared_files()};
   for (const OptionalPart& part : build.parts) {
     if (part.key == "mpi" || part.key == "ros2") continue;  // More is asked of them below.
@@ -265,9 +265,9 @@ std::vector<Ability> findings(const BuildInfo& build) {
                    part.present ? part.is_for : "built without " + part.is_for,
                    part.present ? "" : part.needs});
   }
-  for (const Ability& finding :
+  for (const Ability& ability :
        {ros2_messages(), mpi(build), python(), ros1(), gazebo(), gz_sim(), browser()}) {
-    all.push_back(finding);
+    all.push_back(ability);
   }
   return all;
 }
@@ -275,29 +275,29 @@ std::vector<Ability> findings(const BuildInfo& build) {
 // --- What is said of it
 // ---------------------------------------------------------------------------
 
-void print_findings(const BuildInfo& build, const std::vector<Ability>& all) {
+void print_abilities(const BuildInfo& build, const std::vector<Ability>& all) {
   fmt::print("tagfield {}, commit {}\n\nWorks:\n", build.version,
              build.commit.empty() ? "unknown" : build.commit);
-  for (const Ability& finding : all) {
-    if (finding.works) fmt::print("  {:<9} {}\n", finding.key, finding.what);
+  for (const Ability& ability : all) {
+    if (ability.works) fmt::print("  {:<9} {}\n", ability.key, ability.what);
   }
   bool first = true;
-  for (const Ability& finding : all) {
-    if (finding.works) continue;
+  for (const Ability& ability : all) {
+    if (ability.works) continue;
     if (first) fmt::print("\nNot here, and how to get it if it is wanted:\n");
     first = false;
-    fmt::print("  {:<9} {}\n            {}\n", finding.key, finding.what, finding.how_to_get);
+    fmt::print("  {:<9} {}\n            {}\n", ability.key, ability.what, ability.how_to_get);
   }
 }
 
-void print_findings_json(const BuildInfo& build, const std::vector<Ability>& all) {
+void print_abilities_json(const BuildInfo& build, const std::vector<Ability>& all) {
   nlohmann::ordered_json json = {
       {"version", build.version}, {"commit", build.commit}, {"findings", nlohmann::json::array()}};
-  for (const Ability& finding : all) {
-    json["findings"].push_back({{"key", finding.key},
-                                {"works", finding.works},
-                                {"what", finding.what},
-                                {"how_to_get", finding.how_to_get}});
+  for (const Ability& ability : all) {
+    json["findings"].push_back({{"key", ability.key},
+                                {"works", ability.works},
+                                {"what", ability.what},
+                                {"how_to_get", ability.how_to_get}});
   }
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -315,8 +315,8 @@ void add_doctor_command(CLI::App& app, Action& chosen) {
   command->callback([as_json, &chosen] {
     chosen = [as_json] {
       const BuildInfo build = build_info();
-      const std::vector<Ability> all = findings(build);
-      *as_json ? print_findings_json(build, all) : print_findings(build, all);
+      const std::vector<Ability> all = abilities(build);
+      *as_json ? print_abilities_json(build, all) : print_abilities(build, all);
       return kExitOk;
     };
   });
