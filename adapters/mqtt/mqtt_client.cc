@@ -182,7 +182,7 @@ class MqttClient::Impl {
     const std::lock_guard lock(mutex_);
     if (std::exchange(is_connected_, false) && code != 0) {
       was_away_ = true;
-      warn("the connection is lost; trying again");
+      warn("the connection is broken; trying again");
     }
   }
 

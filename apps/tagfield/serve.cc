@@ -203,9 +203,9 @@ int serve(ServeArguments arguments) {
     server.emplace(answerer, feed,
                    http::HttpOptions{arguments.listen, *arguments.http, arguments.token});
   }
+  catch_interrupts();  // Before it says that it is there.
   print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
                   server ? server->url() : std::string(), arguments.as_json);
-  catch_interrupts();
   world.run(interrupted());
   finish(middleware, world.now());
   server.reset();

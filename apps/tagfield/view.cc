@@ -86,6 +86,7 @@ int view(const ViewArguments& arguments) {
   RunAnswerer answerer(is_recording ? run_in_recording(arguments, diagnostics)
                                     : run_in_folder(arguments));
   print_warnings(diagnostics);
+  catch_interrupts();  // Before it says that it is there.
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
   if (arguments.as_json) {
     fmt::print("{}\n", nlohmann::json{{"http", server.url()}}.dump());
@@ -93,7 +94,6 @@ int view(const ViewArguments& arguments) {
     fmt::print("http: {}\n", server.url());
   }
   std::fflush(stdout);
-  catch_interrupts();
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return kExitOk;
 }

@@ -37,7 +37,8 @@ double log_determinant_of(const Matrix& A) {
 template <typename Matrix>
 std::optional<Matrix> cholesky_factor_of(const Matrix& A) {
   const Eigen::LLT<Matrix> factors(A);
-  if (factors.info() != Eigen::Success) return std::nullopt;
+  // Where A is not a number, Eigen says nothing.
+  if (factors.info() != Eigen::Success || !factors.matrixLLT().allFinite()) return std::nullopt;
   return Matrix(factors.matrixL());
 }
 

@@ -40,7 +40,7 @@ for(const box of document.querySelectorAll(".table")){
  box.before(filter);
 }
 })();)js",
-                                "sha256-O1QJJf+qCmaSxnD6NjjHkfT62NojrdA704eylgsZj1E="};
+                                "sha256-yC62jTOCeDzIDOn18NhFJcFIxMJid2IeikpAciF3vE8="};
 
 constexpr PageScript kFigures = {R"js((()=>{
 const put=(tag,name)=>{const made=document.createElement(tag);made.className=name;return made};

@@ -6,6 +6,7 @@
 
 #include "tagfield/report/axes.h"
 #include "tagfield/report/internal/color_bands.h"
+#include "tagfield/report/internal/figure_data.h"
 #include "tagfield/report/internal/map_view.h"
 #include "tagfield/report/plan_page.h"
 #include "tagfield/report/text.h"
@@ -133,8 +134,13 @@ Figure level_figure(const AntennaPlan& plan, const Level& level, std::size_t num
   const double area = (map.axes.x.to - map.axes.x.from) * (map.axes.y.from - map.axes.y.to);
   const double crowd = static_cast<double>(std::max<std::size_t>(level.places.size() / step, 1));
   const double radius = std::clamp(0.32 * std::sqrt(area / crowd), 2.0, 7.0);
+  figure.data = "group,x_m,y_m,z_m,share\n";
   for (std::size_t i = 0; i < level.places.size(); i += step) {
-    draw_place(figure.svg, map, plan, level.places[i], radius);
+    const std::size_t index = level.places[i];
+    draw_place(figure.svg, map, plan, index, radius);
+    const PlannedPlace& place = plan.places[index];
+    add_data(figure.data, place.group, place.p_W.x(), place.p_W.y(), place.p_W.z(),
+             plan.layouts[plan.chosen].places[index]);
   }
   draw_outlines(figure.svg, map, top_view);
   const std::vector<std::string> readers = readers_of_all(plan);
@@ -203,6 +209,7 @@ Figure curve_figure(const AntennaPlan& plan) {
       has_bounds ? " Dashed: no layout of as many antennas within the "
                    "limits has more, before contention for slots."
                  : "");
+  figure.data = plan_layouts_to_csv(plan);
   return figure;
 }
 

@@ -45,7 +45,8 @@ def bad_requests_are_told(context):
     for arguments, says in (
             (("--out", context.folder / "no/such/folder/x.world"), "x.world"),
             (("--out", context.folder), str(context.folder)),
-            (("--real-time", "-1"), "--real-time"), (("--real-time", "fast"), "--real-time"),
+            (("--real-time", "-1"), "--speed: '-1': expected a multiple of real time"),
+            (("--speed", "fast"), "--speed: 'fast': expected a multiple of real time"),
             (("--set", "tags.tag1.id=tag2"), "tag2"), (("--set", "robots.p3at.name=other"), "p3at")):
         result = context.run("gazebo", scenario, *arguments)
         check_equal(result.code, 2, f"exit code with {arguments}")

@@ -156,7 +156,7 @@ def nothing_is_lost_while_the_broker_restarts(context):
         broker.start()
         out, err = program.communicate(timeout=60)
         check_equal(program.returncode, 0, "exit code")
-        check_in("the connection is lost; trying again", err, "warnings")
+        check_in("the connection is broken; trying again", err, "warnings")
         check_in(": connected\n", err, "warnings")
         check("lost" not in err, f"it says {err!r}")
         lines = out.splitlines()

@@ -131,7 +131,8 @@ TEST_F(RecordedRun, LoadsReadsAndPlaces) {
   ASSERT_EQ(run.truth.tag_positions.size(), 2U);
   EXPECT_EQ(run.truth.tag_positions[1].p_WT, Eigen::Vector3d(3, 4, 0.5));  // As the antennas.
   ASSERT_EQ(diagnostics.warnings().size(), 1U);
-  EXPECT_NE(diagnostics.warnings()[0].find("1 tag in the reads ('stranger'"), std::string::npos)
+  EXPECT_NE(diagnostics.warnings()[0].find("1 tag in the reads (such as 'stranger'"),
+            std::string::npos)
       << diagnostics.warnings()[0];
   EXPECT_THROW(load_recording(recording_, {}, diagnostics), Error);
 }

@@ -16,7 +16,7 @@ export function buildFrame(host) {
     "views",
     h("div", {class: "views", role: "group", "aria-label": "View"},
       button("Whole", "View of the whole world (1)", {"data-view": "world"}),
-      button("Top", "View from above (2)", {"data-view": "top"}),
+      button("Top", "Top: view from above (2)", {"data-view": "top"}),
       button("Side", "View from the side (3)", {"data-view": "side"}),
       button("Follow", "Follow the robot (4)", {"data-view": "follow", "aria-pressed": "false"})));
   const header =
