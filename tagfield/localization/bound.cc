@@ -13,7 +13,7 @@
 namespace tagfield {
 namespace {
 
-/// Knots a time constant, as in the joint estimate.
+/// Knots a time constant. The joint estimate, which is solved many times, has fewer.
 constexpr double kKnotsPerTimeConstant = 75.0;
 
 /// Antennas that moved while they read the tag, or whose offset is known: the others tell nothing.

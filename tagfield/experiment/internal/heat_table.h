@@ -13,8 +13,8 @@ namespace tagfield {
 /// condition; and the words that go with it. HTML.
 std::string heat_table(const Bench& bench);
 
-/// "ml, 3.1 mm; not told apart from it: joint, auto" as plain text; "none: …" where no tag was
-/// located right.
+/// "ml, 3.1 mm; not significantly different from it: joint, auto" as plain text; "none: …" where no
+/// tag was located right.
 std::string winner_words(const Bench& bench, const BenchCondition& condition);
 
 }  // namespace tagfield
