@@ -107,6 +107,9 @@ made in Python, localization methods and outlets as functions, plots."
       "tagfield-common (= ${PROJECT_VERSION})"
     RECOMMENDS python3-matplotlib python3-pandas ${loaded}
     SUGGESTS tagfield)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/packaging/python3-tagfield/postinst
+    ${PROJECT_SOURCE_DIR}/packaging/python3-tagfield/prerm)
 endif()
 if(TAGFIELD_GAZEBO AND NOT TAGFIELD_COMMAND)
   tagfield_package(gazebo tagfield-gazebo SECTION science
