@@ -23,5 +23,9 @@ install(FILES ${PROJECT_BINARY_DIR}/tagfieldConfig.cmake
 if(TAGFIELD_COMMAND)
   install(DIRECTORY models profiles scenarios templates worlds
     DESTINATION ${CMAKE_INSTALL_DATADIR}/tagfield COMPONENT data)
+  install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tagfield-common COMPONENT data
+    USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
+  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/tagfield-common COMPONENT data
+    PATTERN __pycache__ EXCLUDE PATTERN site EXCLUDE)
 endif()
 include(TagfieldPackages)

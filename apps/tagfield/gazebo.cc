@@ -94,7 +94,8 @@ int write_gazebo_world(const GazeboArguments& arguments) {
   catch_interrupts();  // What is left takes but a moment, and then nothing half-done lies about.
   write_text_file(out.string(), text);
   std::vector<std::string> folders = gazebo_model_paths(scenario);
-  folders.push_back(shared_folder("models").string());
+  const std::string shared = shared_folder("models").string();
+  if (std::find(folders.begin(), folders.end(), shared) == folders.end()) folders.push_back(shared);
   const char* const variable = arguments.gz ? "GZ_SIM_RESOURCE_PATH" : "GAZEBO_MODEL_PATH";
   print_written(out, variable, fmt::format("{}", fmt::join(folders, ":")), arguments.as_json);
   return kExitOk;
