@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "adapters/gazebo_world/gz_sim_world.h"
 #include "adapters/gazebo_world/scenario_world.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/speed_option.h"
@@ -63,7 +63,7 @@ void print_written(const fs::path& world, const std::string& variable, const std
     nlohmann::ordered_json all = {{"world", world.string()},
                                   {"environment", nlohmann::ordered_json::object()}};
     if (!variable.empty()) all["environment"][variable] = folders;
-    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json_line(all);
     return;
   }
   fmt::print("world: {}\n", world.string());

@@ -89,17 +89,23 @@ MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start
   return run;
 }
 
-void finish(const MiddlewareRun& run, Time end) {
+bool finish(const MiddlewareRun& run, Time end) {
+  bool is_whole = true;
   if (run.events) run.events->finish(end);
   if (run.broker) {
     run.broker->finish(interrupted() ? kMomentAfterInterrupt : MqttOptions{}.patience);
+    const MqttCounts counts = run.broker->counts();
+    is_whole = counts.delivered == counts.taken;
   }
   if (run.capture) {
     // Ctrl-C may also come while it is waited.
     const bool was_interrupted = interrupted();
     run.capture->finish(was_interrupted ? kMomentAfterInterrupt : kCapturePatience,
                         [was_interrupted] { return !was_interrupted && interrupted(); });
+    const CaptureCounts counts = run.capture->counts();
+    is_whole = is_whole && counts.captured == counts.taken;
   }
+  return is_whole;
 }
 
 }  // namespace tagfield

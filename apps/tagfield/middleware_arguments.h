@@ -50,7 +50,8 @@ struct MiddlewareRun {
 MiddlewareRun attach_middleware(const MiddlewareArguments& arguments, Time start, Outlets& outlets);
 
 /// The run ends at `end`: what that makes of events is told, and what has not got through yet is
-/// waited for, after Ctrl-C a moment only.
-void finish(const MiddlewareRun& run, Time end);
+/// waited for, after Ctrl-C a moment only. False if some of it was lost or refused, of which a
+/// warning has told.
+bool finish(const MiddlewareRun& run, Time end);
 
 }  // namespace tagfield

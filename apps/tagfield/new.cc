@@ -3,10 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/error.h"
@@ -62,7 +62,7 @@ int make_new(const std::string& path, bool as_json) {
   if (as_json) {
     nlohmann::ordered_json all = {{"folder", folder.string()}};
     for (const auto& [file, text] : files) all["files"].push_back(file);
-    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json_line(all);
     return kExitOk;
   }
   const std::string scenario = (folder / (name + ".yaml")).string();

@@ -11,6 +11,7 @@
 #include "apps/tagfield/plan_arguments.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/top_view_file.h"
 #include "tagfield/files/staged_folder.h"
 #include "tagfield/layout/layout_scenario.h"
@@ -60,6 +61,7 @@ AntennaPlan with_progress(const ScenarioToPlan& to_plan, PlanQuestion question,
 int plan(const PlanArguments& arguments) {
   Diagnostics diagnostics;
   const std::vector<Override> overrides = overrides_in(arguments.settings);
+  suggest_shared_file(arguments.scenario);
   const ScenarioToPlan to_plan =
       load_scenario_to_plan(arguments.scenario, overrides, diagnostics, arguments.world);
   PlanQuestion question = arguments.question;

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "adapters/http/run_json.h"
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
 #include "apps/tagfield/localize.h"
 #include "tagfield/report/page.h"
 
@@ -20,8 +20,7 @@ int report(const LocalizeArguments& arguments) {
   write_report(arguments.recording, http::view_of(arguments.recording));
   const std::string page = arguments.recording + "/report.html";
   if (arguments.as_json) {
-    fmt::print("{}\n", nlohmann::json{{"page", page}}.dump(
-                           -1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json_line({{"page", page}});
   } else {
     fmt::print("page: {}\n", page);
   }

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "apps/tagfield/shared_folder.h"
 #include "tagfield/base/spelling.h"
 #include "tagfield/base/wildcard.h"
 #include "tagfield/experiment/leave_one_out.h"
@@ -87,6 +88,7 @@ std::vector<Override> overrides_in(const std::vector<std::string>& settings) {
 }
 
 ScenarioWithWorld load(const ScenarioArguments& arguments, Diagnostics& diagnostics) {
+  suggest_shared_file(arguments.scenario);
   ScenarioWithWorld loaded = load_scenario_with_world(
       arguments.scenario, overrides_in(arguments.settings), diagnostics, arguments.world);
   take_antennas_away(arguments.without, loaded.scenario);

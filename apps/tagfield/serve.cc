@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "adapters/http/admission.h"
@@ -15,6 +14,7 @@
 #include "adapters/llrp/llrp_server.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
 #include "apps/tagfield/middleware_arguments.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/speed_option.h"
@@ -146,7 +146,7 @@ void print_addresses(const std::vector<llrp::LlrpAddress>& readers, const std::s
       all["llrp"].push_back(
           {{"reader", reader.reader}, {"address", reader.address}, {"port", reader.port}});
     }
-    fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json_line(all);
   } else {
     for (const llrp::LlrpAddress& reader : readers) {
       fmt::print("llrp: {} at {} port {}\n", reader.reader, reader.address, reader.port);

@@ -92,8 +92,9 @@ int stream(const StreamArguments& arguments) {
     const SeedRun run = simulate(scenario, arguments.scenario.seed.value_or(scenario.seed), control,
                                  world ? &*world : nullptr);
     lines->flush();
-    finish(middleware, time_from_seconds(run.simulated_s));
-    return run.complete ? kExitOk : kExitInterrupted;
+    const bool is_whole = finish(middleware, time_from_seconds(run.simulated_s));
+    if (!run.complete) return kExitInterrupted;
+    return is_whole ? kExitOk : kExitBadInput;
   } catch (const OutputClosed&) {
     return kExitOk;
   }

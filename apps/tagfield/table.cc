@@ -14,6 +14,12 @@ constexpr std::size_t kMostRows = 60;
 
 double millimetres(double metres) { return 1e3 * metres; }
 
+/// Errors that a table from elsewhere does not state are 0.
+std::string stated(double error_m, int width) {
+  return error_m > 0.0 ? fmt::format("{:{}.1f}", millimetres(error_m), width)
+                       : fmt::format("{:>{}}", "-", width);
+}
+
 std::string place_columns(const Eigen::Vector3d& p) {
   return fmt::format("{:8.3f} {:8.3f} {:7.3f}", p.x(), p.y(), p.z());
 }
@@ -41,9 +47,9 @@ std::string row_of(const TagOutcome& tag, std::size_t width) {
   const auto error = error_of(tag);
   const std::string error_text =
       error ? fmt::format("{:9.1f}", millimetres(*error)) : fmt::format("{:>9}", "-");
-  return fmt::format("{:<{}}  {} {} {:8.1f} {:11.1f} {:7}\n", estimate.tag, width,
-                     place_columns(best.p_WT), error_text, millimetres(best.rms_m),
-                     millimetres(best.expected_error_m), tag.reads);
+  return fmt::format("{:<{}}  {} {} {} {} {:7}\n", estimate.tag, width, place_columns(best.p_WT),
+                     error_text, stated(best.rms_m, 8), stated(best.expected_error_m, 11),
+                     tag.reads);
 }
 
 std::string rows_of_one_seed(const Summary& summary) {

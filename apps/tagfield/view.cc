@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "adapters/http/http_server.h"
@@ -12,6 +11,7 @@
 #include "adapters/ros1/bag_recording.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/commands.h"
+#include "apps/tagfield/json_line.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "tagfield/files/staged_folder.h"
@@ -89,7 +89,7 @@ int view(const ViewArguments& arguments) {
   catch_interrupts();  // Before it says that it is there.
   const http::HttpServer server(answerer, nullptr, {arguments.listen, arguments.port, ""});
   if (arguments.as_json) {
-    fmt::print("{}\n", nlohmann::json{{"http", server.url()}}.dump());
+    print_json_line({{"http", server.url()}});
   } else {
     fmt::print("http: {}\n", server.url());
   }

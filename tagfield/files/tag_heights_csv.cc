@@ -20,7 +20,7 @@ std::map<std::string, double> read_tag_heights_csv(const std::string& path) {
   std::map<std::string, double> heights;
   for (const CsvRow& row : table.rows) {
     if (!heights.emplace(table.text(row, tag), table.length(row, height)).second) {
-      fail({path, row.line}, fmt::format("tag '{}' is here twice", row.fields[tag]));
+      fail({path, row.line}, fmt::format("tag '{}' is listed twice", row.fields[tag]));
     }
   }
   return heights;

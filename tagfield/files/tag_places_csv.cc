@@ -22,7 +22,7 @@ std::map<std::string, Eigen::Vector3d> read_tag_places_csv(const std::string& pa
   std::map<std::string, Eigen::Vector3d> places;
   for (const CsvRow& row : table.rows) {
     if (!places.emplace(table.text(row, tag), table.position(row, xyz)).second) {
-      fail({path, row.line}, fmt::format("tag '{}' is here twice", row.fields[tag]));
+      fail({path, row.line}, fmt::format("tag '{}' is listed twice", row.fields[tag]));
     }
   }
   return places;

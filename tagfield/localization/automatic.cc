@@ -16,6 +16,7 @@
 #include "tagfield/localization/phase_curves/least_squares.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/scan/scan_field.h"
+#include "tagfield/localization/signal_strength/landmarc.h"
 
 namespace tagfield {
 namespace {
@@ -292,7 +293,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
 Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
   if (!traits.has_reads) return {"ml", "too few reads of any tag to choose by"};
   // By three or more antennas a law of distance places tags better than their neighbours do.
-  if (!traits.antennas_move && traits.antennas < 3 && reference_tags >= 3) {
+  if (!traits.antennas_move && traits.antennas < 3 && reference_tags >= kFewestReferenceTags) {
     return {"landmarc",
             "at most two antennas, at rest, and there are reference tags to compare with"};
   }

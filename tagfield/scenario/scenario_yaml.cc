@@ -293,6 +293,7 @@ struct ReadScenario {
   Scenario scenario;
   std::optional<Error> without_physical_antenna;
   std::optional<PlanSpec> plan;
+  bool has_plan = false;  ///< A section `plan`, looked at or not.
 };
 
 void require_use_of_keys(const ReadScenario& read) {
@@ -317,7 +318,7 @@ ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
   try {
     YamlMap map(YamlValue(root, path, ""));
     ReadScenario read{scenario_of(map, scene != nullptr, methods, diagnostics),
-                      key_without_physical_antenna(map), std::nullopt};
+                      key_without_physical_antenna(map), std::nullopt, map.has("plan")};
     if (!to_plan) return read;
     if (!map.has("plan")) {
       fail({path, 0}, "has no 'plan': where antennas and tags can be (docs/plan.md)");
@@ -349,11 +350,15 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
     scenario.radio_world = std::make_shared<const RadioWorld>(
         radio_world(loaded.scene, scenario.materials, diagnostics));
   }
+  if (scenario.antennas.empty()) {
+    fail({path, 0},
+         fmt::format("no antennas: neither the scenario nor its world has one{}",
+                     read.has_plan ? "; 'tagfield plan' chooses some by the section 'plan' and "
+                                     "writes layout.yaml, a scenario with them"
+                                   : ""));
+  }
   read.scenario.antennas = scenario.antennas;
   require_use_of_keys(read);
-  if (scenario.antennas.empty()) {
-    fail({path, 0}, "no antennas: neither the scenario nor its world has one");
-  }
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
   require_use_of_neighbours(scenario, diagnostics);
   require_readers_of_zones(scenario);

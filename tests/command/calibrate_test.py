@@ -110,7 +110,7 @@ def bad_input_is_told_in_one_line(context):
     words = context.write("words.csv", "tag,x_m,y_m,z_m\nt,1,two,3\n")
     good = context.write("good.csv", "tag,x_m,y_m,z_m\nt,1,2,3\n")
     out = context.folder / "profile.yaml"
-    for tags, says in ((twice, "twice.csv:3: tag 't' is here twice"),
+    for tags, says in ((twice, "twice.csv:3: tag 't' is listed twice"),
                        (words, "words.csv:2: y_m is 'two'"),
                        (context.folder / "none.csv", "none.csv"),
                        (good, "reads.csv: nothing to calibrate by")):

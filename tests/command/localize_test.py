@@ -289,7 +289,7 @@ def bad_words_for_what_is_known(context):
                         (["--pose-sigma", "nan"], "pose"),
                         (["--pose-yaw-sigma", "1"], "--pose-sigma"),
                         (["--pose-sigma", "1", "--pose-time-constant", "0"], "time-constant"),
-                        (["--reference", "twice.csv"], "twice.csv:3: tag 'one' is here twice"),
+                        (["--reference", "twice.csv"], "twice.csv:3: tag 'one' is listed twice"),
                         (["--reference", "absent.csv"], "no such file")):
         result = context.run("localize", "reads.csv", "--poses", "poses.csv", *words)
         check_equal(result.code, 2, f"{words}: exit code")

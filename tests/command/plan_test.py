@@ -193,5 +193,16 @@ def bad_plans(context):
         check_in(says, result.err, f"stderr of {arguments}")
 
 
+@case
+def without_antennas_it_is_to_be_planned_first(context):
+    for text in (STORE, STORE.replace("plan:", "tag_profile: monza_r6\nplan:")):
+        path = context.write("store.yaml", text)
+        for command in ("run", "coverage"):
+            result = context.run(command, path, "--out", context.folder / "out")
+            check_equal((result.code, result.err.count("\n")), (2, 1), f"code and lines of {command}")
+            check_in("no antennas", result.err, f"stderr of {command}")
+            check_in("'tagfield plan'", result.err, f"stderr of {command}")
+
+
 if __name__ == "__main__":
     main()

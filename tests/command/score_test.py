@@ -63,6 +63,9 @@ def takes_the_least_that_a_table_can_say(context):
     check_equal(tags["tag3"]["verdict"], "not_located", "no row")
     check_in("errors are horizontal", result.err, "warnings")
     check_in("the run has no tag 'tagg3' (did you mean 'tag3'?)", result.err, "warnings")
+    text = context.run_well("score", table, "--run", folder).out
+    columns = next(line.split() for line in text.splitlines() if line.startswith("tag1 "))
+    check_equal(columns[4:7], ["500.0", "-", "-"], "error, and the errors that the table does not state")
 
 
 @case

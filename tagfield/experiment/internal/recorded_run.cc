@@ -137,7 +137,7 @@ std::map<std::string, Eigen::Vector3d> read_tag_truth(const SuiteRecording& reco
   for (const CsvRow& row : table.rows) {
     if (experiment && row.fields[*experiment] != recording.experiment) continue;
     if (!places.emplace(table.text(row, tag), columns.read(row)).second) {
-      fail({recording.truth, row.line}, fmt::format("tag '{}' is here twice", row.fields[tag]));
+      fail({recording.truth, row.line}, fmt::format("tag '{}' is listed twice", row.fields[tag]));
     }
   }
   if (!places.empty()) return places;

@@ -86,7 +86,7 @@ TEST_F(RecordedRun, TruthOfOneExperiment) {
 }
 
 TEST_F(RecordedRun, ComplainsOfTheTruth) {
-  EXPECT_EQ(complaint_of("tag,x_m,y_m\na,1,2\na,1,2\n"), "truth.csv:3: tag 'a' is here twice");
+  EXPECT_EQ(complaint_of("tag,x_m,y_m\na,1,2\na,1,2\n"), "truth.csv:3: tag 'a' is listed twice");
   EXPECT_EQ(complaint_of("tag,x_m,y_m\n"), "truth.csv: has no tags");
   EXPECT_EQ(
       complaint_of("tag,x_m,range_m\na,1,2\n"),

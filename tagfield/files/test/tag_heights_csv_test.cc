@@ -32,7 +32,7 @@ RC_GTEST_PROP(TagHeightsCsv, ReadsBackWhatItWrote, ()) {
 
 TEST(ReadTagHeightsCsv, RefusesATagThatStandsTwice) {
   const std::string message = error_of([] { heights_of("tag,height_m\na,1\nb,2\na,1\n"); });
-  EXPECT_TRUE(contains(message, "h.csv:4: tag 'a' is here twice")) << message;
+  EXPECT_TRUE(contains(message, "h.csv:4: tag 'a' is listed twice")) << message;
 }
 
 TEST(ReadTagHeightsCsv, NamesColumnAndLineOfBadInput) {

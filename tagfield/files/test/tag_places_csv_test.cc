@@ -37,8 +37,8 @@ TEST(ReadTagPlacesCsv, NamesColumnAndLineOfBadInput) {
   const auto complaint = [](const std::string& text) { return error_of([&] { places_of(text); }); };
   EXPECT_TRUE(contains(complaint("tag,x_m,y_m\na,1,2\n"), "p.csv:1: no column 'z_m'"));
   EXPECT_TRUE(contains(complaint("tag,x_m,y_m,z_m\na,1,far,3\n"), "p.csv:2: y_m"));
-  EXPECT_TRUE(
-      contains(complaint("tag,x_m,y_m,z_m\na,1,2,3\na,1,2,3\n"), "p.csv:3: tag 'a' is here twice"));
+  EXPECT_TRUE(contains(complaint("tag,x_m,y_m,z_m\na,1,2,3\na,1,2,3\n"),
+                       "p.csv:3: tag 'a' is listed twice"));
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 namespace tagfield {
 namespace {
 
-constexpr std::size_t kFewestReferences = 3;
 /// Distances in signal space below this are one [dB]: weights stay finite.
 constexpr double kLeastDistance = 0.01;
 
@@ -159,16 +158,16 @@ TagEstimate locate_by_neighbours(const LocalizationProblem& problem, const Refer
                                  const std::string& tag, const SamplesOfTag& samples,
                                  const LandmarcOptions& options) {
   TagEstimate estimate = begun(tag, samples);
-  if (references.tags.size() < kFewestReferences) {
+  if (references.tags.size() < kFewestReferenceTags) {
     return not_located(std::move(estimate),
                        fmt::format("needs reference tags: {} were read with RSSI, at least {} are "
                                    "needed",
-                                   references.tags.size(), kFewestReferences));
+                                   references.tags.size(), kFewestReferenceTags));
   }
   if (!references.go_by_place) {
     return not_located(std::move(estimate),
                        fmt::format("RSSI of the {} reference tags does not depend on their "
-                                   "positions, or they are too few to judge (at least five)",
+                                   "positions",
                                    references.tags.size()));
   }
   if (estimate.reads == 0)

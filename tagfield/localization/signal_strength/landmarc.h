@@ -10,6 +10,10 @@
 
 namespace tagfield {
 
+/// With fewer no tag is located: that no more than one of a hundred orders of their places may suit
+/// the RSSI as well as the true one takes five, 5! = 120.
+inline constexpr std::size_t kFewestReferenceTags = 5;
+
 struct LandmarcOptions {
   std::size_t neighbours = 4;  ///< k, at least 1.
   double bin_s = 1.0;          ///< RSSI is averaged over so long; over 0.

@@ -168,7 +168,10 @@ TEST(Automatic, GoesBySignalStrengthWhereAntennasStand) {
     for (PhaseSample& sample : samples["a"]) sample.p_WA = {0.0, 0.0, 1.0};
   }
   EXPECT_EQ(choice_for(hall.problem).method, "fixed");
-  hall.problem.reference_tags = {{"t0", {0, 0, 0}}, {"t1", {1, 0, 0}}, {"t2", {0, 1, 0}}};
+  hall.problem.reference_tags = {
+      {"t0", {0, 0, 0}}, {"t1", {1, 0, 0}}, {"t2", {0, 1, 0}}, {"t3", {1, 1, 0}}};
+  EXPECT_EQ(choice_for(hall.problem).method, "fixed");
+  hall.problem.reference_tags["t4"] = {2, 1, 0};
   EXPECT_EQ(choice_for(hall.problem).method, "landmarc");
   for (auto& [tag, samples] : hall.problem.samples) samples["b"] = samples["c"] = samples["a"];
   EXPECT_EQ(choice_for(hall.problem).method, "fixed");

@@ -88,7 +88,7 @@ TEST(Landmarc, WithoutReferenceTagsItSaysSo) {
   LocalizationProblem problem;
   problem.samples["a tag"] = read_in_room({2.0, 2.0, 1.0}, 1.0, rng);
   EXPECT_EQ(locate_one(landmarc_method({}), problem).reason,
-            "cannot localize: needs reference tags: 0 were read with RSSI, at least 3 are needed");
+            "cannot localize: needs reference tags: 0 were read with RSSI, at least 5 are needed");
 }
 
 TEST(Landmarc, StrengthsThatDoNotGoByPlaceLocateNothing) {
