@@ -40,4 +40,13 @@ double largest_phase_noise(const SamplesOfTag& samples, double least) {
   return noise;
 }
 
+double expected_slips(const SamplesOfTag& samples) {
+  double slips = 0.0;
+  for (const auto& [antenna, series] : samples) {
+    const double sigma = phase_noise(series);
+    if (sigma > 0.0) slips += static_cast<double>(series.size()) * std::erfc(kPi / (2.0 * sigma));
+  }
+  return slips;
+}
+
 }  // namespace tagfield

@@ -16,4 +16,9 @@ double phase_noise(const std::vector<PhaseSample>& samples);
 /// The largest of any antenna [rad], at least `least`.
 double largest_phase_noise(const SamplesOfTag& samples, double least);
 
+/// Cycle slips that unwrapping makes and no residual shows, in the mean: where the noise of two
+/// phases, √2 σ, turns their difference by more than π, in 2 Q(π/(√2 σ)) = erfc(π/(2σ)) of the
+/// reads. σ is each antenna's phase_noise().
+double expected_slips(const SamplesOfTag& samples);
+
 }  // namespace tagfield

@@ -232,6 +232,9 @@ double time_step_of(const YamlValue& value) {
 
 Scenario scenario_of(YamlMap map, bool world_is_given, const std::vector<Method>& methods,
                      Diagnostics& diagnostics) {
+  if (map.has("methods") && (map.has("conditions") || map.has("sweep"))) {
+    map.self().fail("is a suite, not a scenario: for 'tagfield bench' or 'tagfield sweep'");
+  }
   Scenario scenario;
   scenario.name = map.text("name", fs::path(map.self().file()).stem().string());
   scenario.description = map.text("description", "");

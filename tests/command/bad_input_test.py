@@ -585,6 +585,8 @@ def arguments(context):
             (["localize", "reads.csv"], "--poses"), (["report"], "DIR"), (["check"], "FILE"),
             (["run", "scenarios/conveyor.yaml"], "no such file; the one that comes with Tagfield is"),
             (["plan", "scenarios/nope.yaml"], "scenarios/nope.yaml: no such file"),
+            (["run", context.write("suite.yaml", "methods: [ml]\nscenario: good.yaml\nsweep: {}\n")],
+             "is a suite, not a scenario"),
             ([*run, "--seeds", "0"], "seeds"), ([*run, "--seeds", "-1"], "seeds"),
             ([*run, "--seeds", "many"], "seeds"), ([*run, "--seeds", "1.5"], "seeds"),
             ([*run, "--seeds"], "seeds"), ([*run, "--seed", "-1"], "seed"),

@@ -300,6 +300,9 @@ Suite suite_of(YamlMap map, bool on_disk) {
     common.phase_noise_rad = map.at("phase_noise_rad").number(kPositive);
   }
   if (map.has("seeds")) read_seeds(map.at("seeds"), suite);
+  if (!map.has("methods") && (map.has("antennas") || map.has("world"))) {
+    map.self().fail("is a scenario, not a suite: 'tagfield run' simulates it (docs/bench.md)");
+  }
   for (const YamlValue& method : map.at("methods").list())
     suite.methods.push_back(method_of(method));
   if (suite.methods.empty()) map.at("methods").fail("must have at least one method");

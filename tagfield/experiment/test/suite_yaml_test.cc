@@ -107,6 +107,9 @@ TEST(SuiteYaml, ReadsEveryKey) {
 TEST(SuiteYaml, ComplainsOfFileAndLine) {
   EXPECT_EQ(complaint_of("methds: [hyperbola]\n"),
             "suite.yaml:1: unknown key 'methds' (did you mean 'methods'?)");
+  EXPECT_EQ(
+      complaint_of("name: a hall\nantennas: []\n"),
+      "suite.yaml:1: is a scenario, not a suite: 'tagfield run' simulates it (docs/bench.md)");
   EXPECT_EQ(complaint_of(with_conditions("  - {name: a, lose: {shar: 0.3}}\n")),
             "suite.yaml:4: unknown key 'shar' in conditions[0].lose (did you mean 'share'?)");
   EXPECT_EQ(complaint_of(with_conditions("  - {name: a, lose: {share: 1.5}}\n")),

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/phase_noise.h"
 
 namespace tagfield {
 namespace {
@@ -89,6 +90,16 @@ std::string why_too_few(const PlaceSearch& search) {
                        search.segments.size());
   }
   return "";
+}
+
+std::string why_too_noisy(const SamplesOfTag& samples) {
+  constexpr double kMostSlips = 0.05;
+  const double slips = expected_slips(samples);
+  if (slips <= kMostSlips) return "";
+  return fmt::format(
+      "phase noise of {:.2f} rad is too much to unwrap {} reads: {:.2g} undetected cycle slips are "
+      "expected, limit {:g} (method sar does not unwrap)",
+      largest_phase_noise(samples, 0.0), count_reads(samples), slips, kMostSlips);
 }
 
 void search_places(PlaceSearch& search, double stride, std::size_t max_hyperbolae) {

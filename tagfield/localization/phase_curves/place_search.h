@@ -34,6 +34,10 @@ PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follo
 /// Why the phase that could be followed can't locate a tag; empty if it might.
 std::string why_too_few(const PlaceSearch& search);
 
+/// Why an unwrapped phase can't be trusted: the noise likely made a cycle slip that nothing shows,
+/// one tag in twenty or more; empty if it can.
+std::string why_too_noisy(const SamplesOfTag& samples);
+
 /// Distinct local minima, from the intersections of hyperbolae `stride` [m] apart (at most
 /// `max_hyperbolae`) and the mirror images of the best. Corrects the cycle slips that the best
 /// shows.

@@ -212,6 +212,21 @@ TEST(Hyperbola, WhatCannotBeLocatedSaysWhy) {
       "cannot localize: the antenna moved too far between reads for the phase to be followed");
 }
 
+TEST(Hyperbola, NoiseThatSlipsUnseenIsRefused) {
+  Study study;
+  study.seeds = 10;
+  study.noise.phase_rad = 0.75;
+  EXPECT_EQ(tally_of(study, make_aisles).errors.size(), 0U);
+  Rng rng(18);
+  const auto samples = read_along(aisles(0.02), {4.0, 2.0, 0.4}, study.noise, rng);
+  EXPECT_NE(locate({{"a", samples}}, 0.4).reason.find("too much to unwrap"), std::string::npos);
+  study.noise.phase_rad = 0.5;
+  const Tally tally = tally_of(study, make_aisles);
+  EXPECT_GE(tally.errors.size(), 95U);
+  EXPECT_GT(tally.calibration(), 0.6);
+  EXPECT_LT(tally.calibration(), 1.3);
+}
+
 TEST(Hyperbola, ATagThatRidesAlongIsNotLocated) {
   Rng rng(15);
   auto samples = read_along(aisles(0.02), {4.0, 2.0, 0.4}, Noise{}, rng);

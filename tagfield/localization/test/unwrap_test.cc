@@ -90,6 +90,33 @@ TEST(PhaseNoise, IsEstimatedThroughMotion) {
   }
 }
 
+TEST(ExpectedSlips, AreAsManyDifferencesOfNoiseBeyondPi) {
+  Rng rng(4);
+  const Path path = s_curve(22.0, 0.02);
+  const Eigen::Vector3d p_WT(4.0, 2.0, 0.4);
+  constexpr double kSigma = 0.7;
+  Noise noise = kNoiseless;
+  noise.phase_rad = kSigma;
+  double expected = 0.0;
+  int counted = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto clean = read_along(path, path, p_WT, kNoiseless, rng);
+    auto noisy = clean;
+    double before = 0.0;
+    for (std::size_t k = 0; k < noisy.size(); ++k) {
+      const double now = normal(rng, kSigma);
+      noisy[k].phase_rad = wrap_to_two_pi(clean[k].phase_rad + now);
+      if (k > 0 && std::abs(now - before) > kPi) ++counted;
+      before = now;
+    }
+    expected += expected_slips({{"a", noisy}});
+  }
+  ASSERT_GT(counted, 200);
+  // Poisson's deviation, fourfold, and what the median's own error of the noise does to it.
+  EXPECT_NEAR(expected, counted, 4.0 * std::sqrt(counted) + 0.15 * counted);
+  EXPECT_LT(expected_slips({{"a", read_along(path, p_WT, Noise{}, rng)}}), 1e-9);
+}
+
 TEST(StepLimit, ShrinksWithTheNoiseButNotToNothing) {
   EXPECT_DOUBLE_EQ(step_limit(0.0, 0.8), 0.8);
   EXPECT_NEAR(step_limit(0.3, 0.8), 1.0 - 2.5 * std::sqrt(2.0) * 0.3 / kPi, 1e-12);
