@@ -13,6 +13,7 @@
 #include "apps/tagfield/own_folder.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/table.h"
 #include "apps/tagfield/top_view_file.h"
 #include "apps/tagfield/track_files.h"
@@ -252,6 +253,7 @@ int run(const RunArguments& arguments) {
         "run: --out must be a folder; 'tagfield stream' writes reads to the standard output");
   }
   const std::vector<Override> overrides = overrides_in(arguments.settings);
+  suggest_shared_file(arguments.scenario);
   Diagnostics diagnostics;
   ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);

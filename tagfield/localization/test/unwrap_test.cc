@@ -95,8 +95,6 @@ TEST(ExpectedSlips, AreAsManyDifferencesOfNoiseBeyondPi) {
   const Path path = s_curve(22.0, 0.02);
   const Eigen::Vector3d p_WT(4.0, 2.0, 0.4);
   constexpr double kSigma = 0.7;
-  Noise noise = kNoiseless;
-  noise.phase_rad = kSigma;
   double expected = 0.0;
   int counted = 0;
   for (int i = 0; i < 200; ++i) {
