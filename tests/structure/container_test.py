@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The image that packaging/Containerfile makes gets all of our packages that its packages depend on.
+
+    container_test.py SOURCE_DIR
+
+apt-get would look for one that is left out in Debian, and not find it.
+"""
+
+import pathlib
+import re
+import sys
+
+
+def packages_in(text):
+    """Our packages, each with those of ours that it depends on, from TagfieldPackages.cmake."""
+    depends = {}
+    for call in re.split(r"\btagfield_package\(", text)[1:]:
+        name = call.split()[1]
+        listed = re.search(r"\bDEPENDS\b(.*?)(?:\bRECOMMENDS\b|\bSUGGESTS\b|\)\s*\n)", call, re.DOTALL)
+        depends[name] = set(re.findall(r'"([a-z0-9-]+) \(= \$\{PROJECT_VERSION\}\)"', listed[1])) if listed else set()
+    return depends
+
+
+def missing(cmake, container):
+    depends = packages_in(cmake)
+    installed = set(re.findall(r"/tmp/packages/([a-z0-9-]+)_\*\.deb", container))
+    unknown = installed - depends.keys()
+    return unknown | set().union(*(depends[name] for name in installed & depends.keys())) - installed
+
+
+def main():
+    source = pathlib.Path(sys.argv[1])
+    cmake = (source / "cmake/TagfieldPackages.cmake").read_text(encoding="utf-8")
+    container = (source / "packaging/Containerfile").read_text(encoding="utf-8")
+    left_out = missing(cmake, container)
+    if left_out:
+        sys.exit(f"packaging/Containerfile: not installed, or no packages of ours: {', '.join(sorted(left_out))}")
+    # It would notice.
+    if missing(cmake, container.replace("/tmp/packages/tagfield-common_*.deb", "")) != {"tagfield-common"}:
+        sys.exit("container_test.py: a package that is left out goes unnoticed")
+    print("the image gets what its packages depend on")
+
+
+if __name__ == "__main__":
+    main()
