@@ -272,12 +272,14 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
   parallel_for(tags.size(), threads, [&](std::size_t i) {
     looks[i] = look_at(problem, tags[i]->first, tags[i]->second);
   });
+  double all = 0.0;
   double reads = 0.0;
   double stretches = 0.0;
   std::vector<double> misfits;
   std::vector<double> noises;
   add_scans(looks, traits);
   for (const Look& look : looks) {
+    all += look.samples;
     reads += look.reads;
     stretches += look.stretches;
     if (look.misfit < 0.0) continue;
@@ -285,6 +287,7 @@ DataTraits traits_of(const LocalizationProblem& problem, int threads) {
     noises.push_back(look.noise_m);
   }
   traits.reads_a_stretch = stretches > 0.0 ? reads / stretches : 0.0;
+  traits.followed = all > 0.0 ? reads / all : 1.0;
   traits.misfit = lesser_median(std::move(misfits));
   traits.noise_m = lesser_median(std::move(noises));
   return traits;
@@ -309,14 +312,20 @@ Choice choose_method(const DataTraits& traits, std::size_t reference_tags) {
                 "a short straight scan, and {:.0f} % of its phases are biased, as by reflections",
                 100.0 * traits.unexplained)};
   }
-  if (traits.reads_a_stretch < kShortStretch && traits.bent >= kMost) {
+  const bool is_short = traits.reads_a_stretch < kShortStretch;
+  if ((is_short || traits.followed < kMost) && traits.bent >= kMost) {
     return {"robust", fmt::format("{:.0f} % of the phases are biased, as by reflections",
                                   100.0 * traits.bent)};
   }
-  if (traits.reads_a_stretch < kShortStretch) {
+  if (is_short) {
     return {"sar", fmt::format("the phase can be followed over {:.0f} reads on average only, with "
                                "{} channels: phasors are added up without unwrapping",
                                traits.reads_a_stretch, traits.channels)};
+  }
+  if (traits.followed < kMost) {
+    return {"sar", fmt::format("the phases of {:.0f} % of the reads are too noisy to be followed: "
+                               "phasors are added up without unwrapping",
+                               100.0 * (1.0 - traits.followed))};
   }
   if (!traits.pose_is_exact) {
     return {"joint", "the pose is not exact: its error is estimated with the tags"};

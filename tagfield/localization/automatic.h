@@ -21,6 +21,7 @@ struct DataTraits {
   std::size_t antennas = 0;      ///< Most that read a tag.
   std::size_t channels = 0;      ///< Carriers.
   double reads_a_stretch = 0.0;  ///< Reads over which the phase can be followed, in the mean.
+  double followed = 1.0;  ///< Share of reads over which it can: noise may leave none of a tag.
   /// Misfit of tags fitted by themselves over what their phase noise alone would leave, the median
   /// over tags; 1 where reads are but noisy. Reflections and pose errors make it greater.
   double misfit = 0.0;

@@ -121,6 +121,31 @@ TEST(Automatic, AddsUpWavesWhereTheCarrierHops) {
   EXPECT_EQ(choose_method(traits, 0).method, "sar");
 }
 
+// Of some tags the noise seems a bit less than it is: these alone could be unwrapped.
+TEST(Automatic, AddsUpWavesWhereNoiseLeavesFewPhasesToFollow) {
+  made::Noise noise;
+  noise.phase_rad = 0.6;
+  made::Rng rng(2);
+  const made::Path path = made::aisles(0.02);
+  const made::Hall hall = made::hall(path, 12, noise, rng);
+  const DataTraits traits = traits_of(hall.problem, 1);
+  EXPECT_GE(traits.reads_a_stretch, 12.0);
+  EXPECT_LT(traits.followed, 0.5);
+  EXPECT_EQ(choose_method(traits, 0).method, "sar");
+  Diagnostics diagnostics;
+  const LocalizationResult result =
+      find_method(built_in_methods(), "auto").locate(hall.problem, 2, diagnostics);
+  EXPECT_EQ(result.method, "sar");
+  std::size_t located = 0;
+  for (const TagEstimate& estimate : result.estimates) {
+    if (estimate.verdict != Verdict::kLocated) continue;
+    ++located;
+    const Eigen::Vector3d& p_WT = estimate.candidates.front().p_WT;
+    EXPECT_LT((p_WT - hall.truth.at(estimate.tag)).head<2>().norm(), 0.1) << estimate.tag;
+  }
+  EXPECT_GE(located, 11U);
+}
+
 TEST(Automatic, EstimatesThePoseErrorWhereTheCarrierHopsToo) {
   made::Noise noise;
   noise.pose_m = 0.01;
