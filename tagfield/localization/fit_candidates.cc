@@ -136,11 +136,16 @@ double noise_of_differences(std::vector<double> differences) {
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
                                   const TagFit& fit) {
   if (!phases.pose_error) return covariance_of(phases, height, fit);
-  const auto differences = neighbour_differences(phases, residuals_of(phases, height, fit));
   const Eigen::Matrix3d normal = normal_of(phases, height, fit.unknowns);
   const auto inverse = inverse_of(normal);
-  if (differences.empty() || !inverse) return covariance_of(phases, height, fit);
-  const double noise = noise_of_differences(differences);
+  if (!inverse) return covariance_of(phases, height, fit);
+  const Eigen::ArrayXd errors = residuals_of(phases, height, fit);
+  const std::vector<double> differences = neighbour_differences(phases, errors);
+  // Of reads far apart residuals don't tell what is noise and what the poses': all may be noise.
+  const double noise =
+      differences.empty()
+          ? std::sqrt(residual_variance(phases.spans, errors) * mean_square_wavenumber(phases))
+          : noise_of_differences(differences);
   const Eigen::Matrix3d right =
       noise * noise * normal + scatter_of(pulls_of(phases, height, fit), *phases.pose_error);
   return of_unknowns(height, *inverse * right * inverse->transpose());

@@ -18,8 +18,9 @@ Eigen::Matrix3d covariance_of(const TagPhases& phases, const HeightModel& height
                               const TagFit& fit);
 
 /// Covariance of the unknowns with the pose error's model, where the phases tell it: N⁻¹ (σφ² N +
-/// S) N⁻¹, with the phase noise σφ from neighbouring residuals and S what the Ornstein-Uhlenbeck
-/// error of the antenna's places adds to the normal equations' right side. Else covariance_of().
+/// S) N⁻¹, with the phase noise σφ from neighbouring residuals, or all of them where none are
+/// neighbours, and S what the Ornstein-Uhlenbeck error of the antenna's places adds to the normal
+/// equations' right side. Else covariance_of().
 Eigen::Matrix3d honest_covariance(const TagPhases& phases, const HeightModel& height,
                                   const TagFit& fit);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 
 #include "tagfield/base/units.h"
 #include "tagfield/fit/levenberg_marquardt.h"
@@ -13,6 +14,7 @@
 #include "tagfield/localization/fit_candidates.h"
 #include "tagfield/localization/holograms/wave_slopes.h"
 #include "tagfield/localization/judgement.h"
+#include "tagfield/localization/pose_misfit.h"
 #include "tagfield/localization/residuals.h"
 #include "tagfield/localization/tag_fit.h"
 
@@ -178,25 +180,40 @@ double concentration_of(double share) {
   return 1.0 / (share * (share - 1.0) * (share - 3.0));
 }
 
-/// How much less log-likely maxima are than the best: κ ΔS, over the correlation factor of the
-/// residuals, as reads whose errors are one and the same are but one witness.
-struct Unlikelihood {
-  double best = 0.0;      ///< Coherence.
-  double per_wave = 0.0;  ///< κ over the factor.
-  double of(const Maximum& maximum) const { return per_wave * (best - maximum.coherence); }
-};
-
-Unlikelihood unlikelihood(const TagPhases& phases, const Maximum& best,
-                          const Eigen::ArrayXd& residuals) {
-  const double share =
-      best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
-  return {best.coherence, concentration_of(std::clamp(share, 0.0, 0.99)) /
-                              correlation_factor(phases.spans, residuals)};
-}
-
 Eigen::ArrayXd residuals_at(const TagPhases& phases, const HeightModel& height,
                             const Maximum& maximum) {
   return residuals_of(phases, height, fit_at(phases, height, maximum.place));
+}
+
+/// How much less log-likely a maximum is than the best.
+using Unlikelihood = std::function<double(const Maximum&)>;
+
+/// κ ΔS, over the correlation factor of the best's residuals, as reads whose errors are one and the
+/// same are but one witness.
+Unlikelihood by_coherence(const TagPhases& phases, const Maximum& best,
+                          const Eigen::ArrayXd& residuals) {
+  const double share =
+      best.coherence / static_cast<double>(std::max<Eigen::Index>(residuals.size(), 1));
+  const double per_wave =
+      concentration_of(std::clamp(share, 0.0, 0.99)) / correlation_factor(phases.spans, residuals);
+  return [per_wave, coherence = best.coherence](const Maximum& maximum) {
+    return per_wave * (coherence - maximum.coherence);
+  };
+}
+
+/// By the told pose errors, which residuals of reads far apart don't show. What of the best's
+/// residuals exceeds them is white, and a quarter at least, as a fit takes some of slow errors
+/// away.
+Unlikelihood by_told_poses(const TagPhases& phases, const HeightModel& height,
+                           const Eigen::ArrayXd& residuals) {
+  constexpr double kLeastWhite = 0.25;
+  const double all = residual_variance(phases.spans, residuals);
+  const double slow = phases.pose_error->sigma_m * phases.pose_error->sigma_m;
+  const double white = std::max(kLeastWhite * all, all - slow);
+  const double least = pose_misfit(phases, residuals, white);
+  return [&phases, &height, white, least](const Maximum& maximum) {
+    return 0.5 * (pose_misfit(phases, residuals_at(phases, height, maximum), white) - least);
+  };
 }
 
 /// Maxima that the data can't tell from the best.
@@ -205,18 +222,18 @@ struct Rivals {
   std::vector<Maximum> others;  ///< Other places.
 };
 
-/// `unlikely` is null where phases are not bent: then residuals alone judge.
+/// Without `unlikely` residuals alone judge.
 Rivals rivals_of(const TagPhases& phases, const HeightModel& height,
-                 const std::vector<Maximum>& maxima, const Unlikelihood* unlikely) {
+                 const std::vector<Maximum>& maxima, const Unlikelihood& unlikely) {
   const Eigen::ArrayXd best = residuals_at(phases, height, maxima.front());
   const Eigen::Vector3d p_WT = to_place(height, maxima.front().place);
   Rivals rivals;
   for (std::size_t i = 1; i < maxima.size(); ++i) {
     const Maximum& maximum = maxima[i];
-    if (unlikely != nullptr && unlikely->of(maximum) > kOtherPlace) continue;
+    if (unlikely && unlikely(maximum) > kOtherPlace) continue;
     if (is_worse(phases, best, residuals_at(phases, height, maximum))) continue;
     const bool near = (to_place(height, maximum.place) - p_WT).norm() < kSameLobes;
-    (unlikely != nullptr && near ? rivals.lobes : rivals.others).push_back(maximum);
+    (unlikely && near ? rivals.lobes : rivals.others).push_back(maximum);
   }
   return rivals;
 }
@@ -227,7 +244,7 @@ void span_lobes(const HeightModel& height, const Unlikelihood& unlikely,
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double weights = 1.0;
   for (const Maximum& lobe : lobes) {
-    const double weight = std::exp(-std::max(0.0, unlikely.of(lobe)));
+    const double weight = std::exp(-std::max(0.0, unlikely(lobe)));
     const Eigen::Vector3d apart = to_place(height, lobe.place) - candidate.p_WT;
     spread += weight * apart * apart.transpose();
     weights += weight;
@@ -326,8 +343,13 @@ TagEstimate judge_places(const TagPhases& phases, const HeightModel& height,
                                    100.0 * share, 100.0 * judgement.min_share));
   }
   const bool bent = judgement.at_maxima && share < kBentShare;
-  const Unlikelihood unlikely = unlikelihood(phases, maxima.front(), best);
-  const Rivals rivals = rivals_of(phases, height, maxima, bent ? &unlikely : nullptr);
+  Unlikelihood unlikely;
+  if (hides_pose_errors(phases, best)) {
+    unlikely = by_told_poses(phases, height, best);
+  } else if (bent) {
+    unlikely = by_coherence(phases, maxima.front(), best);
+  }
+  const Rivals rivals = rivals_of(phases, height, maxima, unlikely);
   const double factor =
       judgement.error_factor ? judgement.error_factor(phases, height, maxima.front().place) : 1.0;
   const auto candidate_of = [&](const Maximum& maximum) {

@@ -112,6 +112,33 @@ TEST(Sar, LostReadsAndADriftingPoseCostAccuracyNotTruth) {
   EXPECT_EQ(tally.worse_than(0.3), 0u);
 }
 
+// A read a second, as of one tag among hundreds: that the pose's errors are slow doesn't show in
+// the residuals, but is told.
+TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
+  Noise noise;
+  noise.pose_m = 0.015;
+  ReaderSetup setup;
+  setup.rate_hz = 1.0;
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Rng rng(500 + seed);
+    const Path path = aisles(0.3);
+    const Path beliefs = believed(path, noise, setup.rate_hz, rng);
+    for (int k = 0; k < 5; ++k) {
+      const Eigen::Vector3d p_WT = beside(path, uniform(rng, 1.0, 3.0), 0.4, rng);
+      const auto samples = read_along(path, beliefs, p_WT, noise, rng, setup);
+      LocalizationProblem problem = one_tag({{"a", samples}}, 0.4);
+      problem.pose_error = PoseErrorModel{noise.pose_m, 0.0, noise.pose_time};
+      tally.add(locate_one(sar_method({}), problem), p_WT);
+    }
+  }
+  tally.finish();
+  EXPECT_GE(tally.errors.size(), 100U);
+  EXPECT_LT(tally.errors.back(), 0.3);
+  EXPECT_GT(tally.calibration(), 0.7);
+  EXPECT_LT(tally.calibration(), 1.2);
+}
+
 TEST(Sar, AStraightPathLeavesTheMirrorImage) {
   Study study;
   study.seeds = 5;
