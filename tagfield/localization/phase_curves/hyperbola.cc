@@ -92,7 +92,7 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
   TagEstimate estimate = begun(tag, samples);
   const std::string hopeless = why_hopeless(samples);
   if (!hopeless.empty()) return not_located(std::move(estimate), hopeless);
-  const std::string noisy = why_too_noisy(samples);
+  const std::string noisy = why_too_noisy(samples, kSlipsWithoutOne);
   if (!noisy.empty()) return not_located(std::move(estimate), noisy);
   PlaceSearch search = begin_search(samples, tag_height, [&](const std::vector<PhaseSample>& of) {
     return unwrap(of, options.max_step);

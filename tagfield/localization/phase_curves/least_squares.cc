@@ -46,7 +46,7 @@ TagEstimate locate(const LocalizationProblem& problem, const std::string& tag,
   TagEstimate estimate = begun(tag, samples);
   UnwrappedFit fit = fit_unwrapped(problem, tag, samples);
   if (!fit.why_not.empty()) return not_located(std::move(estimate), fit.why_not);
-  const std::string noisy = why_too_noisy(samples);
+  const std::string noisy = why_too_noisy(samples, kSlipsWithoutOne);
   if (!noisy.empty()) return not_located(std::move(estimate), noisy);
   estimate.reads = static_cast<std::size_t>(fit.phases.size());
   estimate.candidates = make_candidates(fit.phases, fit.height, std::move(fit.fits));

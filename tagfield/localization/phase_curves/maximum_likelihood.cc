@@ -5,6 +5,7 @@
 
 #include "tagfield/localization/judgement.h"
 #include "tagfield/localization/phase_curves/least_squares.h"
+#include "tagfield/localization/phase_curves/place_search.h"
 
 namespace tagfield {
 namespace {
@@ -66,6 +67,8 @@ TagEstimate locate_by_likelihood(const LocalizationProblem& problem, const std::
   TagEstimate estimate = begun(tag, samples);
   const UnwrappedFit unwrapped = fit_unwrapped(problem, tag, samples);
   if (!unwrapped.why_not.empty()) return not_located(std::move(estimate), unwrapped.why_not);
+  const std::string noisy = why_too_noisy(samples, kSlipsWithOne);
+  if (!noisy.empty()) return not_located(std::move(estimate), noisy);
   const TagPhases phases = wrapped_phases(problem, samples, unwrapped.antennas);
   if (loses_cycles(phases)) {
     estimate.reads = static_cast<std::size_t>(unwrapped.phases.size());

@@ -92,14 +92,13 @@ std::string why_too_few(const PlaceSearch& search) {
   return "";
 }
 
-std::string why_too_noisy(const SamplesOfTag& samples) {
-  constexpr double kMostSlips = 0.05;
+std::string why_too_noisy(const SamplesOfTag& samples, double most) {
   const double slips = expected_slips(samples);
-  if (slips <= kMostSlips) return "";
+  if (slips <= most) return "";
   return fmt::format(
       "phase noise of {:.2f} rad is too much to unwrap {} reads: {:.2g} undetected cycle slips are "
       "expected, limit {:g} (method sar does not unwrap)",
-      largest_phase_noise(samples, 0.0), count_reads(samples), slips, kMostSlips);
+      largest_phase_noise(samples, 0.0), count_reads(samples), slips, most);
 }
 
 void search_places(PlaceSearch& search, double stride, std::size_t max_hyperbolae) {

@@ -34,9 +34,14 @@ PlaceSearch begin_search(const SamplesOfTag& samples, double height, const Follo
 /// Why the phase that could be followed can't locate a tag; empty if it might.
 std::string why_too_few(const PlaceSearch& search);
 
-/// Why an unwrapped phase can't be trusted: the noise likely made a cycle slip that nothing shows,
-/// one tag in twenty or more; empty if it can.
-std::string why_too_noisy(const SamplesOfTag& samples);
+/// Most cycle slips that may be expected, of a method that is led astray by one, and of one that
+/// bridges one but not two: one tag in twenty has more.
+inline constexpr double kSlipsWithoutOne = 0.05;
+inline constexpr double kSlipsWithOne = 0.36;
+
+/// Why an unwrapped phase can't be trusted: the noise makes more cycle slips that nothing shows
+/// (expected_slips()) than `most`; empty if it can.
+std::string why_too_noisy(const SamplesOfTag& samples, double most);
 
 /// Distinct local minima, from the intersections of hyperbolae `stride` [m] apart (at most
 /// `max_hyperbolae`) and the mirror images of the best. Corrects the cycle slips that the best
