@@ -47,8 +47,11 @@ endfunction()
 if(TAGFIELD_TESTS)
   # Tests run hardly more often than they are compiled, which takes a third less time at -O1. There GCC's
   # warnings that follow the flow of values see faults in the standard library where none are.
-  set(tagfield_test_options $<$<CONFIG:Release>:-O1> -Wno-array-bounds -Wno-maybe-uninitialized
-    -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+  set(tagfield_test_options $<$<CONFIG:Release>:-O1>)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    list(APPEND tagfield_test_options -Wno-array-bounds -Wno-maybe-uninitialized
+      -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+  endif()
   add_library(tagfield_test_headers OBJECT ${nothing})
   target_link_libraries(tagfield_test_headers PRIVATE Eigen3::Eigen GTest::gtest rapidcheck)
   target_precompile_headers(tagfield_test_headers PRIVATE

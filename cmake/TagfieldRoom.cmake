@@ -102,7 +102,7 @@ endfunction()
 set(tagfield_unity_options -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
 
 function(tagfield_warnings target)
-  if(TAGFIELD_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     return()  # Another compiler has other things to say; these are kept clean by GCC and clang-tidy.
   endif()
   target_compile_options(${target} PRIVATE
@@ -110,11 +110,11 @@ function(tagfield_warnings target)
     -Woverloaded-virtual -Wold-style-cast $<$<BOOL:${TAGFIELD_WERROR}>:-Werror>)
   # From version 13 on GCC warns of every reference that a function gives where one of its arguments is a temporary,
   # such as a name that is looked for.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
     target_compile_options(${target} PRIVATE -Wno-dangling-reference)
   endif()
   # Before version 12 it took the value of an optional that is looked at first for one that may not be there.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+  if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()
   if(CMAKE_UNITY_BUILD)
