@@ -11,6 +11,7 @@
 #include "apps/tagfield/method_text.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/suite_recording.h"
 #include "tagfield/experiment/bench/bench_figures.h"
 #include "tagfield/experiment/bench/bench_files.h"
@@ -90,6 +91,7 @@ std::vector<Method> methods_for(const Suite& suite, const BenchArguments& argume
 
 Suite suite_of(const BenchArguments& arguments) {
   if (arguments.suite.empty()) throw Error("bench: SUITE is missing (see tagfield bench --help)");
+  suggest_shared_file(arguments.suite);
   Suite suite = load_suite(arguments.suite);
   set_world_options(arguments.world, suite);
   add_commands(arguments, suite);

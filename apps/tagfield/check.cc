@@ -11,6 +11,7 @@
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
 #include "tagfield/field/antenna_facts.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/placements.h"
@@ -141,6 +142,7 @@ Json describe_world(const CheckArguments& arguments, Diagnostics& diagnostics) {
 }
 
 Json describe_file(const CheckArguments& arguments, Diagnostics& diagnostics) {
+  suggest_shared_file(arguments.file);
   const std::string kind = kind_of_file(arguments.file);
   if (kind == "scenario") return describe_scenario(arguments, diagnostics);
   if (kind == "plan") return describe_plan(arguments, diagnostics);

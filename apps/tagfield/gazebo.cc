@@ -72,6 +72,7 @@ void print_written(const fs::path& world, const std::string& variable, const std
 
 int write_gazebo_world(const GazeboArguments& arguments) {
   const std::vector<Override> overrides = overrides_in(arguments.settings);
+  suggest_shared_file(arguments.scenario);
   Diagnostics diagnostics;
   const ScenarioWithWorld loaded =
       load_scenario_with_world(arguments.scenario, overrides, diagnostics, arguments.world);

@@ -12,6 +12,7 @@
 #include "adapters/sqlite/database_file.h"
 #include "apps/tagfield/command_line.h"
 #include "apps/tagfield/scenario_arguments.h"
+#include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/suite_recording.h"
 #include "tagfield/experiment/bench/suite.h"
 #include "tagfield/experiment/store/work_hash.h"
@@ -173,6 +174,7 @@ void collect_points(const FoundSweep& found, const RunIndex& index, GrowingTable
 }  // namespace
 
 OpenSweep open_sweep(const std::string& suite, const std::string& out, const WorldOptions& world) {
+  suggest_shared_file(suite);
   OpenSweep sweep;
   Suite loaded = load_suite(suite);
   set_world_options(world, loaded);

@@ -112,11 +112,8 @@ TEST(Sar, LostReadsAndADriftingPoseCostAccuracyNotTruth) {
   EXPECT_EQ(tally.worse_than(0.3), 0u);
 }
 
-// A read a second, as of one tag among hundreds: that the pose's errors are slow doesn't show in
-// the residuals, but is told.
-TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
-  Noise noise;
-  noise.pose_m = 0.015;
+/// A read a second, as of one tag among hundreds, with a drifting pose whose error is told.
+Tally with_reads_far_apart(const Noise& noise) {
   ReaderSetup setup;
   setup.rate_hz = 1.0;
   Tally tally;
@@ -133,7 +130,27 @@ TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
     }
   }
   tally.finish();
+  return tally;
+}
+
+// That the pose's errors are slow doesn't show in the residuals.
+TEST(Sar, ErrsAsItSaysWhereReadsAreFarApartAndThePoseDrifts) {
+  Noise noise;
+  noise.pose_m = 0.015;
+  const Tally tally = with_reads_far_apart(noise);
   EXPECT_GE(tally.errors.size(), 100U);
+  EXPECT_LT(tally.errors.back(), 0.3);
+  EXPECT_GT(tally.calibration(), 0.7);
+  EXPECT_LT(tally.calibration(), 1.2);
+}
+
+// Residuals can't tell as many lobes apart as the likelihood under that error can.
+TEST(Sar, ComparesLobesByTheToldPoseErrorWhereReadsAreFarApart) {
+  Noise noise;
+  noise.pose_m = 0.03;
+  noise.phase_rad = 0.4;
+  const Tally tally = with_reads_far_apart(noise);
+  EXPECT_GE(tally.errors.size(), 150U);  // By residuals alone two thirds of these.
   EXPECT_LT(tally.errors.back(), 0.3);
   EXPECT_GT(tally.calibration(), 0.7);
   EXPECT_LT(tally.calibration(), 1.2);
