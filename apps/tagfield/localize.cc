@@ -335,6 +335,8 @@ int localize(const LocalizeArguments& arguments) {
       recording_of(arguments, out, references_of(arguments, loaded), diagnostics);
   LocalizationOptions options =
       options_of(arguments, loaded, recording.overview, recording.poses.name);
+  warn_of_unused_options(arguments, find_method(options.methods, options.method),
+                         recording.poses.name, diagnostics);
   const std::optional<Calibration> calibration =
       arguments.calibration.empty() ? std::nullopt
                                     : std::optional(read_calibration(arguments.calibration));

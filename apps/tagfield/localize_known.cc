@@ -210,4 +210,17 @@ std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
   return scenario->localization.pose_error;
 }
 
+void warn_of_unused_options(const LocalizeArguments& arguments, const Method& method,
+                            const std::string& poses, Diagnostics& diagnostics) {
+  const auto warn = [&](bool is_unused, const char* option, const std::string& why) {
+    if (is_unused) diagnostics.warn(fmt::format("{} has no effect with {}", option, why));
+  };
+  const bool is_exact = poses == "true";
+  warn(!arguments.offsets.empty() && all_ignore({method}, "offset"), "--offset", method.name);
+  warn(arguments.pose_sigma_m && is_exact, "--pose-sigma", "the true poses");
+  warn(arguments.pose_sigma_m && !is_exact && all_ignore({method}, "pose_error"), "--pose-sigma",
+       method.name);
+  warn(arguments.map_sigma_m && is_exact, "--map-sigma", "the true poses");
+}
+
 }  // namespace tagfield

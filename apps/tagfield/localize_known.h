@@ -28,6 +28,10 @@ void take_known(const LocalizeArguments& arguments, const ReadOverview& reads,
 std::optional<PoseErrorModel> pose_error_of(const LocalizeArguments& arguments,
                                             const Scenario* scenario, const std::string& poses);
 
+/// Warns of options that say what is known, where `method` or poses of that name make no use of it.
+void warn_of_unused_options(const LocalizeArguments& arguments, const Method& method,
+                            const std::string& poses, Diagnostics& diagnostics);
+
 /// Likewise of the map that they are on; none where nothing is told, and for true poses.
 std::optional<MapError> map_error_of(const LocalizeArguments& arguments, const std::string& poses);
 

@@ -207,11 +207,11 @@ int serve(ServeArguments arguments) {
   print_addresses(llrp ? llrp->addresses() : std::vector<llrp::LlrpAddress>{},
                   server ? server->url() : std::string(), arguments.as_json);
   world.run(interrupted());
-  finish(middleware, world.now());
+  const bool is_whole = finish(middleware, world.now());
   server.reset();
   if (llrp) llrp->close();
   end_estimates(estimates.get());
-  return kExitOk;
+  return is_whole ? kExitOk : kExitBadInput;
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ struct RawParameter {
   std::string key;
   std::string value;
   Location location;  ///< Unknown where the file is not.
+  /// From a profile, which says all of a device, though some of it may be of no use here.
+  bool in_profile = false;
 };
 
 /// A key, its unit and meaning.

@@ -55,7 +55,11 @@ std::vector<KnownOffset> offsets_of(const Scenario& scenario) {
 std::optional<PoseErrorModel> pose_error_of(const Scenario& scenario) {
   const PoseBelief& pose = scenario.pose;
   if (scenario.localization.pose_error) return scenario.localization.pose_error;
-  if (pose.source == PoseSource::kTrue) return PoseErrorModel{};
+  const bool any_on_a_robot =
+      std::any_of(scenario.antennas.begin(), scenario.antennas.end(),
+                  [](const AntennaSpec& antenna) { return !antenna.on.empty(); });
+  // Where fixed and recorded antennas are is known exactly.
+  if (pose.source == PoseSource::kTrue || !any_on_a_robot) return PoseErrorModel{};
   if (pose.source != PoseSource::kNoisy) return std::nullopt;
   return PoseErrorModel{pose.sigma_m, pose.yaw_sigma_rad, pose.time_constant_s};
 }

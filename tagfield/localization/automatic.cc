@@ -208,6 +208,20 @@ bool is_through_world(const AutomaticOptions& options, const LocalizationProblem
   return false;
 }
 
+/// Of limits that were asked for, where the chosen method has its own.
+void warn_of_limits(const Method& chosen, const EstimateLimits& limits, Diagnostics& diagnostics) {
+  constexpr EstimateLimits kUsual;
+  const auto warn = [&](const char* key, double limit, double usual) {
+    if (limit == usual || !all_ignore({chosen}, key)) return;
+    diagnostics.warn(
+        fmt::format("{} has no effect with {}, which was chosen and has its own limit, "
+                    "rssi_max_error_m",
+                    key, chosen.name));
+  };
+  warn("max_expected_error_m", limits.max_expected_error_m, kUsual.max_expected_error_m);
+  warn("max_rms_m", limits.max_rms_m, kUsual.max_rms_m);
+}
+
 /// Chooses among these and runs the chosen one.
 LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions& options) {
   return
@@ -254,6 +268,7 @@ LocateFunction among(const std::vector<Method>& methods, const AutomaticOptions&
         if (is_by_waves && misfit == 0.0 && !traits.pose_is_exact) {
           try_jointly(methods, problem, traits, threads, diagnostics, choice, result);
         }
+        warn_of_limits(find_method(methods, choice.method), given.limits, diagnostics);
         result.why = choice.why;
         return result;
       };

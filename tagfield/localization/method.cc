@@ -97,6 +97,17 @@ std::vector<TagEstimate> locate_each(
   return estimates;
 }
 
+Method ignoring(std::vector<std::string> keys, Method method) {
+  method.ignores = std::move(keys);
+  return method;
+}
+
+bool all_ignore(const std::vector<Method>& methods, const std::string& key) {
+  return std::all_of(methods.begin(), methods.end(), [&](const Method& method) {
+    return std::find(method.ignores.begin(), method.ignores.end(), key) != method.ignores.end();
+  });
+}
+
 LocateFunction named(const std::string& method, const LocateAll& locate) {
   return [=](const LocalizationProblem& problem, int threads, Diagnostics&) {
     LocalizationResult result;

@@ -48,7 +48,16 @@ struct Method {
   /// How it locates with settings, all of which it takes; null where it takes none. Throws Error on
   /// values out of their range.
   std::function<LocateFunction(const MethodSettings&)> with{};
+  /// What others make use of that may be known or asked for, and this one does not, by the keys of
+  /// a scenario's `localization`: "offset", "half_turns", "pose_error" and those of EstimateLimits.
+  std::vector<std::string> ignores{};
 };
+
+/// The same, which makes no use of `keys`.
+Method ignoring(std::vector<std::string> keys, Method method);
+
+/// Whether none of the methods makes use of `key`.
+bool all_ignore(const std::vector<Method>& methods, const std::string& key);
 
 /// The method with those of `settings` that it takes.
 Method configured(Method method, const MethodSettings& settings);

@@ -51,6 +51,12 @@ std::string left_out_note(const RunFiles& run) {
       grouped(run.reads.size()), grouped(run.reads_in_table));
 }
 
+std::string view_section(const std::optional<RunView>& view) {
+  if (!view) return "";
+  return "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html + "</section>\n";
+}
+
+/// The hall with the result comes first, tables after it.
 std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     const std::optional<RunView>& view) {
   const Summary& summary = run.summary;
@@ -60,11 +66,8 @@ std::string page_of(const RunFiles& run, const std::vector<Figure>& figures,
                     link_script().hash}) +
          "<body>\n" + page_header(summary, run.tracked) + "<main>\n" +
          (is_inventory ? inventory_numbers(*summary.inventory) : key_numbers(summary)) +
-         run_facts(summary) + inventory_tables(summary) + methods_table(summary) +
-         navigation_table(summary) + effects_table(summary) +
-         (view ? "<section class=\"screen\">\n<h2>The run over time</h2>\n" + view->html +
-                     "</section>\n"
-               : "") +
+         run_facts(summary) + view_section(view) + inventory_tables(summary) +
+         methods_table(summary) + navigation_table(summary) + effects_table(summary) +
          "<h2>Figures</h2>\n" + left_out_note(run) + figures_html(figures) +
          (run.tracked ? passings_table(run.tracked->orders) : "") +
          (is_inventory ? "" : "<h2>Tags</h2>\n" + tag_table(summary)) + "</main>\n" +

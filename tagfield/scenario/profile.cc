@@ -43,6 +43,7 @@ std::vector<std::string> keys_of(ProfileKind kind) {
 
 RawParameter figure_of(const std::string& key, YamlMap map) {
   RawParameter parameter = raw_parameter(key, map.at("value"));
+  parameter.in_profile = true;
   static_cast<void>(map.at("source").text());
   map.finish();
   return parameter;

@@ -16,6 +16,7 @@
 #include "tagfield/localization/locate.h"
 #include "tagfield/localization/method.h"
 #include "tagfield/scenario/internal/antenna_model_yaml.h"
+#include "tagfield/scenario/internal/idle_keys.h"
 #include "tagfield/scenario/internal/localization_yaml.h"
 #include "tagfield/scenario/internal/navigation_yaml.h"
 #include "tagfield/scenario/internal/neighbour_use.h"
@@ -268,6 +269,7 @@ Scenario scenario_of(YamlMap map, bool world_is_given, const std::vector<Method>
   if (map.has("robots") && scenario.pose.source != PoseSource::kSlam) {
     for (const YamlValue& robot : map.list("robots")) forbid_self_driving(YamlMap(robot));
   }
+  warn_of_idle_keys(map, scenario, diagnostics);
   map.finish();
   return scenario;
 }
@@ -295,6 +297,7 @@ double planned_duration_s(const Scenario& scenario) {
 struct ReadScenario {
   Scenario scenario;
   std::optional<Error> without_physical_antenna;
+  std::vector<PlacedKey> of_physical_models;  ///< Without effect where there is none.
   std::optional<PlanSpec> plan;
   bool has_plan = false;  ///< A section `plan`, looked at or not.
 };
@@ -321,7 +324,8 @@ ReadScenario read_scenario(const YAML::Node& root, const std::string& path,
   try {
     YamlMap map(YamlValue(root, path, ""));
     ReadScenario read{scenario_of(map, scene != nullptr, methods, diagnostics),
-                      key_without_physical_antenna(map), std::nullopt, map.has("plan")};
+                      key_without_physical_antenna(map), keys_of_physical_models(map), std::nullopt,
+                      map.has("plan")};
     if (!to_plan) return read;
     if (!map.has("plan")) {
       fail({path, 0}, "has no 'plan': where antennas and tags can be (docs/plan.md)");
@@ -363,6 +367,7 @@ ScenarioWithWorld with_world(ReadScenario read, const std::string& path, const S
   read.scenario.antennas = scenario.antennas;
   require_use_of_keys(read);
   if (scenario.tags.empty()) fail({path, 0}, "no tags: neither the scenario nor its world has one");
+  warn_of_idle_settings(scenario, read.of_physical_models, diagnostics);
   require_use_of_neighbours(scenario, diagnostics);
   require_readers_of_zones(scenario);
   require_end(scenario, path);
@@ -414,6 +419,7 @@ Scenario load_scenario(const std::string& path, const std::vector<Override>& ove
   // The world of one that has it may bring antennas.
   if (read.scenario.world.path.empty()) {
     require_use_of_keys(read);
+    warn_of_idle_settings(read.scenario, read.of_physical_models, diagnostics);
     require_use_of_neighbours(read.scenario, diagnostics);
   }
   return read.scenario;

@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "tagfield/reader/radio_model.h"
+#include "tagfield/settings/idle_settings.h"
 #include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {
@@ -81,6 +83,18 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
   }
 }
 
+/// Of settings of `parameters` that change nothing in the model that they made, RadioModel or
+/// TagModel.
+template <class Model>
+void warn_of_idle(const std::vector<RawParameter>& parameters, const Model& model,
+                  Diagnostics& found) {
+  for (const RawParameter& setting : model.settings) {
+    const auto why = why_idle(setting.key, model);
+    if (!why) continue;
+    found.warn(fmt::format("<{}> has no effect {}", element_of(parameters, setting.key), *why));
+  }
+}
+
 /// The paper's model has elements of its own, and one that all have.
 void require_no_setting(const std::vector<RawParameter>& parameters) {
   for (const RawParameter& parameter : parameters) {
@@ -112,7 +126,9 @@ std::shared_ptr<const RadioModel> sensor_radio(const std::vector<RawParameter>& 
       require_no_setting(parameters);
       return std::shared_ptr<const RadioModel>();
     }
-    return radio_model_from(kind, settings, {}, found);
+    auto radio = radio_model_from(kind, settings, {}, found);
+    warn_of_idle(parameters, *radio, found);
+    return radio;
   };
   return made(parameters, location, is_antenna_setting, diagnostics, make);
 }
@@ -121,9 +137,11 @@ std::shared_ptr<const TagModel> sensor_tag_model(const std::vector<RawParameter>
                                                  const Location& location,
                                                  Diagnostics& diagnostics) {
   using Settings = std::vector<RawParameter>;
-  const auto make = [](const Settings& settings, Diagnostics& found) {
+  const auto make = [&](const Settings& settings, Diagnostics& found) {
     if (settings.empty()) return std::shared_ptr<const TagModel>();
-    return tag_model_from("tag", settings, {}, found);
+    auto tag = tag_model_from("tag", settings, {}, found);
+    warn_of_idle(parameters, *tag, found);
+    return tag;
   };
   return made(parameters, location, is_tag_setting, diagnostics, make);
 }

@@ -59,8 +59,7 @@ const std::vector<Setting<TrackingOptions>>& tracking_settings() {
 const std::vector<Setting<TrackingOptions>>& particle_track_settings() {
   using O = TrackingOptions;
   static const std::vector<Setting<O>> all = {
-      setting<O>("particles", "", "of each filter", &O::particles, {100.0, false, 1e6}),
-      setting<O>("seed", "", "of the particles", &O::seed, kAtLeastZero)};
+      setting<O>("particles", "", "of each filter", &O::particles, {100.0, false, 1e6})};
   return all;
 }
 

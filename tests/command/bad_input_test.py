@@ -1250,7 +1250,8 @@ def what_never_ends(context):
 
 @case
 def files_larger_than_allowed(context):
-    path = context.write("good.yaml", SCENARIO)
+    # Without the key that noisy poses leave idle, of which there would be a warning.
+    path = context.write("good.yaml", SCENARIO.replace("  wheel_noise: 0.01\n", ""))
     words = f'ulimit -f 4; "{context.tagfield}" run "{path}" --out o'
     done = subprocess.run(["bash", "-c", words], cwd=context.folder, capture_output=True, text=True,
                           check=False)

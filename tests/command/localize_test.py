@@ -642,6 +642,17 @@ def circular_antennas_turn_phases_by_the_wire(context):
 
 
 @case
+def options_that_a_method_does_not_use_are_warned_of(context):
+    height = ("--tag-height", str(HEIGHT))
+    for method, words, warned in (("trilateration", ("--pose-sigma", "0.02"), "--pose-sigma has no effect with trilateration"),
+                                  ("hyperbola", ("--offset", "1"), "--offset has no effect with hyperbola"),
+                                  ("ml", ("--offset", "1", "--pose-sigma", "0.02"), None)):
+        result, _, _ = localize(context, read_rows(FARTHER), pose_rows(), *height, "--method", method, *words)
+        check_equal("has no effect" in result.err, warned is not None, f"{method}: {result.err}")
+        check_in(warned or "", result.err, method)
+
+
+@case
 def formats_by_name_in_track_and_calibrate(context):
     adarf_folder(context, RAIL_TAGS)
     context.write("tags.csv", "tag,x_m,y_m,z_m\n" + "".join(

@@ -99,10 +99,10 @@ def frame_in(context, name):
     return re.search(rf'{name} = "(\w+)"', text)[1]
 
 
-def scenario(context):
+def scenario(context, name="paper_warehouse_slam"):
     if yaml is None:
         raise Skip("python3-yaml is not there")
-    text = context.shipped("paper_warehouse_slam").read_text(encoding="utf-8")
+    text = context.shipped(name).read_text(encoding="utf-8")
     return yaml.safe_load(text)
 
 
@@ -230,7 +230,8 @@ def limits_are_the_robots(context):
              for name in ("least_range_m", "most_range_m")}
     follow, behave = nav2["controller_server"]["FollowPath"], nav2["behavior_server"]
     check_equal(follow["desired_linear_vel"], robot["speed_m_s"], "speed")
-    check_equal(follow["lookahead_dist"], robot["look_ahead_m"], "look-ahead")
+    follower = scenario(context, "paper_warehouse")["robots"][0]  # One that navigates plans its own.
+    check_equal(follow["lookahead_dist"], follower["look_ahead_m"], "look-ahead")
     check(follow["desired_linear_vel"] <= limits["speed_m_s"], "a speed that the robot can't have")
     for turn in (follow["rotate_to_heading_angular_vel"], behave["max_rotational_vel"]):
         check(turn <= limits["turn_rad_s"], "a turn that the robot can't make")

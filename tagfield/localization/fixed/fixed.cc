@@ -121,9 +121,10 @@ const OptionTable<FixedOptions>& fixed_options() {
 }  // namespace
 
 Method fixed_method(const FixedOptions& options) {
-  return method_with("fixed",
-                     "antennas at rest: RSSI by a law that tags share, phases over channels",
-                     fixed_options(), options, locate_from_fixed);
+  return ignoring(
+      {"offset", "pose_error", "max_expected_error_m", "max_rms_m"},
+      method_with("fixed", "antennas at rest: RSSI by a law that tags share, phases over channels",
+                  fixed_options(), options, locate_from_fixed));
 }
 
 }  // namespace tagfield

@@ -114,14 +114,16 @@ TagEstimate locate_by_hyperbolae(const std::string& tag, const SamplesOfTag& sam
 }
 
 Method hyperbola_method(const HyperbolaOptions& options) {
-  return one_by_one(
-      "hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
-      hyperbola_options(), options,
-      [](const LocalizationProblem& problem, const std::string& tag, const SamplesOfTag& samples,
-         const HyperbolaOptions& of) {
-        return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of, problem.limits,
-                                    problem.pose_error, side_to_estimate(problem, tag));
-      });
+  return ignoring(
+      {"offset"},
+      one_by_one("hyperbola", "hyperbolae from unwrapped phase, their intersections (the paper's)",
+                 hyperbola_options(), options,
+                 [](const LocalizationProblem& problem, const std::string& tag,
+                    const SamplesOfTag& samples, const HyperbolaOptions& of) {
+                   return locate_by_hyperbolae(tag, samples, plane_height(problem, tag), of,
+                                               problem.limits, problem.pose_error,
+                                               side_to_estimate(problem, tag));
+                 }));
 }
 
 }  // namespace tagfield

@@ -89,8 +89,10 @@ UnwrappedFit fit_unwrapped(const LocalizationProblem& problem, const std::string
 }
 
 Method least_squares_method() {
-  return one_by_one("least_squares", "least squares on unwrapped phase, an offset for each section",
-                    locate);
+  return ignoring(
+      {"offset"},
+      one_by_one("least_squares", "least squares on unwrapped phase, an offset for each section",
+                 locate));
 }
 
 }  // namespace tagfield

@@ -211,8 +211,9 @@ const OptionTable<LandmarcOptions>& landmarc_options() {
 }  // namespace
 
 Method landmarc_method(const LandmarcOptions& options) {
-  return method_with("landmarc", "the nearest reference tags by RSSI, their mean",
-                     landmarc_options(), options, locate_by_references);
+  return ignoring({"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"},
+                  method_with("landmarc", "the nearest reference tags by RSSI, their mean",
+                              landmarc_options(), options, locate_by_references));
 }
 
 }  // namespace tagfield

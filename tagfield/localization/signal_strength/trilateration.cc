@@ -518,9 +518,10 @@ const OptionTable<TrilaterationOptions>& trilateration_options() {
 }  // namespace
 
 Method trilateration_method(const TrilaterationOptions& options) {
-  return method_with("trilateration",
-                     "distances by RSSI over a logarithmic law, its slope fitted too",
-                     trilateration_options(), options, locate_by_rssi);
+  return ignoring(
+      {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"},
+      method_with("trilateration", "distances by RSSI over a logarithmic law, its slope fitted too",
+                  trilateration_options(), options, locate_by_rssi));
 }
 
 }  // namespace tagfield

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What holds for every method that comes with Tagfield.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "method_study.h"
+#include "tagfield/base/units.h"
 #include "tagfield/localization/locate.h"
 
 namespace tagfield {
@@ -94,6 +96,60 @@ TEST(EveryMethod, AnswersForEachTagInOrderWithoutInfinities) {
       ++tag;
     }
   }
+}
+
+/// The mixed problem with what a key of a scenario's `localization` says made another.
+LocalizationProblem changed_problem(const std::string& key) {
+  LocalizationProblem problem = mixed_problem();
+  if (key == "offset") problem.offset_known = {"a", "b", "c", "d", "s"};
+  if (key == "pose_error") problem.pose_error = PoseErrorModel{0.1, 0.1, 2.0};
+  if (key == "max_expected_error_m") problem.limits.max_expected_error_m = 1e-6;
+  if (key == "max_rms_m") problem.limits.max_rms_m = 1e-6;
+  if (key != "half_turns") return problem;
+  problem.half_turns = true;
+  for (auto& [tag, of_tag] : problem.samples) {
+    for (auto& [antenna, samples] : of_tag) {
+      for (PhaseSample& s : samples) {
+        s.phase_rad = std::fmod(2.0 * s.phase_rad, kTwoPi);
+        s.frequency_hz *= 2.0;
+      }
+    }
+  }
+  return problem;
+}
+
+/// All that it found, as text.
+std::string told(const Method& method, const LocalizationProblem& problem) {
+  Diagnostics diagnostics;
+  std::string text;
+  for (const TagEstimate& estimate : method.locate(problem, 1, diagnostics).estimates) {
+    text += fmt::format("{} {} {}\n", estimate.tag, static_cast<int>(estimate.verdict),
+                        estimate.reason);
+    for (const Candidate& c : estimate.candidates) {
+      text += fmt::format("{} {} {} {}\n", c.p_WT.x(), c.p_WT.y(), c.p_WT.z(), c.expected_error_m);
+    }
+  }
+  return text;
+}
+
+TEST(EveryMethod, FindsTheSameWhateverIsKnownOfWhatItIgnores) {
+  std::map<std::string, int> uses;
+  const LocalizationProblem problem = mixed_problem();
+  for (const Method& method : methods()) {
+    if (method.name == "auto") continue;  // The one that it chooses ignores what it ignores.
+    const std::string usual = told(method, problem);
+    for (const char* const key :
+         {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
+      const std::string other = told(method, changed_problem(key));
+      if (all_ignore({method}, key)) {
+        EXPECT_EQ(other, usual) << method.name << ": " << key;
+      } else {
+        uses[key] += static_cast<int>(other != usual);
+      }
+    }
+  }
+  // What no method ignored would not have been looked at.
+  for (const auto& [key, count] : uses) EXPECT_GE(count, 2) << key;
 }
 
 TEST(EveryMethod, ReferenceTagsAreWhereTheyAre) {

@@ -39,7 +39,12 @@ OptionalDistribution distribution_of(YamlMap& map) {
   const std::vector<double> parameters = map.has("optional_distribution_params")
                                              ? map.at("optional_distribution_params").numbers(0)
                                              : std::vector<double>{};
-  if (!map.has("optional_distribution")) return {};
+  if (!map.has("optional_distribution")) {
+    if (!parameters.empty()) {
+      map.at("optional_distribution_params").fail("needs 'optional_distribution' beside it");
+    }
+    return {};
+  }
   if (parameters.empty()) map.complain_of_slip("optional_distribution_params");
   const YamlValue name = map.at("optional_distribution");
   try {

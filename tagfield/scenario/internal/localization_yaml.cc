@@ -2,6 +2,7 @@
 #include "tagfield/scenario/internal/localization_yaml.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -52,8 +53,21 @@ PoseErrorModel pose_error_of(YamlMap map) {
   return model;
 }
 
+/// Of what is known or asked for, and none of the methods makes use of.
+void warn_of_ignored(YamlMap& map, const std::vector<Method>& used, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const Method& method : used) names.push_back(method.name);
+  for (const char* const key :
+       {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
+    if (!map.has(key) || !all_ignore(used, key)) continue;
+    diagnostics.warn(map.at(key).location(), fmt::format("localization.{} has no effect with {}",
+                                                         key, fmt::join(names, " and ")));
+  }
+}
+
 /// The methods that are used, their settings checked.
-void read_methods(YamlMap& map, const std::vector<Method>& methods, LocalizationSpec& spec) {
+void read_methods(YamlMap& map, const std::vector<Method>& methods, LocalizationSpec& spec,
+                  Diagnostics& diagnostics) {
   std::vector<Method> used = {map.has("method") ? method_of(map.at("method"), methods)
                                                 : find_method(methods, spec.method)};
   spec.method = used.front().name;
@@ -64,6 +78,7 @@ void read_methods(YamlMap& map, const std::vector<Method>& methods, Localization
   spec.settings = settings_of(map, settings_of(methods));
   refuse_unused(spec.settings, used, methods);
   for (const Method& method : used) configured(method, spec.settings);
+  warn_of_ignored(map, used, diagnostics);
 }
 
 /// Nothing is located, so nothing that says how has an effect.
@@ -117,7 +132,7 @@ LocalizationSpec localization_of(const YamlValue& value, const std::vector<Metho
     spec.method = kNoLocalization;
     return spec;
   }
-  read_methods(map, methods, spec);
+  read_methods(map, methods, spec, diagnostics);
   if (map.has("half_turns")) spec.half_turns = map.at("half_turns").boolean();
   if (map.has("offset")) spec.offset_known = choice(map.at("offset"), {"unknown", "known"}) == 1;
   for (const YamlValue& tag : map.list("reference_tags")) spec.reference_tags.push_back(tag.text());

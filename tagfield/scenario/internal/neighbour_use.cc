@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tagfield/field/port_turns.h"
 #include "tagfield/reader/radio_model.h"
 
 namespace tagfield {
@@ -49,14 +50,51 @@ void warn_of_mask(const Scenario& scenario, const AntennaParameters& antenna,
                                antenna.name));
 }
 
+/// Of a dwell at a port that is the only one in its cycle.
+void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParameters& antenna,
+                        Diagnostics& diagnostics) {
+  const RawParameter* const at = told(*physical(antenna), "port_dwell_s");
+  if (at == nullptr || at->in_profile) return;
+  const bool is_alone = std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
+    return cycle.size() == 1 && cycle.front().antenna == antenna.name;
+  });
+  if (!is_alone) return;
+  diagnostics.warn(at->location, fmt::format("port_dwell_s of antenna '{}' has no effect: its "
+                                             "reader has no other antenna to take turns with",
+                                             antenna.name));
+}
+
+void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
+                     Diagnostics& diagnostics) {
+  const RadioModel& model = *physical(antenna);
+  const RawParameter* const at = told(model, "sharing");
+  if (at == nullptr || at->in_profile || model.sharing != AirSharing::kTime) return;
+  const bool has_others = std::any_of(
+      scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& other) {
+        const RadioModel* const of_other = physical(other.parameters);
+        return of_other != nullptr && other.parameters.reader != antenna.reader &&
+               of_other->sharing == AirSharing::kTime;
+      });
+  if (has_others) return;
+  diagnostics.warn(
+      at->location,
+      fmt::format("sharing: time of antenna '{}' has no effect: no other reader has it",
+                  antenna.name));
+}
+
 }  // namespace
 
 void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostics) {
+  std::vector<AntennaParameters> all;
+  for (const AntennaSpec& antenna : scenario.antennas) all.push_back(antenna.parameters);
+  const std::vector<PortCycle> cycles = port_cycles(all);
   for (const AntennaSpec& antenna : scenario.antennas) {
     const RadioModel* const model = physical(antenna.parameters);
     if (model == nullptr) continue;
     require_others(scenario, antenna.parameters);
     warn_of_mask(scenario, antenna.parameters, diagnostics);
+    warn_of_port_dwell(cycles, antenna.parameters, diagnostics);
+    warn_of_sharing(scenario, antenna.parameters, diagnostics);
     const RawParameter* const coupling = told(*model, "tag_coupling");
     if (couples_tags(*model) && coupling != nullptr && scenario.tags.size() == 1) {
       diagnostics.warn(coupling->location, "tag_coupling has no effect: there is one tag only");

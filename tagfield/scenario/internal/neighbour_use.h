@@ -9,8 +9,8 @@
 namespace tagfield {
 
 /// Throws Error at the place of an antenna's `interference: on` where no other reader ever sends
-/// while it does; warns of `tag_coupling: on` with one tag, and of a `spectrum_mask` that no other
-/// reader minds.
+/// while it does; warns of `tag_coupling: on` with one tag, of a `spectrum_mask` that no other
+/// reader minds, and of turns (`port_dwell_s`, `sharing: time`) that there is nobody to take with.
 void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostics);
 
 }  // namespace tagfield

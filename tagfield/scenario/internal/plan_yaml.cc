@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tagfield/base/units.h"
+#include "tagfield/scenario/internal/idle_keys.h"
 #include "tagfield/scenario/internal/zones_yaml.h"
 #include "tagfield/scenario/orientations.h"
 #include "tagfield/scenario/yaml_values.h"
@@ -115,6 +116,7 @@ PlanTags tags_of(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnosti
   tags.model = tag_model_of(map, radio, diagnostics);
   if (!tags.model) tags.model = default_tag_model();
   tags.settings = written(map, tag_settings());
+  warn_of_idle_settings(*tags.model, fmt::format("plan's tags '{}'", tags.name), diagnostics);
   if (map.has("profile")) {
     const YamlValue profile = map.at("profile");
     tags.settings.insert(tags.settings.begin(),
@@ -236,6 +238,12 @@ void add_mounts(YamlMap map, const RadioDefaults& radio, Diagnostics& diagnostic
   like.settings = written(map, antenna_settings());
   for (const YamlValue& profile : map.list("profiles")) {
     like.profiles.push_back(profile_file_of_antenna(profile));
+  }
+  warn_of_idle_settings(*made, fmt::format("mount '{}'", name), diagnostics);
+  if (map.has("powers_dbm") && map.has("transmit_power_dbm")) {
+    diagnostics.warn(
+        map.at("transmit_power_dbm").location(),
+        fmt::format("transmit_power_dbm of mount '{}' has no effect beside powers_dbm", name));
   }
   like.power_dbm = powers_of(map, *made);
   require_legal(map.self(), like, *made);

@@ -49,6 +49,21 @@ TEST(PlanYaml, SpreadsPlacesAndMounts) {
   EXPECT_DOUBLE_EQ(plan.dwell_s, 3.0);
 }
 
+TEST(PlanYaml, WarnsOfSettingsWithoutEffect) {
+  Diagnostics diagnostics;
+  const std::string path = folder_of_test().with(
+      "plan.yaml", scenario("  tags: [{name: t, points: [[1, 0, 0]], beam_width_deg: 40}]\n"
+                            "  mounts:\n" +
+                            kMount + ", powers_dbm: [27], transmit_power_dbm: 26, start_q: 5}\n"));
+  load_scenario_to_plan(path, {}, diagnostics);
+  EXPECT_EQ(diagnostics.warnings(),
+            (std::vector<std::string>{
+                path + ":4: beam_width_deg of plan's tags 't' has no effect with pattern: dipole, "
+                       "as only a patch has a lobe",
+                path + ":6: start_q of mount 'm' has no effect without inventory: gen2",
+                path + ":6: transmit_power_dbm of mount 'm' has no effect beside powers_dbm"}));
+}
+
 TEST(PlanYaml, SaysWhatIsWrongWhere) {
   const auto says = [](const std::string& text, const char* words) {
     const std::string said = complaint(text);

@@ -124,7 +124,11 @@ void add_plan_settings(std::vector<Setting<AntennaDraft>>& all) {
   all.push_back(
       {{"channel_plan", "etsi_low | etsi_high | fcc | china | fixed", "carriers to hop on"},
        [](D& d, const std::string& text) {
-         if (text != "fixed") d.model.plan = known_plan(text);
+         if (text != "fixed") {
+           d.model.plan = known_plan(text);
+         } else if (d.model.plan.carriers_hz.size() > 1) {
+           throw Error("fixed needs frequency_hz, as a profile gives several carriers");
+         }
        }});
   all.push_back(
       {{"carriers_hz", "Hz", "carriers to hop on, instead of the plan's"},
