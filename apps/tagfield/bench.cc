@@ -9,6 +9,7 @@
 #include "apps/tagfield/command_method.h"
 #include "apps/tagfield/commands.h"
 #include "apps/tagfield/method_text.h"
+#include "apps/tagfield/program_version.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
@@ -111,7 +112,7 @@ std::unique_ptr<RunStore> store_of(const BenchArguments& arguments, const Suite&
   std::vector<std::string> words;
   for (const SuiteMethod& method : suite.methods) words.push_back(method.name);
   for (const Condition& condition : suite.conditions) words.push_back(condition.name);
-  const LogHead head{TAGFIELD_VERSION, work_hash(read_text_file(arguments.suite), suite, words)};
+  const LogHead head{program_version(), work_hash(read_text_file(arguments.suite), suite, words)};
   Diagnostics of_store;
   auto store = std::make_unique<RunStore>(out + "/" + kResumeLog, head,
                                           arguments.resume ? Resume::kYes : Resume::kNo, of_store);

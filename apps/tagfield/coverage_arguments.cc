@@ -14,6 +14,7 @@
 #include "tagfield/map/top_view.h"
 #include "tagfield/scenario/orientations.h"
 #include "tagfield/scenario/profile.h"
+#include "tagfield/settings/idle_settings.h"
 #include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {
@@ -143,6 +144,11 @@ void set_tag(const CoverageArguments& arguments, const Scenario& scenario, Diagn
     worded.request.tag = of_one ? of_one : default_tag_model();
   } else {
     worded.request.tag = tag_model_from(name, parameters, {"--tag-set", 0}, diagnostics);
+  }
+  for (const std::string& setting : settings) {
+    const std::string key = setting_of(setting).key;
+    const auto why = why_idle(key, *worded.request.tag);
+    if (why) diagnostics.warn(fmt::format("--tag-set {} has no effect {}", key, *why));
   }
   worded.tag_kind = fmt::format("{}, chip {:g} dBm", worded.request.tag->name,
                                 worded.request.tag->sensitivity_dbm);

@@ -11,6 +11,7 @@
 #include "apps/tagfield/long_runs.h"
 #include "apps/tagfield/outlet_arguments.h"
 #include "apps/tagfield/own_folder.h"
+#include "apps/tagfield/program_version.h"
 #include "apps/tagfield/progress_bar.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
@@ -97,7 +98,7 @@ std::unique_ptr<RunStore> store_of(const RunArguments& arguments,
                                    const std::vector<Override>& overrides, const Scene& scene,
                                    const std::string& out) {
   if (arguments.seeds == 1) return nullptr;
-  const LogHead head{TAGFIELD_VERSION,
+  const LogHead head{program_version(),
                      work_hash(arguments.scenario, overrides, scene, arguments.without)};
   Diagnostics of_store;
   auto store = std::make_unique<RunStore>(out + "/" + kResumeLog, head,

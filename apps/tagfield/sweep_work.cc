@@ -11,6 +11,7 @@
 
 #include "adapters/sqlite/database_file.h"
 #include "apps/tagfield/command_line.h"
+#include "apps/tagfield/program_version.h"
 #include "apps/tagfield/scenario_arguments.h"
 #include "apps/tagfield/shared_folder.h"
 #include "apps/tagfield/suite_recording.h"
@@ -43,9 +44,9 @@ struct FoundSweep {
 FoundSweep found_sweep(const std::string& folder) {
   FoundSweep found;
   found.source = read_sweep_source(folder);
-  if (found.source.head.program != TAGFIELD_VERSION) {
+  if (found.source.head.program != program_version()) {
     fail({folder, 0}, fmt::format("holds a sweep by tagfield {}, and this is {}: merge with that",
-                                  found.source.head.program, TAGFIELD_VERSION));
+                                  found.source.head.program, program_version()));
   }
   found.plan = planned(suite_from_text(found.source.text, found.source.suite));
   return found;
@@ -189,7 +190,7 @@ OpenSweep open_sweep(const std::string& suite, const std::string& out, const Wor
   Diagnostics diagnostics;
   require_runnable(sweep.plan, sweep.means, diagnostics);
   const std::string text = read_text_file(suite, kMostSuiteBytes);
-  sweep.head = {TAGFIELD_VERSION, work_hash(text, loaded, {})};
+  sweep.head = {program_version(), work_hash(text, loaded, {})};
   const std::string place = std::filesystem::absolute(suite).lexically_normal().string();
   claim_sweep_folder(sweep.folder, {sweep.head, place, text});
   return sweep;

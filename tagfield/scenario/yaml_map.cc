@@ -47,16 +47,17 @@ void require_in_range(const YamlValue& value, double number, NumberRange range) 
   }
 }
 
+/// Of text, each there once.
 void require_unique_keys(const YamlValue& map) {
   if (map.node().size() > kMostKeys) {
     map.fail(fmt::format("has {} keys, expected at most {}", map.node().size(), kMostKeys));
   }
   std::set<std::string> keys;
   for (const auto& entry : map.node()) {
-    const std::string key = entry.first.as<std::string>("");
-    if (!keys.insert(key).second) {
-      YamlValue(entry.first, map.file(), map.path()).fail(fmt::format("has '{}' twice", key));
-    }
+    const YamlValue place(entry.first, map.file(), map.path());
+    if (!entry.first.IsScalar()) place.fail("has a key that is not text");
+    const auto key = entry.first.as<std::string>();
+    if (!keys.insert(key).second) place.fail(fmt::format("has '{}' twice", key));
   }
 }
 

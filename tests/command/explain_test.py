@@ -392,13 +392,15 @@ def coverage_is_of_the_tag_that_is_named(context):
         "[10, 3, 1], pattern: isotropic, gain_dbi: 0", "[10, 3, 1], pattern: isotropic, gain_dbi: 6"))
     powers = {}
     for name, words in (("first", ()), ("near", ("--tag", "near")), ("lost", ("--tag", "lost")),
-                        ("set", ("--tag", "near", "--tag-set", "gain_dbi=6")),
+                        ("set", ("--tag", "near", "--tag-set", "gain_dbi=6", "--tag-set", "beam_width_deg=40")),
                         ("old", ("--tag", "gain_dbi=6"))):
         told = context.run_well("coverage", path, "--antenna", "gate", "--region=1.9,-0.1,2.1,0.1",
                                 "--step", "0.2", "--height", "1", *words, "--json", "--out",
                                 context.folder / "out")
         check_equal(json.loads(told.out), read_json(context.folder / "out/coverage.json"), "--json")
         check_equal("is now --tag-set gain_dbi=6" in told.err, name == "old", f"warning of {name}")
+        check_equal("--tag-set beam_width_deg has no effect with pattern: isotropic" in told.err, name == "set",
+                    f"warning of {name}: {told.err}")
         powers[name] = float(read_csv(context.folder / "out/coverage_1.00m.csv")[0]["power_dbm"])
     check_near(powers["near"], powers["first"], 1e-6, "the first is taken")
     for name in ("lost", "set", "old"):

@@ -299,6 +299,13 @@ def other_suites_are_refused(context):
         check_in("holds the sweep of another suite, or of one whose files were changed", complaint, what)
     suite_of(context)
     source = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
+    told = json.loads(context.run_well("--version", "--json").out)
+    program = told["version"] + (f"+{told['commit']}" if told["commit"] else "") + (".changed" if told["changed"] else "")
+    check_equal(source["tagfield"], program, "the program that a sweep is of")
+    if told["commit"]:  # Another build of the same version may get other results.
+        context.write("out/sweep.json", json.dumps(source | {"tagfield": f"{told['version']}+000000000000"}))
+        complaint = line_of(context.run("sweep", "--merge", folder), "another commit")
+        check_in("+000000000000, and this is ", complaint, "another commit")
     context.write("out/sweep.json", json.dumps(source | {"tagfield": "0.0.9"}))
     for arguments in (("--merge", folder), (suite, "--shard", "2/3", "--out", folder)):
         complaint = line_of(context.run("sweep", *arguments), "another version")

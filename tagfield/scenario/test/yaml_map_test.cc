@@ -57,6 +57,14 @@ TEST(YamlMap, RefusesAKeyThatStandsTwice) {
   EXPECT_EQ(map_complaint([] { map_of("a: 1\nb: 2\na: 3\n"); }), "f.yaml:3: has 'a' twice");
 }
 
+TEST(YamlMap, HasKeysOfText) {
+  const std::string says = " has a key that is not text";
+  EXPECT_EQ(map_complaint([] { map_of("a: 1\n? [b, c]\n: 2\n"); }), "f.yaml:2:" + says);
+  EXPECT_EQ(map_complaint([] { map_of("a: 1\n? {b: c}\n: 2\n"); }), "f.yaml:2:" + says);
+  // The parser has no place for nothing but the one after it.
+  EXPECT_EQ(map_complaint([] { map_of("a: 1\n?\n"); }), "f.yaml:3:" + says);
+}
+
 TEST(SetInYaml, ReplacesAndAdds) {
   YAML::Node root = YAML::Load("a: {b: 1}\nlist: [{name: x, v: 1}, {id: y, v: 2}]\n");
   set_in_yaml(root, "a.b", "5");
