@@ -56,6 +56,7 @@ PoseErrorModel pose_error_of(YamlMap map) {
 /// Of what is known or asked for, and none of the methods makes use of.
 void warn_of_ignored(YamlMap& map, const std::vector<Method>& used, Diagnostics& diagnostics) {
   std::vector<std::string> names;
+  names.reserve(used.size());
   for (const Method& method : used) names.push_back(method.name);
   for (const char* const key :
        {"offset", "half_turns", "pose_error", "max_expected_error_m", "max_rms_m"}) {
