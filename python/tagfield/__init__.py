@@ -10,7 +10,8 @@
     tagfield.plot.hall(run)
 
 Lengths are metres, angles radians, times seconds (stamp_ns: nanoseconds), unless a name says otherwise.
-What is wrong with an input raises tagfield.Error, in one line, the same that the command prints.
+What is wrong with an input raises tagfield.Error, in one line, the same that the command prints; what is
+odd gives a tagfield.TagfieldWarning.
 docs/python.md has more.
 """
 
@@ -23,14 +24,15 @@ from ._reads import Calibration, calibrate, localize, methods, poses_table, read
 from ._runs import Coverage, Explanation, Layer, Localization, Run, Scan, Simulation, Tracks, Truth
 from ._scenario import Outlet, Scenario, World, load, share
 from ._tables import Table
+from ._warnings import TagfieldWarning
 
 __version__: str = _core.__version__
 
 __all__ = [
     "Bench", "Calibration", "Coverage", "Error", "Estimate", "Explanation", "Layer", "Link", "LinkState",
     "Localization", "Method", "Outlet", "Place", "Plan", "Pose", "Problem", "Read", "Run", "Scan", "Scenario",
-    "Simulation", "Table", "Tracks", "Truth", "World", "bench", "calibrate", "load", "localize", "method",
-    "methods", "plan", "plot", "poses_table", "read", "reads_table", "share", "track",
+    "Simulation", "Table", "TagfieldWarning", "Tracks", "Truth", "World", "bench", "calibrate", "load", "localize",
+    "method", "methods", "plan", "plot", "poses_table", "read", "reads_table", "share", "track",
 ]
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 from . import _core
 from ._scenario import Scenario, _flat, _value_text, load, threads_of
 from ._tables import frame_of
+from ._warnings import tell
 
 if TYPE_CHECKING:
     import pandas
@@ -28,6 +29,7 @@ class Bench:
         self._parts = dict(parts)
         self.data: dict[str, Any] = json.loads(parts["json"])
         self.warnings: list[str] = parts["warnings"]
+        tell(self.warnings)
 
     def __str__(self) -> str:
         return self._parts["text"]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping
 from . import _core
 from ._scenario import Scenario, _changes, _Source, threads_of
 from ._tables import frame_of
+from ._warnings import tell
 
 if TYPE_CHECKING:
     import pandas
@@ -30,6 +31,7 @@ class Plan:
         self.data: dict[str, Any] = json.loads(parts["json"])
         self.layout: str = parts["layout"]
         self.warnings: list[str] = parts["warnings"]
+        tell(self.warnings)
 
     def __str__(self) -> str:
         return self._parts["text"]

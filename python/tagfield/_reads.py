@@ -14,6 +14,7 @@ from . import _core
 from ._runs import Localization, Tracks
 from ._scenario import share, threads_of
 from ._tables import Table
+from ._warnings import tell
 
 if TYPE_CHECKING:
     from ._scenario import Scenario
@@ -143,6 +144,9 @@ class Calibration:
     half_turns: bool
     yaml: str
     warnings: list[str]
+
+    def __post_init__(self) -> None:
+        tell(self.warnings)
 
     def save(self, path: str | os.PathLike) -> None:
         """Writes the profile."""

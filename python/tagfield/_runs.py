@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _core
 from ._tables import Table
+from ._warnings import tell
 
 if TYPE_CHECKING:
     from ._scenario import Scenario
@@ -66,6 +67,7 @@ class Localization:
         self.method = parts["method"]
         self.why = parts["why"]
         self.warnings = parts["warnings"]
+        tell(self.warnings)
         self._text = parts["text"]
 
     @property
@@ -279,6 +281,7 @@ class Coverage:
         self.moment: str = parts["moment"]
         self.by_paper: bool = parts["by_paper"]
         self.warnings: list[str] = parts["warnings"]
+        tell(self.warnings)
         rows, columns = self.layers[0].cells.shape
         self.x_m = self.corner_m[0] + self.step_m * (np.arange(columns) + 0.5)
         self.y_m = self.corner_m[1] + self.step_m * (np.arange(rows) + 0.5)
@@ -303,6 +306,7 @@ class Tracks:
         self.points: Table = parts["points"]
         self.passings: Table = parts["passings"]
         self.warnings: list[str] = parts["warnings"]
+        tell(self.warnings)
 
     def order(self, place: str = "line") -> list[str]:
         """Tags in the order in which they passed a place."""

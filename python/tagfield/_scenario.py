@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _core
 from ._runs import Coverage, Explanation, Run, Simulation, Tracks
+from ._warnings import tell
 
 __all__ = ["Outlet", "Scenario", "World", "load", "share"]
 
@@ -196,6 +197,7 @@ class Scenario:
     def _open(self, source: _Source) -> None:
         self._source = source
         self._loaded = source.load()
+        tell(self._loaded.warnings)
 
     def __repr__(self) -> str:
         return (f"<tagfield.Scenario {self.name}: {len(self.antennas)} antennas, {len(self.tags)} tags, "
@@ -242,7 +244,7 @@ class Scenario:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about it."""
+        """Warnings about it, which were told as :class:`TagfieldWarning` as it was read."""
         return self._loaded.warnings
 
     def outlines(self, low_m: float = 0.2, high_m: float = 2.0) -> list[tuple[str, list[np.ndarray]]]:

@@ -2,6 +2,7 @@
 """Scenarios and worlds made in Python; links, explanations, maps; stepping."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -43,6 +44,16 @@ def test_complaints_name_the_key(keys, said):
     with pytest.raises(tagfield.Error, match=said) as raised:
         portal(**keys)
     assert "\n" not in str(raised.value)
+
+
+def test_what_is_odd_is_a_warning_at_the_caller_s_line():
+    with pytest.warns(tagfield.TagfieldWarning, match="pose.sigma_m has no effect with source: true") as told:
+        odd = portal().with_({"pose.sigma_m": 0.1})
+    assert [str(one.message) for one in told] == odd.warnings
+    assert told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        portal()
 
 
 def test_free_space_falls_by_the_square():

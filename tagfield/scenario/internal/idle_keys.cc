@@ -51,6 +51,9 @@ std::optional<YamlValue> switch_of(YamlMap& map) {
   return pose.has("source") ? std::optional<YamlValue>(pose.at("source")) : std::nullopt;
 }
 
+/// And not on the command line.
+bool is_in_file(const YamlValue& value) { return value.location().file == value.file(); }
+
 /// Of keys that nothing uses with this source, but those of a file whose source was replaced from
 /// the command line: whoever does that tries the other one out.
 void warn_beside(const std::optional<YamlValue>& source, YamlMap map,
@@ -59,7 +62,7 @@ void warn_beside(const std::optional<YamlValue>& source, YamlMap map,
   for (const char* const key : keys) {
     if (!map.has(key)) continue;
     const YamlValue value = map.at(key);
-    if (source && source->location().file != value.location().file) continue;
+    if (source && !is_in_file(*source) && is_in_file(value)) continue;
     warn(value, why, diagnostics);
   }
 }

@@ -61,6 +61,16 @@ TEST(IdleKeys, ASourceReplacedFromTheCommandLineIsTriedOut) {
                      "noisy"});
 }
 
+TEST(IdleKeys, AKeyOfTheCommandLineIsLookedAtBesideTheFilesSource) {
+  const std::string path =
+      folder_of_test().with("scenario.yaml", hall("paper", "", "pose: {source: true}\n"));
+  Diagnostics diagnostics;
+  load_scenario(path, {{"pose.sigma_m", "0.1"}}, diagnostics);
+  EXPECT_EQ(diagnostics.warnings(),
+            Warnings{"--set: pose.sigma_m has no effect with source: true; expected source: "
+                     "noisy"});
+}
+
 TEST(IdleKeys, ARobotThatNavigatesSteersByItsPlanner) {
   const std::string text = hall("paper", "", "navigation: slam\n");
   const std::string drives = "start: [0, 0, 0], waypoints: [[3, 0]], look_ahead_m: 0.4";
