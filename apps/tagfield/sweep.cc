@@ -66,9 +66,15 @@ int exit_code_of(const RunsDone& done) {
   return done.failed > 0 ? kExitIncomplete : kExitOk;
 }
 
+OpenSweep opened(const SweepArguments& arguments) {
+  OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
+  print_warnings(sweep.diagnostics);
+  return sweep;
+}
+
 int sweep_shard(const SweepArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
+  const OpenSweep sweep = opened(arguments);
   const RunsDone done = run_shard(sweep, shard, arguments);
   if (arguments.as_json) {
     print_status(sweep.folder, true);
@@ -80,7 +86,7 @@ int sweep_shard(const SweepArguments& arguments) {
 
 /// All of it, rung by rung.
 int sweep_all(const SweepArguments& arguments) {
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
+  const OpenSweep sweep = opened(arguments);
   for (;;) {
     run_shard(sweep, {1, 1}, arguments);
     const Merged merged = merge_sweep(sweep.folder, !arguments.no_page, arguments.as_json);
@@ -115,7 +121,7 @@ std::vector<RunKey> runs_again(const OpenSweep& sweep, const std::vector<std::st
 }
 
 int sweep_again(const SweepArguments& arguments) {
-  const OpenSweep sweep = open_sweep(arguments.suite, arguments.out, arguments.world);
+  const OpenSweep sweep = opened(arguments);
   std::vector<RunKey> runs = runs_again(sweep, arguments.again);
   if (runs.empty()) {
     if (arguments.as_json) return print_status(sweep.folder, true);

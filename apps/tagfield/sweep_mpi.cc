@@ -81,6 +81,7 @@ Merged merge_on_first(const mpi::Session& session, const OpenSweep& sweep, bool 
 int sweep_together(const mpi::Session& session, const MpiArguments& arguments) {
   catch_interrupts();
   const OpenSweep sweep = open_sweep(arguments.suite, arguments.out);
+  if (session.rank() == 0) print_warnings(sweep.diagnostics);
   for (;;) {
     session.barrier();  // So that all have made sure of the folder, or see the rung that is open.
     run_together(session, sweep, arguments);

@@ -187,8 +187,7 @@ OpenSweep open_sweep(const std::string& suite, const std::string& out, const Wor
     Diagnostics unheard;  // What is odd is told once, by require_runnable().
     return read_recording(recording, unheard);
   };
-  Diagnostics diagnostics;
-  require_runnable(sweep.plan, sweep.means, diagnostics);
+  require_runnable(sweep.plan, sweep.means, sweep.diagnostics);
   const std::string text = read_text_file(suite, kMostSuiteBytes);
   sweep.head = {program_version(), work_hash(text, loaded, {})};
   const std::string place = std::filesystem::absolute(suite).lexically_normal().string();

@@ -21,10 +21,11 @@ struct OpenSweep {
   std::string suite;  ///< Path of its file.
   std::string folder;
   SweepMeans means;
+  Diagnostics diagnostics;  ///< What is odd in its conditions, not printed yet.
 };
 
 /// Reads a suite and makes its folder, or finds that the folder is for it. `out`: "" for
-/// runs/sweep_NAME. Warnings go to standard error. Throws Error.
+/// runs/sweep_NAME. Throws Error.
 OpenSweep open_sweep(const std::string& suite, const std::string& out,
                      const WorldOptions& world = {});
 

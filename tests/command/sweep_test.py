@@ -118,6 +118,15 @@ def numbers_are_those_of_a_bench(context):
 
 
 @case
+def what_is_odd_in_a_condition_is_told_once(context):
+    conditions = "conditions:\n  - {name: exact, set: {pose.source: 'true', pose.wheel_noise: 0.1}}\n"
+    told = context.run_well("sweep", suite_of(context, conditions), "--out", "out")
+    odd = [line for line in told.err.splitlines() if "pose.wheel_noise has no effect with source: true" in line]
+    check_equal(len(odd), 1, f"warnings: {told.err}")
+    check_in("condition 'exact", odd[0], "what is odd")
+
+
+@case
 def a_grid_is_every_combination(context):
     context.run_well("sweep", suite_of(context), "--out", "out")
     rows = read_csv(context.folder / "out/points.csv")
