@@ -48,7 +48,7 @@ const char* name_of(PatternShape shape) {
 Why why_idle_in(const std::string& key, const AntennaPattern& pattern) {
   const bool is_dipole = pattern.shape == PatternShape::kDipole;
   if (is_any(key, kOfLobe) && pattern.shape != PatternShape::kPatch) {
-    return fmt::format("with pattern: {}, as only a patch has a lobe", name_of(pattern.shape));
+    return fmt::format("with pattern: {}; expected patch", name_of(pattern.shape));
   }
   if (key == "gain_dbi" && pattern.shape == PatternShape::kTable) {
     return "with pattern: table, which has its own gains";

@@ -83,15 +83,14 @@ auto made(const std::vector<RawParameter>& parameters, const Location& location,
   }
 }
 
-/// Of settings of `parameters` that change nothing in the model that they made, RadioModel or
-/// TagModel.
+/// Of settings among `parameters` that change nothing in the model that they made, RadioModel or
+/// TagModel. The published parameters give way in silence, as every published sensor has them.
 template <class Model>
 void warn_of_idle(const std::vector<RawParameter>& parameters, const Model& model,
                   Diagnostics& found) {
-  for (const RawParameter& setting : model.settings) {
-    const auto why = why_idle(setting.key, model);
-    if (!why) continue;
-    found.warn(fmt::format("<{}> has no effect {}", element_of(parameters, setting.key), *why));
+  for (const RawParameter& parameter : parameters) {
+    const auto why = why_idle(parameter.key, model);
+    if (why) found.warn(fmt::format("<{}> has no effect {}", parameter.key, *why));
   }
 }
 

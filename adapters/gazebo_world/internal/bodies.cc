@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "adapters/gazebo_world/internal/radio.h"
 #include "adapters/gazebo_world/scenario_world.h"
 #include "tagfield/reader/radio_model.h"
+#include "tagfield/settings/idle_settings.h"
 
 namespace tagfield::gazebo_world_internal {
 namespace {
@@ -38,6 +42,17 @@ void add_inertial(XMLElement* link, double mass_kg) {
   for (const char* axis : {"ixy", "ixz", "iyz"}) add(inertia, axis, 0.0);
 }
 
+/// Without what only a profile said and nothing uses, of which plugins would warn.
+template <class Model>
+std::vector<RawParameter> used_settings(const Model& model) {
+  std::vector<RawParameter> used;
+  std::copy_if(model.settings.begin(), model.settings.end(), std::back_inserter(used),
+               [&](const RawParameter& setting) {
+                 return !setting.in_profile || !why_idle(setting.key, model);
+               });
+  return used;
+}
+
 void add_distribution(XMLElement* plugin, const OptionalDistribution& distribution) {
   const auto kind = static_cast<std::size_t>(distribution.kind);
   add(plugin, "optional_distribution", distribution_names().at(kind));
@@ -65,7 +80,7 @@ void add_model(XMLElement* plugin, const PaperAntenna& antenna) {
 void add_model(XMLElement* plugin, const std::shared_ptr<const RadioModel>& radio) {
   add(plugin, "frequency", PaperModel{}.frequency_hz);
   add(plugin, "phase_offset", PaperModel{}.phase_offset_rad);
-  add_settings(plugin, radio->settings);
+  add_settings(plugin, used_settings(*radio));
 }
 
 void add_antenna_sensor(Builder& builder, const AntennaSpec& antenna, XMLElement* link,
@@ -165,7 +180,7 @@ void add_tag_row(XMLElement* plugin, const TagSpec& tag) {
 XMLElement* add_tag_set(XMLElement* model, const TagModel* kind, std::size_t number) {
   XMLElement* const plugin = add_plugin(model, kTagSetPlugin);
   if (number > 0) plugin->SetAttribute("name", fmt::format("tags_{}", number + 1).c_str());
-  if (kind != nullptr) add_settings(plugin, kind->settings);
+  if (kind != nullptr) add_settings(plugin, used_settings(*kind));
   return plugin;
 }
 
@@ -210,7 +225,7 @@ void add_tag(Builder& builder, const TagSpec& tag, const Carrier& carrier) {
   add(sensor, "always_on", std::string("1"));
   XMLElement* const plugin = add_plugin(sensor, kTagPlugin);
   add(plugin, "epc", tag.id);
-  if (tag.model) add_settings(plugin, tag.model->settings);
+  if (tag.model) add_settings(plugin, used_settings(*tag.model));
 }
 
 void add_fixed_antennas(Builder& builder, XMLElement* world) {

@@ -67,6 +67,21 @@ const Placement* tag_called(const Scene& scene, const std::string& id) {
   return nullptr;
 }
 
+TEST(ScenarioWorld, LeavesOutWhatOnlyAProfileSaysAndNothingUses) {
+  const auto has_session = [](const std::string& inventory) {
+    Diagnostics diagnostics;
+    const std::string text = world_text(
+        write_scenario(
+            "model: link_budget\nduration_s: 1\nantennas:\n  - {name: a, pose: [0, 0, 1], "
+            "profiles: [speedway_r420], inventory: " +
+            inventory + "}\ntags:\n  - {id: t, position: [2, 0, 1]}\n"),
+        diagnostics);
+    return text.find("<session>") != std::string::npos;
+  };
+  EXPECT_TRUE(has_session("gen2"));
+  EXPECT_FALSE(has_session("none"));
+}
+
 class ScenarioFiles : public testing::TestWithParam<const char*> {};
 
 /// What stood in the world stands there still, and all of the scenario's tags are where it has

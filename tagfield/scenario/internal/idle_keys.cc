@@ -140,11 +140,6 @@ bool is_used_by_another(const Scenario& scenario, const RawParameter& setting) {
   return is_for_all && std::any_of(scenario.antennas.begin(), scenario.antennas.end(), uses_it);
 }
 
-/// Only what stands in a file of the scenario: what an SDF file says was looked at as it was read.
-bool is_own(const RawParameter& setting) {
-  return !setting.in_profile && !setting.location.file.empty();
-}
-
 template <class Model>
 void warn_of_settings_of(const Model& model, const std::string& whose, const Scenario& scenario,
                          Diagnostics& diagnostics) {
@@ -163,6 +158,10 @@ bool reflects(const AntennaSpec& antenna) {
 }
 
 }  // namespace
+
+bool is_own(const RawParameter& setting) {
+  return !setting.in_profile && !setting.location.file.empty();
+}
 
 void warn_of_idle_keys(YamlMap& map, const Scenario& scenario, Diagnostics& diagnostics) {
   warn_of_unused_belief(map, scenario, diagnostics);

@@ -34,6 +34,10 @@ void warn_of_idle_settings(const Scenario& scenario,
                            const std::vector<PlacedKey>& of_physical_models,
                            Diagnostics& diagnostics);
 
+/// Whether the setting stands in a file of the scenario or on the command line: not in a profile,
+/// and not in an SDF file, whose settings are looked at as they are read.
+bool is_own(const RawParameter& setting);
+
 /// Warns of settings of one antenna or kind of tag, called `whose`, that change nothing in it.
 void warn_of_idle_settings(const RadioModel& antenna, const std::string& whose,
                            Diagnostics& diagnostics);

@@ -7,6 +7,7 @@
 
 #include "tagfield/field/port_turns.h"
 #include "tagfield/reader/radio_model.h"
+#include "tagfield/scenario/internal/idle_keys.h"
 
 namespace tagfield {
 namespace {
@@ -54,7 +55,7 @@ void warn_of_mask(const Scenario& scenario, const AntennaParameters& antenna,
 void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParameters& antenna,
                         Diagnostics& diagnostics) {
   const RawParameter* const at = told(*physical(antenna), "port_dwell_s");
-  if (at == nullptr || at->in_profile) return;
+  if (at == nullptr || !is_own(*at)) return;
   const bool is_alone = std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
     return cycle.size() == 1 && cycle.front().antenna == antenna.name;
   });
@@ -68,7 +69,7 @@ void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
                      Diagnostics& diagnostics) {
   const RadioModel& model = *physical(antenna);
   const RawParameter* const at = told(model, "sharing");
-  if (at == nullptr || at->in_profile || model.sharing != AirSharing::kTime) return;
+  if (at == nullptr || !is_own(*at) || model.sharing != AirSharing::kTime) return;
   const bool has_others = std::any_of(
       scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& other) {
         const RadioModel* const of_other = physical(other.parameters);

@@ -134,11 +134,12 @@ TEST(IdleKeys, ARoundObstacleHasNoHeading) {
 }
 
 TEST(IdleKeys, SettingsOfAntennasAndTagsAreToldWithTheirNames) {
-  EXPECT_EQ(warnings_of(hall("link_budget", ", session: s1",
-                             "  - {id: u, position: [2, 2, 1], beam_width_deg: 40}\n")),
-            (Warnings{"6: session of antenna 'a' has no effect without inventory: gen2",
-                      "9: beam_width_deg of tag 'u' has no effect with pattern: dipole, as only a "
-                      "patch has a lobe"}));
+  EXPECT_EQ(
+      warnings_of(hall("link_budget", ", session: s1",
+                       "  - {id: u, position: [2, 2, 1], beam_width_deg: 40}\n")),
+      (Warnings{
+          "6: session of antenna 'a' has no effect without inventory: gen2",
+          "9: beam_width_deg of tag 'u' has no effect with pattern: dipole; expected patch"}));
   // A profile says all of its device.
   EXPECT_EQ(warnings_of(hall("link_budget", ", profiles: [speedway_r420]")), Warnings{});
 }

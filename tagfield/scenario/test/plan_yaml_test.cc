@@ -58,8 +58,8 @@ TEST(PlanYaml, WarnsOfSettingsWithoutEffect) {
   load_scenario_to_plan(path, {}, diagnostics);
   EXPECT_EQ(diagnostics.warnings(),
             (std::vector<std::string>{
-                path + ":4: beam_width_deg of plan's tags 't' has no effect with pattern: dipole, "
-                       "as only a patch has a lobe",
+                path + ":4: beam_width_deg of plan's tags 't' has no effect with pattern: dipole; "
+                       "expected patch",
                 path + ":6: start_q of mount 'm' has no effect without inventory: gen2",
                 path + ":6: transmit_power_dbm of mount 'm' has no effect beside powers_dbm"}));
 }
