@@ -51,7 +51,7 @@ std::optional<YamlValue> switch_of(YamlMap& map) {
   return pose.has("source") ? std::optional<YamlValue>(pose.at("source")) : std::nullopt;
 }
 
-/// And not on the command line.
+/// Whether it stands in the scenario's file, and not on the command line.
 bool is_in_file(const YamlValue& value) { return value.location().file == value.file(); }
 
 /// Of keys that nothing uses with this source, but those of a file whose source was replaced from
