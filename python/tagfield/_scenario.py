@@ -206,7 +206,7 @@ class Scenario:
     def with_(self, *changes: str | Mapping[str, Any], **keys: Any) -> Scenario:
         """The scenario with other values, as ``--set`` of the command has them:
 
-            scenario.with_({"pose.sigma_m": 0.01, "antennas.mobile.range_m": 5})
+            scenario.with_({"antennas.mobile.range_m": 5, "tags.tag1.appears_s": 3})
             scenario.with_("pose.source=noisy", seed=3, localization={"method": "sar"})
 
         Mappings in keywords are merged into what is there; lists replace.
