@@ -7,7 +7,6 @@
 #include <array>
 #include <string_view>
 
-#include "tagfield/base/units.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/settings/radio_settings.h"
 
@@ -65,16 +64,9 @@ Why why_idle_in(const std::string& key, const AntennaPattern& pattern) {
   return std::nullopt;
 }
 
-/// The last value that was given for `key`; null where none was.
-const RawParameter* given(const RadioModel& model, const char* key) {
-  const auto found = std::find_if(model.settings.rbegin(), model.settings.rend(),
-                                  [&](const RawParameter& one) { return one.key == key; });
-  return found == model.settings.rend() ? nullptr : &*found;
-}
-
 Why why_idle_in_link_budget(const std::string& key, const RadioModel& model) {
   constexpr const char* kWhy = "with model: link_budget; expected multipath";
-  const RawParameter* const kind = given(model, "model");
+  const RawParameter* const kind = last_of(model.settings, "model");
   if (kind == nullptr || kind->value != to_string(PropagationModel::kLinkBudget)) return {};
   if (key == "reflection_order" && model.reflection_order > 0) return kWhy;
   if (key == "diffraction" && model.diffraction) return kWhy;
@@ -88,7 +80,8 @@ Why why_idle_in_plan(const std::string& key, const RadioModel& model) {
   if (key == "dwell_s" && !hops) return "with a single carrier";
   if (key == "frequency_hz" &&
       (hops ||
-       carriers_hz != fixed_plan(number_in(given(model, "frequency_hz")->value)).carriers_hz)) {
+       carriers_hz !=
+           fixed_plan(number_in(last_of(model.settings, "frequency_hz")->value)).carriers_hz)) {
     return "beside channel_plan or carriers_hz, which name other carriers";
   }
   return std::nullopt;
@@ -106,7 +99,7 @@ Why why_idle_in_inventory(const std::string& key, const RadioModel& model) {
 }  // namespace
 
 Why why_idle(const std::string& key, const RadioModel& model) {
-  if (given(model, key.c_str()) == nullptr) return std::nullopt;
+  if (last_of(model.settings, key) == nullptr) return std::nullopt;
   for (const Why& why : {why_idle_in(key, model.antenna), why_idle_in_link_budget(key, model),
                          why_idle_in_plan(key, model), why_idle_in_inventory(key, model)}) {
     if (why) return why;

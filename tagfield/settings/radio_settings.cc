@@ -85,6 +85,12 @@ bool is_antenna_setting(const std::string& key) {
 }
 bool is_tag_setting(const std::string& key) { return find_setting(tag_table(), key) != nullptr; }
 
+const RawParameter* last_of(const std::vector<RawParameter>& parameters, const std::string& key) {
+  const auto found = std::find_if(parameters.rbegin(), parameters.rend(),
+                                  [&](const RawParameter& p) { return p.key == key; });
+  return found == parameters.rend() ? nullptr : &*found;
+}
+
 std::shared_ptr<const RadioModel> radio_model_from(PropagationModel model,
                                                    const std::vector<RawParameter>& parameters,
                                                    const Location& location,

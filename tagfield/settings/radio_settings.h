@@ -30,6 +30,9 @@ const std::vector<SettingHelp>& tag_settings();
 bool is_antenna_setting(const std::string& key);
 bool is_tag_setting(const std::string& key);
 
+/// The last of the parameters with that key, which counts; null where there is none.
+const RawParameter* last_of(const std::vector<RawParameter>& parameters, const std::string& key);
+
 /// The model that `parameters` describe, later ones going before earlier ones of the same key; what
 /// is not told is RadioModel's default, with a patch of 8 dBi and 65° right-circular, order 0 by
 /// the link budget and 2 by multipath. Keys that are no settings are passed over. Throws Error

@@ -42,12 +42,6 @@ std::vector<RawParameter> settings_in(const std::vector<RawParameter>& parameter
   return settings;
 }
 
-const RawParameter* last_of(const std::vector<RawParameter>& parameters, const std::string& key) {
-  const auto found = std::find_if(parameters.rbegin(), parameters.rend(),
-                                  [&](const RawParameter& p) { return p.key == key; });
-  return found == parameters.rend() ? nullptr : &*found;
-}
-
 /// The element that a complaint about the setting `key` means.
 std::string element_of(const std::vector<RawParameter>& parameters, const std::string& key) {
   if (last_of(parameters, key) != nullptr) return key;

@@ -8,16 +8,10 @@
 #include "tagfield/field/port_turns.h"
 #include "tagfield/reader/radio_model.h"
 #include "tagfield/scenario/internal/idle_keys.h"
+#include "tagfield/settings/radio_settings.h"
 
 namespace tagfield {
 namespace {
-
-/// Where the antenna's setting was told last; null where it was not.
-const RawParameter* told(const RadioModel& model, const char* key) {
-  const auto found = std::find_if(model.settings.rbegin(), model.settings.rend(),
-                                  [&](const RawParameter& one) { return one.key == key; });
-  return found == model.settings.rend() ? nullptr : &*found;
-}
 
 /// Whether any antenna that `fits` can send at the same time as `antenna`.
 template <class Fits>
@@ -30,7 +24,7 @@ bool any_at_once(const Scenario& scenario, const AntennaParameters& antenna, con
 
 void require_others(const Scenario& scenario, const AntennaParameters& antenna) {
   const RadioModel& model = *physical(antenna);
-  const RawParameter* const at = told(model, "interference");
+  const RawParameter* const at = last_of(model.settings, "interference");
   if (!is_disturbed(model) || at == nullptr) return;
   if (any_at_once(scenario, antenna, [](const RadioModel&) { return true; })) return;
   fail(at->location, fmt::format("interference has no effect: no other reader sends while antenna "
@@ -40,7 +34,7 @@ void require_others(const Scenario& scenario, const AntennaParameters& antenna) 
 
 void warn_of_mask(const Scenario& scenario, const AntennaParameters& antenna,
                   Diagnostics& diagnostics) {
-  const RawParameter* const at = told(*physical(antenna), "spectrum_mask");
+  const RawParameter* const at = last_of(physical(antenna)->settings, "spectrum_mask");
   if (at == nullptr) return;
   if (any_at_once(scenario, antenna, [](const RadioModel& other) { return other.interference; })) {
     return;
@@ -54,7 +48,7 @@ void warn_of_mask(const Scenario& scenario, const AntennaParameters& antenna,
 /// Of a dwell at a port that is the only one in its cycle.
 void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParameters& antenna,
                         Diagnostics& diagnostics) {
-  const RawParameter* const at = told(*physical(antenna), "port_dwell_s");
+  const RawParameter* const at = last_of(physical(antenna)->settings, "port_dwell_s");
   if (at == nullptr || !is_own(*at)) return;
   const bool is_alone = std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
     return cycle.size() == 1 && cycle.front().antenna == antenna.name;
@@ -68,7 +62,7 @@ void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParam
 void warn_of_sharing(const Scenario& scenario, const AntennaParameters& antenna,
                      Diagnostics& diagnostics) {
   const RadioModel& model = *physical(antenna);
-  const RawParameter* const at = told(model, "sharing");
+  const RawParameter* const at = last_of(model.settings, "sharing");
   if (at == nullptr || !is_own(*at) || model.sharing != AirSharing::kTime) return;
   const bool has_others = std::any_of(
       scenario.antennas.begin(), scenario.antennas.end(), [&](const AntennaSpec& other) {
@@ -96,7 +90,7 @@ void require_use_of_neighbours(const Scenario& scenario, Diagnostics& diagnostic
     warn_of_mask(scenario, antenna.parameters, diagnostics);
     warn_of_port_dwell(cycles, antenna.parameters, diagnostics);
     warn_of_sharing(scenario, antenna.parameters, diagnostics);
-    const RawParameter* const coupling = told(*model, "tag_coupling");
+    const RawParameter* const coupling = last_of(model->settings, "tag_coupling");
     if (couples_tags(*model) && coupling != nullptr && scenario.tags.size() == 1) {
       diagnostics.warn(coupling->location, "tag_coupling has no effect: there is one tag only");
     }
