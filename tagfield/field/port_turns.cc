@@ -2,7 +2,9 @@
 #include "tagfield/field/port_turns.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <numeric>
 
 #include "tagfield/reader/radio_model.h"
 
@@ -15,22 +17,99 @@ const Gen2Reader* inventory_of(const AntennaParameters& antenna) {
   return &*radio->gen2;
 }
 
+/// A sequence of channels that takes longer never ends: sums of times stay within a Duration.
+constexpr double kLongestSequence_s = 1e9;
+/// For turns of very different lengths; four antennas whose turns are alike have four.
+constexpr std::int64_t kMostStarts = 4096;
+
+/// How long the antenna's reader takes for all its channels; zero where it doesn't hop.
+Duration hop_sequence(const RadioModel& model) {
+  const std::size_t channels = model.plan.carriers_hz.size();
+  if (!model.effects.hopping || channels < 2) return Duration::zero();
+  if (model.plan.dwell_s * static_cast<double>(channels) > kLongestSequence_s) {
+    return Duration::zero();
+  }
+  return duration_from_seconds(model.plan.dwell_s) * static_cast<std::int64_t>(channels);
+}
+
 void append(const AntennaParameters& antenna, PortCycle& cycle) {
-  const Duration begin = cycle.empty() ? Duration::zero() : cycle.back().end;
+  const Duration begin = cycle.turns.empty() ? Duration::zero() : cycle.turns.back().end;
   const double dwell_s = inventory_of(antenna)->port_dwell_s;
-  cycle.push_back({antenna.name, begin, begin + duration_from_seconds(dwell_s)});
+  cycle.turns.push_back({antenna.name, begin, begin + duration_from_seconds(dwell_s)});
+  // The longest sequence until settle() makes a time of restart of it.
+  cycle.restart = std::max(cycle.restart, hop_sequence(*physical(antenna)));
 }
 
-/// How far into the cycle `time` is.
-Duration into(const PortCycle& cycle, Time time) {
-  const Duration period = cycle.back().end;
-  const Duration rest = time.time_since_epoch() % period;
-  return rest < Duration::zero() ? rest + period : rest;
+Duration period(const PortCycle& cycle) { return cycle.turns.back().end; }
+
+Duration shortest_turn(const PortCycle& cycle) {
+  Duration shortest = Duration::max();
+  for (const PortTurn& turn : cycle.turns) shortest = std::min(shortest, turn.end - turn.begin);
+  return shortest;
 }
 
-PortCycle::const_iterator turn_at(const PortCycle& cycle, Duration within) {
-  return std::upper_bound(cycle.begin(), cycle.end(), within,
-                          [](Duration t, const PortTurn& turn) { return t < turn.end; });
+std::int64_t rounded_up(Duration time, Duration unit) { return (time + unit - Duration(1)) / unit; }
+
+/// The binary digits of `number` behind the point and in reverse, in [0, 2³²): van der Corput's
+/// sequence.
+std::uint32_t radical_inverse(std::uint32_t number) {
+  std::uint32_t inverse = 0;
+  for (int digit = 0; digit < 32; ++digit) inverse = inverse << 1 | ((number >> digit) & 1U);
+  return inverse;
+}
+
+/// Starts the shortest turn apart, in an order in which the first few are far from each other:
+/// ports of turns that are alike swap channels as soon as they can.
+std::vector<Duration> spread_starts(const PortCycle& cycle) {
+  const Duration step = shortest_turn(cycle);
+  const std::int64_t count = std::min(rounded_up(period(cycle), step), kMostStarts);
+  std::vector<std::uint32_t> steps(static_cast<std::size_t>(count));
+  std::iota(steps.begin(), steps.end(), 0U);
+  std::sort(steps.begin(), steps.end(), [](std::uint32_t a, std::uint32_t b) {
+    return radical_inverse(a) < radical_inverse(b);
+  });
+  std::vector<Duration> starts;
+  starts.reserve(steps.size());
+  for (const std::uint32_t number : steps) starts.push_back(step * number);
+  return starts;
+}
+
+/// Makes the time of restart of the sequence of channels.
+void settle(PortCycle& cycle) {
+  const Duration sequence = cycle.restart;
+  cycle.restart = Duration::zero();
+  if (cycle.turns.size() < 2 || sequence <= shortest_turn(cycle)) return;
+  cycle.restart = sequence * rounded_up(period(cycle), sequence);
+  cycle.starts = spread_starts(cycle);
+}
+
+/// A time as a place in a cycle.
+struct Place {
+  Duration within;      ///< How far into the cycle.
+  Duration to_restart;  ///< The most there is where turns never begin anew.
+};
+
+Duration rest_of(Duration time, Duration of) {
+  const Duration rest = time % of;
+  return rest < Duration::zero() ? rest + of : rest;
+}
+
+Place place_in(const PortCycle& cycle, Time time) {
+  const Duration since_epoch = time.time_since_epoch();
+  if (cycle.restart == Duration::zero()) {
+    return {rest_of(since_epoch, period(cycle)), Duration::max()};
+  }
+  const Duration since_restart = rest_of(since_epoch, cycle.restart);
+  const std::int64_t restarts = (since_epoch - since_restart) / cycle.restart;
+  const auto starts = static_cast<std::int64_t>(cycle.starts.size());
+  const auto start = static_cast<std::size_t>(((restarts % starts) + starts) % starts);
+  return {rest_of(since_restart + cycle.starts[start], period(cycle)),
+          cycle.restart - since_restart};
+}
+
+const PortTurn& turn_at(const PortCycle& cycle, const Place& place) {
+  return *std::upper_bound(cycle.turns.begin(), cycle.turns.end(), place.within,
+                           [](Duration t, const PortTurn& turn) { return t < turn.end; });
 }
 
 }  // namespace
@@ -46,31 +125,35 @@ std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antenna
   std::vector<PortCycle> cycles;
   cycles.reserve(of_reader.size() + 1);
   for (auto& [reader, cycle] : of_reader) cycles.push_back(std::move(cycle));
-  if (!by_time.empty()) cycles.push_back(std::move(by_time));
+  if (!by_time.turns.empty()) cycles.push_back(std::move(by_time));
+  for (PortCycle& cycle : cycles) settle(cycle);
   return cycles;
 }
 
 const std::string& antenna_on_turn(const PortCycle& cycle, Time time) {
-  return turn_at(cycle, into(cycle, time))->antenna;
+  return turn_at(cycle, place_in(cycle, time)).antenna;
 }
 
 std::optional<Time> next_turn(const PortCycle& cycle, const std::string& antenna, Time time) {
-  const auto turn = std::find_if(cycle.begin(), cycle.end(), [&](const PortTurn& candidate) {
-    return candidate.antenna == antenna;
-  });
-  if (turn == cycle.end()) return std::nullopt;
-  const Duration within = into(cycle, time);
-  if (within < turn->begin) return time + (turn->begin - within);
-  if (within < turn->end) return time;
-  return time + (cycle.back().end - within) + turn->begin;
+  const auto turn =
+      std::find_if(cycle.turns.begin(), cycle.turns.end(),
+                   [&](const PortTurn& candidate) { return candidate.antenna == antenna; });
+  if (turn == cycle.turns.end()) return std::nullopt;
+  const Place place = place_in(cycle, time);
+  if (&turn_at(cycle, place) == &*turn) return time;
+  const Duration wait = rest_of(turn->begin - place.within, period(cycle));
+  if (wait < place.to_restart) return time + wait;
+  // From a restart on all have a turn before the next.
+  return next_turn(cycle, antenna, time + place.to_restart);
 }
 
 std::optional<Time> next_change(const std::vector<PortCycle>& cycles, Time time) {
   std::optional<Time> first;
   for (const PortCycle& cycle : cycles) {
-    if (cycle.size() < 2) continue;
-    const Duration within = into(cycle, time);
-    const Time change = time + (turn_at(cycle, within)->end - within);
+    if (cycle.turns.size() < 2) continue;
+    const Place place = place_in(cycle, time);
+    const Duration left = turn_at(cycle, place).end - place.within;
+    const Time change = time + std::min(left, place.to_restart);
     if (!first || change < *first) first = change;
   }
   return first;

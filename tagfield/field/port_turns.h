@@ -24,11 +24,24 @@ struct PortTurn {
 };
 
 /// Antennas that take turns, over and over from the epoch on.
-using PortCycle = std::vector<PortTurn>;
+struct PortCycle {
+  std::vector<PortTurn> turns;
+  /// After each of these, from the epoch on, the cycle begins anew, at the next one of `starts`;
+  /// zero where it just goes on.
+  Duration restart = Duration::zero();
+  std::vector<Duration> starts;  ///< Within the cycle.
+};
 
 /// Cycles of the antennas that take inventory, in the order given: those of one reader take turns
 /// for their port_dwell_s each, and those of all readers that share the air by time take them
 /// together. Antennas without an inventory have none.
+///
+/// Where turns are shorter than a reader's sequence of channels, the cycle begins anew with each
+/// sequence (the longest of several readers'; as many sequences as a cycle needs), each time at
+/// another start: with another antenna where all turns are alike. Starts are the shortest turn
+/// apart, so each antenna comes to each channel within as many restarts as shortest turns fit into
+/// the cycle (up to 4,096). Without that it would meet some channels over and over, and others
+/// never, wherever the sequence is as long as a number of whole cycles.
 std::vector<PortCycle> port_cycles(const std::vector<AntennaParameters>& antennas);
 
 /// Whose turn it is at `time`.

@@ -74,17 +74,14 @@ std::vector<Turn> turns_of(const ForecastRequest& request) {
   std::vector<AntennaParameters> antennas;
   for (const ForecastPort& port : request.ports) antennas.push_back(port.antenna);
   std::vector<Turn> turns;
+  const Time end = time_from_seconds(request.duration_s);
   for (const PortCycle& cycle : port_cycles(antennas)) {
-    const double period_s = to_seconds(cycle.back().end);
-    if (cycle.size() == 1) {
-      add_turn(request, port_named(request, cycle.front().antenna), 0.0, request.duration_s, turns);
-      continue;
-    }
-    for (double at = 0.0; at < request.duration_s; at += period_s) {
-      for (const PortTurn& turn : cycle) {
-        add_turn(request, port_named(request, turn.antenna), at + to_seconds(turn.begin),
-                 std::min(at + to_seconds(turn.end), request.duration_s), turns);
-      }
+    Time begin{};
+    while (begin < end) {
+      const Time change = std::min(next_change({cycle}, begin).value_or(end), end);
+      add_turn(request, port_named(request, antenna_on_turn(cycle, begin)), to_seconds(begin),
+               to_seconds(change), turns);
+      begin = change;
     }
   }
   std::stable_sort(turns.begin(), turns.end(),

@@ -2,6 +2,12 @@
 #include "tagfield/field/port_turns.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
 
 #include "tagfield/reader/radio_model.h"
 
@@ -65,6 +71,85 @@ TEST(NextChange, IsTheFirstEndOfAnyTurn) {
   EXPECT_EQ(next_change(cycles, at_second(0.0)), at_second(0.15));
   EXPECT_EQ(next_change(cycles, at_second(0.15)), at_second(0.2));
   EXPECT_EQ(next_change(cycles, at_second(0.2)), at_second(0.3));
+}
+
+std::vector<AntennaParameters> hopping(const std::vector<double>& port_dwells_s, int channels,
+                                       double channel_dwell_s) {
+  std::vector<AntennaParameters> antennas;
+  for (const double dwell_s : port_dwells_s) {
+    antennas.push_back(antenna("r", std::to_string(antennas.size()), dwell_s));
+    auto model = std::make_shared<RadioModel>(*physical(antennas.back()));
+    model->effects.hopping = true;
+    model->plan.carriers_hz.clear();
+    for (int i = 0; i < channels; ++i) model->plan.carriers_hz.push_back(902.75e6 + 0.5e6 * i);
+    model->plan.dwell_s = channel_dwell_s;
+    antennas.back().model = std::shared_ptr<const RadioModel>(model);
+  }
+  return antennas;
+}
+
+/// Time of each antenna on each channel from `begin_s` on, by steps of 1 ms.
+std::map<std::pair<std::string, std::size_t>, int> times_on_channels(
+    const std::vector<AntennaParameters>& antennas, double begin_s, double duration_s) {
+  const PortCycle cycle = port_cycles(antennas).front();
+  const ChannelPlan& plan = physical(antennas[0])->plan;
+  std::map<std::pair<std::string, std::size_t>, int> times;
+  for (double t = begin_s + 5e-4; t < begin_s + duration_s; t += 1e-3) {
+    ++times[{antenna_on_turn(cycle, at_second(t)), channel_at(plan, at_second(t), 1, 1)}];
+  }
+  return times;
+}
+
+TEST(PortCycles, BringEachPortToEachChannelForAsLong) {
+  // Turns as long as a channel's dwell and a sequence of whole cycles: each port would stay with
+  // every second or fourth of its channels.
+  for (const std::size_t ports : {2U, 4U}) {
+    const auto antennas = hopping(std::vector<double>(ports, 0.2), 8, 0.2);
+    const double all_s = 8 * 0.2 * static_cast<double>(ports);
+    for (const double begin_s : {0.0, 12.8, -12.8}) {
+      const auto times = times_on_channels(antennas, begin_s, all_s);
+      EXPECT_EQ(times.size(), 8 * ports);
+      for (const auto& [which, milliseconds] : times) EXPECT_EQ(milliseconds, 200) << which.first;
+    }
+  }
+}
+
+RC_GTEST_PROP(PortCycles, BringEachPortToEachChannel, ()) {
+  const int channels = *rc::gen::inRange(2, 12);
+  const double channel_dwell_s = 0.05 * *rc::gen::inRange(1, 8);
+  std::vector<double> dwells_s(static_cast<std::size_t>(*rc::gen::inRange(2, 6)));
+  for (double& dwell_s : dwells_s) dwell_s = 0.05 * *rc::gen::inRange(1, 8);
+  const auto antennas = hopping(dwells_s, channels, channel_dwell_s);
+  const double cycle_s = std::accumulate(dwells_s.begin(), dwells_s.end(), 0.0);
+  const double sequence_s = channels * channel_dwell_s;
+  const double restart_s = std::ceil(cycle_s / sequence_s - 1e-9) * sequence_s;
+  const double shortest_s = *std::min_element(dwells_s.begin(), dwells_s.end());
+  const double restarts = std::ceil(cycle_s / shortest_s - 1e-9);
+  const auto times = times_on_channels(antennas, 0.0, restart_s * restarts);
+  RC_ASSERT(times.size() == dwells_s.size() * static_cast<std::size_t>(channels));
+}
+
+RC_GTEST_PROP(NextTurn, BeginsWhereTheAntennaIsOnTurnAndWasNotBefore, ()) {
+  const auto antennas =
+      hopping({0.05 * *rc::gen::inRange(1, 8), 0.05 * *rc::gen::inRange(1, 8), 0.2},
+              *rc::gen::inRange(2, 6), 0.05 * *rc::gen::inRange(1, 8));
+  const PortCycle cycle = port_cycles(antennas).front();
+  const Time now = at_second(1e-3 * *rc::gen::inRange(-5000, 5000));
+  for (const AntennaParameters& one : antennas) {
+    const Time turn = *next_turn(cycle, one.name, now);
+    RC_ASSERT(antenna_on_turn(cycle, turn) == one.name);
+    // From change to change nobody else is passed over.
+    for (Time t = now; t < turn; t = *next_change({cycle}, t)) {
+      RC_ASSERT(antenna_on_turn(cycle, t) != one.name);
+      RC_ASSERT(antenna_on_turn(cycle, *next_change({cycle}, t) - Duration(1)) ==
+                antenna_on_turn(cycle, t));
+    }
+  }
+}
+
+TEST(PortCycles, KeepTurnsThatOutlastAllChannels) {
+  const auto cycles = port_cycles(hopping({30.0, 30.0}, 50, 0.2));
+  EXPECT_EQ(next_change(cycles, at_second(65.0)), at_second(90.0));
 }
 
 std::vector<std::pair<std::size_t, double>> others(const std::vector<AntennaParameters>& all,

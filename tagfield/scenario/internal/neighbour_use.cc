@@ -51,7 +51,7 @@ void warn_of_port_dwell(const std::vector<PortCycle>& cycles, const AntennaParam
   const RawParameter* const at = last_of(physical(antenna)->settings, "port_dwell_s");
   if (at == nullptr || !is_own(*at)) return;
   const bool is_alone = std::any_of(cycles.begin(), cycles.end(), [&](const PortCycle& cycle) {
-    return cycle.size() == 1 && cycle.front().antenna == antenna.name;
+    return cycle.turns.size() == 1 && cycle.turns.front().antenna == antenna.name;
   });
   if (!is_alone) return;
   diagnostics.warn(at->location, fmt::format("port_dwell_s of antenna '{}' has no effect: its "
