@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
+
+#include "tagfield/report/text.h"
 
 namespace tagfield {
 namespace {
@@ -44,6 +47,10 @@ std::string row_of(const TagOutcome& tag, std::size_t width) {
     return text;
   }
   const Candidate& best = estimate.candidates.front();
+  if (tag.reference) {
+    return fmt::format("{:<{}}  {} a reference tag\n", estimate.tag, width,
+                       place_columns(best.p_WT));
+  }
   const auto error = error_of(tag);
   const std::string error_text =
       error ? fmt::format("{:9.1f}", millimetres(*error)) : fmt::format("{:>9}", "-");
@@ -69,15 +76,21 @@ std::string rows_of_one_seed(const Summary& summary) {
 std::string rows_of_many_seeds(const Summary& summary) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> errors;
+  std::set<std::string> references;
   for (const TagOutcome& tag : summary.tags) {
     const auto [entry, is_new] = errors.try_emplace(tag.estimate.tag);
     if (is_new) order.push_back(tag.estimate.tag);
+    if (tag.reference) references.insert(tag.estimate.tag);
     if (const auto error = error_of(tag)) entry->second.push_back(*error);
   }
   const std::size_t width = name_width(summary);
   std::string text = fmt::format("{:<{}}  {:>7} {:>10} {:>12} {:>9} {:>9}\n", "tag", width, "seeds",
                                  "mean [mm]", "median [mm]", "p95 [mm]", "max [mm]");
   for (std::size_t i = 0; i < std::min(order.size(), kMostRows); ++i) {
+    if (references.count(order[i]) > 0) {
+      text += fmt::format("{:<{}}  a reference tag\n", order[i], width);
+      continue;
+    }
     const auto of_tag = statistics(errors[order[i]]);
     if (!of_tag) {
       text += fmt::format("{:<{}}  not located in any seed\n", order[i], width);
@@ -282,9 +295,10 @@ std::string table_of(const Summary& summary) {
   }
   std::string text = method_line(summary);
   text += summary.seeds.size() > 1 ? rows_of_many_seeds(summary) : rows_of_one_seed(summary);
-  text +=
-      fmt::format("{} located, {} ambiguous, {} not located\n", count(summary, Verdict::kLocated),
-                  count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
+  text += fmt::format("{} located, {} ambiguous, {} not located", count(summary, Verdict::kLocated),
+                      count(summary, Verdict::kAmbiguous), count(summary, Verdict::kNotLocated));
+  const std::size_t given = summary.tags.size() - count_to_locate(summary);
+  text += given == 0 ? "\n" : fmt::format(" ({} given)\n", counted(given, "reference tag"));
   return text + statistics_line(summary) + pose_line(summary) + compared_pose_line(summary) +
          method_lines(summary) + navigation_lines(summary) + effect_lines(summary);
 }

@@ -64,6 +64,7 @@ struct EstimateRow {
   double expected_error_m, rms_m;
   double truth_m[3];  ///< NaN where nobody knows it, or the tag moved.
   double error_m;     ///< Of a located tag whose place is known.
+  bool reference;     ///< Its position was given.
 };
 
 struct CandidateRow {

@@ -82,6 +82,7 @@ EstimateRow row_of(const TagOutcome& outcome, Names& tags, Names& reasons) {
   put_unknown(row.truth_m);
   if (outcome.truth_m) put(*outcome.truth_m, row.truth_m);
   row.error_m = error_of(outcome).value_or(kUnknown);
+  row.reference = outcome.reference;
   return row;
 }
 

@@ -44,8 +44,8 @@ class Localization:
 
     estimates: a row a tag: tag, verdict (located, ambiguous, not_located), reason, reads, reads_used,
         position_m (3,) [m, world] (NaN unless located), covariance_m2 (3, 3) (NaN where not stated),
-        expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown) and error_m
-        (NaN where there is none).
+        expected_error_m, rms_m of the best candidate, truth_m (3,) (NaN where unknown), error_m (NaN
+        where there is none), and reference (a tag whose position was given).
     candidates: all positions that a tag may have: tag, number (1 is best), position_m, covariance_m2,
         expected_error_m, rms_m.
     method, why: by which method, and why "auto" chose it.
@@ -78,8 +78,14 @@ class Localization:
 
     @property
     def located(self) -> np.ndarray:
-        """Boolean (N,): which rows of `estimates` are located."""
-        return self.estimates["verdict"] == self.estimates.number("verdict", "located")
+        """Boolean (N,): which rows of `estimates` are located. Reference tags are not: theirs was given."""
+        is_located = self.estimates["verdict"] == self.estimates.number("verdict", "located")
+        return is_located & ~self.estimates["reference"]
+
+    @property
+    def located_of(self) -> str:
+        """How many tags are located of those whose position was not given, as "9 of 10 tags located"."""
+        return f"{int(self.located.sum())} of {int((~self.estimates['reference']).sum())} tags located"
 
     def __str__(self) -> str:
         return self._text
@@ -110,7 +116,7 @@ class Run(Localization):
 
     def __repr__(self) -> str:
         return (f"<tagfield.Run {self.scenario.name}, seed {self.seed}: {len(self.reads)} reads in "
-                f"{self.simulated_s:.1f} s, {int(self.located.sum())} of {len(self.estimates)} tags located>")
+                f"{self.simulated_s:.1f} s, {self.located_of}>")
 
     def localize(self, method: Any = None, **keywords: Any) -> Localization:
         """The same reads by another method; keywords as of :func:`localize`."""

@@ -72,7 +72,7 @@ def hall(run: Run, ax: Axes | None = None, *, legend: bool = True) -> Axes:
         _legend(ax)
     errors_m = run.errors_m
     said = f", mean error {1e3 * errors_m.mean():.1f} mm" if len(errors_m) else ""
-    ax.set_title(f"{run.scenario.name}: {int(run.located.sum())} of {len(run.estimates)} tags located{said}")
+    ax.set_title(f"{run.scenario.name}: {run.located_of}{said}")
     return ax
 
 

@@ -30,6 +30,14 @@ def test_other_methods_locate_the_same_reads(run):
     assert run.localize().estimates["position_m"].tobytes() == run.estimates["position_m"].tobytes()
 
 
+def test_reference_tags_are_not_located(scenario):
+    run = scenario.with_({"localization.reference_tags": ["tag3"]}).run(seed=2)
+    by_tag = dict(zip(run.estimates.names("tag"), run.estimates["reference"]))
+    assert [tag for tag, reference in by_tag.items() if reference] == ["tag3"]
+    assert "9 of 9 tags located" in repr(run)
+    assert run.located.sum() == len(run.errors_m) == 9
+
+
 def test_reads_by_themselves_are_located(run):
     truth = run.truth.places_m()
     heights = {tag: place[2] for tag, place in truth.items()}

@@ -23,10 +23,11 @@ EffectCost cost_of(const std::vector<SeedRun>& runs) {
   EffectCost cost;
   std::vector<double> errors;
   for (const SeedRun& run : runs) {
-    cost.tags += run.outcomes.size();
     for (const TagOutcome& outcome : run.outcomes) {
-      if (outcome.estimate.verdict == Verdict::kLocated) ++cost.located;
       cost.reads += outcome.reads;
+      if (outcome.reference) continue;
+      ++cost.tags;
+      if (outcome.estimate.verdict == Verdict::kLocated) ++cost.located;
       if (const auto error = error_of(outcome)) errors.push_back(*error);
     }
   }

@@ -49,7 +49,7 @@ ComparedRun whole_of(const Summary& summary, const std::string& name) {
   run.method = summary.method;
   run.pose = summary.pose;
   run.seeds = summary.seeds;
-  run.outcomes = summary.tags.size();
+  run.outcomes = count_to_locate(summary);
   run.located = count(summary, Verdict::kLocated);
   for (const TagOutcome& outcome : summary.tags) {
     run.reads += outcome.reads;
@@ -69,6 +69,10 @@ ComparedOutcome outcome_of(const TagRow& row) {
     outcome.error_m = sum / static_cast<double>(row.errors_m.size());
   }
   const TagOutcome& first = *row.outcomes.front();
+  if (first.reference) {
+    outcome.verdict = outcome_words(first);
+    return outcome;
+  }
   std::size_t located = 0;
   for (const TagOutcome* one : row.outcomes) {
     if (one->estimate.verdict == Verdict::kLocated) ++located;

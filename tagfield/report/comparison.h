@@ -35,7 +35,7 @@ struct ComparedRun {
   std::string method;
   std::string pose;  ///< Summary::pose.
   std::vector<std::uint64_t> seeds;
-  std::size_t outcomes = 0;  ///< Of tags, over all seeds.
+  std::size_t outcomes = 0;  ///< Of tags to be located, over all seeds.
   std::size_t located = 0;
   std::size_t read = 0;   ///< Outcomes of tags that were read at all.
   std::size_t reads = 0;  ///< Of all tags and seeds.

@@ -37,9 +37,10 @@ PlanarMotion motion_to_truth(const Outcomes& outcomes) {
 }
 
 std::size_t count_of(const std::vector<TagOutcome>& outcomes, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(
-      outcomes.begin(), outcomes.end(),
-      [verdict](const TagOutcome& outcome) { return outcome.estimate.verdict == verdict; }));
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(), [verdict](const TagOutcome& outcome) {
+        return !outcome.reference && outcome.estimate.verdict == verdict;
+      }));
 }
 
 }  // namespace

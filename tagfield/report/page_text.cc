@@ -45,11 +45,14 @@ std::string outcome_sentence(const Summary& summary) {
   const std::size_t ambiguous = count(summary, Verdict::kAmbiguous);
   const std::size_t lost = count(summary, Verdict::kNotLocated);
   if (located + ambiguous == 0 && all_moved(summary)) return moved_sentence(summary);
-  std::string text =
-      fmt::format("{} of {} located", grouped(located),
-                  counted(summary.tags.size(), summary.seeds.size() > 1 ? "outcome" : "tag"));
+  const std::size_t all = count_to_locate(summary);
+  const std::string word = summary.seeds.size() > 1 ? "outcome" : "tag";
+  std::string text = fmt::format("{} of {} located", grouped(located), counted(all, word));
   if (ambiguous > 0) text += fmt::format(", {} ambiguous", grouped(ambiguous));
   if (lost > 0) text += fmt::format(", {} not located", grouped(lost));
+  if (const std::size_t given = summary.tags.size() - all; given > 0) {
+    text += fmt::format(", not counting {}", counted(given, "reference tag"));
+  }
   const auto errors = error_statistics(summary);
   const bool truth_known =
       std::any_of(summary.tags.begin(), summary.tags.end(),
@@ -171,7 +174,7 @@ std::string key_numbers(const Summary& summary) {
                 true);
   } else {
     html += big("Located", fmt::format("{} of {}", grouped(count(summary, Verdict::kLocated)),
-                                       grouped(summary.tags.size())));
+                                       grouped(count_to_locate(summary))));
   }
   html += big("Reads", grouped(summary.reads));
   html += big("Path", fmt::format("{:.1f} m", summary.path_length_m));
@@ -214,7 +217,7 @@ std::string compared_pose_text(const Summary& summary) {
   std::string text = fmt::format(
       "The same reads with other antenna poses, {}, {} (rms) off these: {} of {} located",
       spoken_pose(other.pose), spoken_length(other.position_rms_m), grouped(other.located),
-      counted(summary.tags.size(), "tag"));
+      counted(count_to_locate(summary), "tag"));
   if (!other.error_m) return text + ".";
   return text + fmt::format(", off by {} on average and by {} at most.",
                             spoken_length(other.error_m->mean), spoken_length(other.error_m->max));

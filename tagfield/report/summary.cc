@@ -77,8 +77,16 @@ std::string to_string(EffectSet set) {
 }
 
 std::size_t count(const Summary& summary, Verdict verdict) {
-  const auto matches = [&](const TagOutcome& tag) { return tag.estimate.verdict == verdict; };
+  const auto matches = [&](const TagOutcome& tag) {
+    return !tag.reference && tag.estimate.verdict == verdict;
+  };
   return static_cast<std::size_t>(std::count_if(summary.tags.begin(), summary.tags.end(), matches));
+}
+
+std::size_t count_to_locate(const Summary& summary) {
+  return static_cast<std::size_t>(
+      std::count_if(summary.tags.begin(), summary.tags.end(),
+                    [](const TagOutcome& tag) { return !tag.reference; }));
 }
 
 std::size_t count_over(const Summary& summary, double limit_m) {

@@ -251,8 +251,12 @@ std::optional<double> position_rms(const std::vector<AntennaPose>& a,
 std::vector<double> all_errors(const Summary& summary);
 std::optional<ErrorStatistics> error_statistics(const Summary& summary);
 
-/// How many tags of all seeds came out so.
+/// Outcomes with this verdict, over all seeds. Reference tags don't count: their positions were
+/// given.
 std::size_t count(const Summary& summary, Verdict verdict);
+
+/// Outcomes of tags that are no reference tags, over all seeds.
+std::size_t count_to_locate(const Summary& summary);
 
 /// How many located tags are further off than `limit_m`.
 std::size_t count_over(const Summary& summary, double limit_m);

@@ -215,12 +215,14 @@ def tags_of_unknown_height_are_warned_of(context):
 @case
 def reference_tags_and_offsets(context):
     context.write("known.csv", "tag,x_m,y_m,z_m\none,2,2.5,1\n")
-    _, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--reference",
-                                     "known.csv", "--pose-sigma", "0")
+    result, estimates, summary = localize(context, read_rows(TAGS), pose_rows(), "--reference",
+                                          "known.csv", "--pose-sigma", "0")
     check_equal(position(estimates["one"]), TAGS["one"], "place of the reference tag")
     check_in("its position was given", estimates["one"]["reason"], "reason")
     check_equal([tag["id"] for tag in summary["tags"] if tag["reference"]], ["one"], "references")
     check((context.folder / "out/reference_tags.csv").exists(), "no reference_tags.csv")
+    check_equal(summary["located"], 2, "tags located, the reference tag aside")
+    check_in("2 located, 0 ambiguous, 0 not located (1 reference tag given)", result.out, "result")
     # A known offset turns phases into distances: it narrows, a wrong one spoils.
     reads = read_rows(TAGS, offset=2.5)
     covariance = {}

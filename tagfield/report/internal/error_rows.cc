@@ -27,6 +27,7 @@ std::vector<TagRow> rows_by_tag(const Summary& summary) {
 }
 
 std::string outcome_words(const TagOutcome& outcome) {
+  if (outcome.reference) return "reference tag";
   switch (outcome.estimate.verdict) {
     case Verdict::kLocated:
       return outcome.moved ? "moved" : "truth unknown";

@@ -42,7 +42,9 @@ std::string name_cell(const std::string& tag) {
                      escaped(shortened(tag, 28)));
 }
 
-std::string verdict_words(Verdict verdict) {
+std::string verdict_words(const TagOutcome& outcome) {
+  if (outcome.reference) return "reference";
+  const Verdict verdict = outcome.estimate.verdict;
   if (verdict == Verdict::kLocated) return "located";
   return verdict == Verdict::kAmbiguous ? "ambiguous" : "not located";
 }
@@ -71,12 +73,13 @@ std::string single_row(const TagOutcome& outcome, bool remarks) {
   const TagEstimate& estimate = outcome.estimate;
   const Candidate* best = estimate.candidates.empty() ? nullptr : &estimate.candidates.front();
   const bool located = best != nullptr && estimate.verdict == Verdict::kLocated;
-  std::string row = "<tr>" + name_cell(estimate.tag) + words(verdict_words(estimate.verdict));
+  std::string row = "<tr>" + name_cell(estimate.tag) + words(verdict_words(outcome));
   row += place_cells(outcome.truth_m);
   row += place_cells(located ? std::optional(best->p_WT) : std::nullopt);
   row += millimetres(error_of(outcome));
-  row += millimetres(best != nullptr ? std::optional(best->rms_m) : std::nullopt);
-  row += millimetres(best != nullptr ? std::optional(best->expected_error_m) : std::nullopt);
+  const bool has_errors = best != nullptr && !outcome.reference;
+  row += millimetres(has_errors ? std::optional(best->rms_m) : std::nullopt);
+  row += millimetres(has_errors ? std::optional(best->expected_error_m) : std::nullopt);
   row += cell(grouped(outcome.reads));
   if (remarks) row += words(remark_on(outcome));
   return row + "</tr>\n";
@@ -101,13 +104,14 @@ constexpr const char* kSeveralHead =
     "<th scope=\"col\">Least<br>[mm]</th><th scope=\"col\">Mean expected<br>error [mm]</th>"
     "<th scope=\"col\">Mean<br>reads</th></tr></thead>\n<tbody>\n";
 
-/// Of the located ones.
+/// Of the located ones; none of a reference tag.
 std::optional<double> mean_expected_error(const TagRow& row) {
   double sum = 0.0;
   std::size_t located = 0;
   for (const TagOutcome* outcome : row.outcomes) {
     const TagEstimate& estimate = outcome->estimate;
-    if (estimate.verdict != Verdict::kLocated || estimate.candidates.empty()) continue;
+    const bool located_it = estimate.verdict == Verdict::kLocated && !outcome->reference;
+    if (!located_it || estimate.candidates.empty()) continue;
     sum += estimate.candidates.front().expected_error_m;
     ++located;
   }
@@ -124,7 +128,9 @@ std::string several_row(const TagRow& tag) {
   }
   const auto errors = statistics(tag.errors_m);
   std::string row = "<tr>" + name_cell(tag.tag);
-  row += cell(fmt::format("{} of {}", located, tag.outcomes.size()));
+  row +=
+      cell(tag.outcomes.front()->reference ? "reference"
+                                           : fmt::format("{} of {}", located, tag.outcomes.size()));
   for (const auto part : {&ErrorStatistics::mean, &ErrorStatistics::median, &ErrorStatistics::p95,
                           &ErrorStatistics::max, &ErrorStatistics::min}) {
     row += millimetres(errors ? std::optional((*errors).*part) : std::nullopt);

@@ -77,6 +77,12 @@ TEST(SummaryOfMethod, CountsAndAligns) {
   EXPECT_FALSE(summary_of_method("joint", outcomes, false).aligned_error_m);
 }
 
+TEST(SummaryOfMethod, LeavesOutReferenceTags) {
+  auto outcomes = outcomes_of(1, moved(0.0, 0.3, 0.4));
+  outcomes[0].reference = true;
+  EXPECT_EQ(summary_of_method("joint", outcomes, false).located, 3u);
+}
+
 TEST(MethodsTable, HasARowAMethod) {
   Summary summary;
   EXPECT_EQ(methods_table(summary), "");

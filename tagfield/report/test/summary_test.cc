@@ -80,6 +80,15 @@ TEST(Count, GoesOverAllSeeds) {
   EXPECT_EQ(count(summary, Verdict::kNotLocated), 0U);
 }
 
+TEST(Count, LeavesOutReferenceTags) {
+  FolderPlan plan;
+  plan.seeds = {1, 2};
+  Summary summary = summary_of(plan);
+  for (const std::size_t i : {0U, 3U}) summary.tags[i].reference = true;
+  EXPECT_EQ(count(summary, Verdict::kLocated), 4U);
+  EXPECT_EQ(count_to_locate(summary), 4U);
+}
+
 TEST(CountOver, LeavesOutTheLimitItself) {
   Summary summary = summary_of({});
   summary.tags[0].estimate.candidates[0].p_WT.x() += 1.0;

@@ -35,6 +35,24 @@ TEST(TagTable, OfSeveralSeedsHoldsStatistics) {
   EXPECT_TRUE(holds(html, "3 of 3"));
 }
 
+TEST(TagTable, NamesReferenceTagsWithoutErrors) {
+  FolderPlan plan;
+  for (const std::vector<std::uint64_t>& seeds : {std::vector<std::uint64_t>{1}, {1, 2}}) {
+    plan.seeds = seeds;
+    Summary summary = summary_of(plan);
+    const std::string before = tag_table(summary);
+    for (TagOutcome& tag : summary.tags) tag.reference = true;
+    const std::string html = tag_table(summary);
+    EXPECT_FALSE(holds(before, ">reference<"));
+    EXPECT_TRUE(holds(html, ">reference<"));
+    EXPECT_FALSE(holds(html, ">located<"));
+    EXPECT_FALSE(holds(html, "of 2"));
+    // No estimate, so no error of one either.
+    EXPECT_FALSE(holds(html, "<td>10.0</td>"));
+    EXPECT_FALSE(holds(html, "<td>0.0</td>"));
+  }
+}
+
 TEST(TagTable, StopsAtManyTags) {
   FolderPlan plan;
   plan.tags = many_tags(2000);
