@@ -261,10 +261,11 @@ void require_unique_names(const std::vector<Named>& things, const char* kind) {
   }
 }
 
+/// `owner` is what would have it: "there is", "the suite has".
 void require_known(const std::string& name, const std::vector<std::string>& known,
-                   const Location& location, const char* kind) {
+                   const Location& location, const char* kind, const char* owner = "there is") {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  fail(location, fmt::format("there is no {} '{}'{}", kind, name, suggestion(name, known)));
+  fail(location, fmt::format("{} no {} '{}'{}", owner, kind, name, suggestion(name, known)));
 }
 
 void check(const Suite& suite) {
@@ -336,7 +337,7 @@ void keep_only(std::vector<Named>& things, const std::vector<std::string>& names
                const char* option, const char* kind) {
   if (names.empty()) return;
   for (const std::string& name : names) {
-    require_known(name, names_of(things), {option, 0}, kind);
+    require_known(name, names_of(things), {option, 0}, kind, "the suite has");
   }
   std::erase_if(things, [&](const Named& thing) {
     return std::find(names.begin(), names.end(), thing.name) == names.end();
